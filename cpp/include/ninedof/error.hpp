@@ -1,0 +1,36 @@
+#pragma once
+/// Bad input throws InvalidArgument. What mathematics may refuse comes back as a Status.
+
+#include <stdexcept>
+#include <string>
+
+namespace ninedof {
+
+/// Thrown for input no answer can be given to. The message names the argument, what came and what was expected.
+class InvalidArgument : public std::invalid_argument {
+ public:
+  InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
+      : std::invalid_argument(argument + ": got " + got + ", expected " + expected) {}
+};
+
+/// How a solver ended.
+enum class Status {
+  optimal,     ///< feasible and stationary by our own checks
+  unbounded,   ///< the index keeps improving as named variables run away; no optimum exists
+  infeasible,  ///< no design satisfies the named constraints
+  stopped,     ///< interrupted, or no start passed the checks; the best point found is returned as such
+};
+
+/// The word for a status: "optimal", "unbounded", "infeasible", "stopped".
+const char* to_string(Status status);
+
+/// The shortest decimal that reads back as the same double.
+std::string format_number(double value);
+
+/// Throws InvalidArgument unless `value` is finite and greater than zero.
+void require_positive(const std::string& argument, double value);
+
+/// Throws InvalidArgument unless `value` is finite.
+void require_finite(const std::string& argument, double value);
+
+}  // namespace ninedof

@@ -1,0 +1,12 @@
+#pragma once
+/// Singular values of a 6x6 matrix by one-sided Jacobi rotations, written for this one size.
+
+#include "ninedof/types.hpp"
+
+namespace ninedof {
+
+/// Singular values, descending. No allocation; NaN where the input has NaN, infinite where it is infinite.
+/// Each is accurate to a few rounding errors of the largest, the small ones often far better.
+Vec6 singular_values_6x6(const Mat6& m);
+
+}  // namespace ninedof

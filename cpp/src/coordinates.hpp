@@ -1,0 +1,60 @@
+#pragma once
+/// The coordinates the solver works in: the free variables only, lengths as y = asinh(x / l_c).
+///
+/// Linear below l_c and logarithmic above it, so that a bound at 0 stays reachable while sizes of 1 and of 10^6 look alike,
+/// and a study in millimetres runs as the same one in metres. The order of zs and zp carries over.
+
+#include <vector>
+
+#include "ninedof/optimize.hpp"
+
+namespace ninedof {
+
+class Coordinates {
+ public:
+  /// `cap`: largest size looked at, in characteristic lengths; bounds beyond it are cut there.
+  Coordinates(const Problem& problem, double cap);
+
+  int size() const { return static_cast<int>(free_.size()); }
+  const Eigen::VectorXd& low() const { return low_; }
+  const Eigen::VectorXd& high() const { return high_; }
+
+  /// Family variable behind free coordinate `k`.
+  int variable(int k) const { return free_[static_cast<std::size_t>(k)]; }
+  /// Whether the cap, not the study, limits free coordinate `k` from above.
+  bool capped(int k) const { return capped_[static_cast<std::size_t>(k)]; }
+
+  /// All family variables, bounds met exactly.
+  Eigen::VectorXd variables(const Eigen::VectorXd& y) const;
+  /// Free coordinates of a full set of variables, moved inside the bounds.
+  Eigen::VectorXd coordinates(const Eigen::VectorXd& x) const;
+  /// dx/dy of each free coordinate at x.
+  Eigen::VectorXd slopes(const Eigen::VectorXd& x) const;
+
+  /// The order zs < zp as a linear inequality in y: gradient . y + constant >= 0.
+  struct Order {
+    Eigen::VectorXd gradient;
+    double constant;
+  };
+  const Order& order() const { return order_; }
+
+  /// Start number `index` of the low-discrepancy sequence, inside the bounds and the order.
+  Eigen::VectorXd start(int index, std::uint64_t seed) const;
+
+ private:
+  double to_y(int variable, double x) const;
+  double to_x(int variable, double y) const;
+
+  const DesignFamily* family_;
+  double unit_;
+  Eigen::VectorXd fixed_;  // all variables; free ones are overwritten
+  Eigen::VectorXd x_low_, x_high_;
+  std::vector<int> free_;
+  std::vector<bool> capped_;
+  Eigen::VectorXd low_, high_;
+  int zp_, zs_;            // free coordinate, or -1 where fixed
+  double y_zp_, y_zs_;     // of the fixed ones
+  Order order_;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,50 @@
+#include "ninedof/design.hpp"
+
+#include "hexagonal_family.hpp"
+#include "ninedof/error.hpp"
+
+namespace ninedof {
+namespace {
+
+struct Extremes {
+  int max, min;
+};
+
+Extremes extremes(const DesignPoint& p) {
+  return {p.value[log_transverse_max] > p.value[log_axial_max] ? log_transverse_max : log_axial_max,
+          p.value[log_transverse_min] < p.value[log_axial_min] ? log_transverse_min : log_axial_min};
+}
+
+std::vector<const DesignFamily*> all_families() {
+  static const HexagonalFamily hexagonal;
+  return {&hexagonal};
+}
+
+}  // namespace
+
+double DesignPoint::log_condition_number() const {
+  const Extremes k = extremes(*this);
+  return value[k.max] - value[k.min];
+}
+
+Eigen::VectorXd DesignPoint::log_condition_number_gradient() const {
+  const Extremes k = extremes(*this);
+  return gradient.row(k.max) - gradient.row(k.min);
+}
+
+std::vector<std::string> design_family_names() {
+  std::vector<std::string> names;
+  for (const DesignFamily* f : all_families()) names.push_back(f->name());
+  return names;
+}
+
+const DesignFamily& design_family(const std::string& name) {
+  std::string known;
+  for (const DesignFamily* f : all_families()) {
+    if (f->name() == name) return *f;
+    known += (known.empty() ? "\"" : ", \"") + f->name() + "\"";
+  }
+  throw InvalidArgument("family", "\"" + name + "\"", "one of " + known);
+}
+
+}  // namespace ninedof

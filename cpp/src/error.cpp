@@ -1,0 +1,33 @@
+#include "ninedof/error.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace ninedof {
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::optimal: return "optimal";
+    case Status::unbounded: return "unbounded";
+    case Status::infeasible: return "infeasible";
+    case Status::stopped: return "stopped";
+  }
+  return "stopped";
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+void require_finite(const std::string& argument, double value) {
+  if (!std::isfinite(value)) throw InvalidArgument(argument, format_number(value), "a finite number");
+}
+
+void require_positive(const std::string& argument, double value) {
+  if (!std::isfinite(value) || value <= 0.0) throw InvalidArgument(argument, format_number(value), "a finite number > 0");
+}
+
+}  // namespace ninedof
