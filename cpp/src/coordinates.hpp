@@ -4,6 +4,7 @@
 /// Linear below l_c and logarithmic above it, so that a bound at 0 stays reachable while sizes of 1 and of 10^6 look alike,
 /// and a study in millimetres runs as the same one in metres. The order of zs and zp carries over.
 
+#include <algorithm>
 #include <vector>
 
 #include "ninedof/optimize.hpp"
@@ -37,6 +38,7 @@ class Coordinates {
     double constant;
   };
   const Order& order() const { return order_; }
+  double order_margin(const Eigen::VectorXd& y) const { return order_.gradient.dot(y) + order_.constant; }
 
   /// Start number `index` of the low-discrepancy sequence, inside the bounds and the order.
   Eigen::VectorXd start(int index, std::uint64_t seed) const;

@@ -1,19 +1,10 @@
 #include "ninedof/design.hpp"
 
-#include "hexagonal_family.hpp"
+#include "ninedof/hexagonal_family.hpp"
 #include "ninedof/error.hpp"
 
 namespace ninedof {
 namespace {
-
-struct Extremes {
-  int max, min;
-};
-
-Extremes extremes(const DesignPoint& p) {
-  return {p.value[log_transverse_max] > p.value[log_axial_max] ? log_transverse_max : log_axial_max,
-          p.value[log_transverse_min] < p.value[log_axial_min] ? log_transverse_min : log_axial_min};
-}
 
 std::vector<const DesignFamily*> all_families() {
   static const HexagonalFamily hexagonal;
@@ -22,13 +13,18 @@ std::vector<const DesignFamily*> all_families() {
 
 }  // namespace
 
+Extremes DesignPoint::extremes() const {
+  return {value[log_transverse_max] > value[log_axial_max] ? log_transverse_max : log_axial_max,
+          value[log_transverse_min] < value[log_axial_min] ? log_transverse_min : log_axial_min};
+}
+
 double DesignPoint::log_condition_number() const {
-  const Extremes k = extremes(*this);
+  const Extremes k = extremes();
   return value[k.max] - value[k.min];
 }
 
 Eigen::VectorXd DesignPoint::log_condition_number_gradient() const {
-  const Extremes k = extremes(*this);
+  const Extremes k = extremes();
   return gradient.row(k.max) - gradient.row(k.min);
 }
 

@@ -6,6 +6,21 @@
 
 namespace ninedof {
 
+namespace {
+
+std::string sentence(std::string text, const std::string& got, const std::string& expected) {
+  text += ": got ";
+  text += got;
+  text += ", expected ";
+  text += expected;
+  return text;
+}
+
+}  // namespace
+
+InvalidArgument::InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
+    : std::invalid_argument(sentence(argument, got, expected)) {}
+
 const char* to_string(Status status) {
   switch (status) {
     case Status::optimal: return "optimal";

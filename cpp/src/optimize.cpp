@@ -1,6 +1,7 @@
 #include "ninedof/optimize.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -60,8 +61,7 @@ Round run_round(const Prepared& p, const Settings& s, const Control& control, Pr
   round.runs.resize(static_cast<std::size_t>(count));
   parallel_for(count, 1, s.threads, [&](long first, long) {
     if (control.stop.stop_requested()) return;
-    const Eigen::VectorXd start = p.coordinates.variables(p.coordinates.start(static_cast<int>(first), s.seed));
-    Run run = minimise(p, start, Formulation::minimax, s.max_evaluations, control.stop);
+    Run run = minimise(p, p.coordinates.start(static_cast<int>(first), s.seed), Formulation::minimax, s.max_evaluations, control.stop);
     progress.finished(run.end);
     round.runs[static_cast<std::size_t>(first)] = std::move(run);
   });
@@ -128,7 +128,7 @@ void explain_failure(const Prepared& p, const Settings& s, const Control& contro
   std::optional<Candidate> best;
   const int count = std::min(s.starts, 8);
   for (int k = 0; k < count && !control.stop.stop_requested(); ++k) {
-    const Run run = least_violation(p, p.coordinates.variables(p.coordinates.start(k, s.seed)), s.max_evaluations, control.stop);
+    const Run run = least_violation(p, p.coordinates.start(k, s.seed), s.max_evaluations, control.stop);
     result.evaluations += run.evaluations;
     if (!best || run.end.constraint_violation < best->constraint_violation) best = run.end;
     if (best->feasible()) break;
@@ -144,14 +144,51 @@ void explain_failure(const Prepared& p, const Settings& s, const Control& contro
                   " in the logarithm of a ratio) these bind: " + join(best->active);
 }
 
-/// Names of the capped variables that the best design of a round has run to.
-std::vector<std::string> at_cap(const Prepared& p, const Candidate& best) {
-  std::vector<std::string> names;
+/// The best design of a round, and whether it has run to a cap of ours.
+struct Leader {
+  double cap;
+  Candidate best;
+  bool at_cap;
+};
+
+bool runs_to_cap(const Prepared& p, const Candidate& best) {
   const Eigen::VectorXd y = p.coordinates.coordinates(best.variables);
   for (int k = 0; k < p.coordinates.size(); ++k)
-    if (p.coordinates.capped(k) && p.coordinates.high()[k] - y[k] < 0.05)
-      names.push_back(p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].name);
+    if (p.coordinates.capped(k) && p.coordinates.high()[k] - y[k] < 1e-3) return true;
+  return false;
+}
+
+/// Unbounded: at every cap the best design runs to it, and every wider cap improves the index.
+bool keeps_improving(const std::vector<Leader>& leaders) {
+  if (leaders.size() < caps.size()) return false;
+  for (std::size_t k = 0; k < leaders.size(); ++k) {
+    if (!leaders[k].at_cap) return false;
+    if (k > 0 && !(leaders[k].best.condition_number < leaders[k - 1].best.condition_number * (1.0 - still_improving)))
+      return false;
+  }
+  return true;
+}
+
+/// Variables without a serious bound that grow from cap to cap.
+std::vector<std::string> growing(const Problem& problem, const std::vector<Leader>& leaders) {
+  std::vector<std::string> names;
+  const auto& info = design_family(problem.family).variables();
+  for (std::size_t v = 0; v < info.size(); ++v) {
+    const auto at = [&](const Leader& l) { return l.best.variables[static_cast<Eigen::Index>(v)]; };
+    bool grows = !info[v].is_angle && problem.variables[v].high >= absurd * problem.characteristic_length;
+    for (std::size_t k = 1; grows && k < leaders.size(); ++k) grows = at(leaders[k]) > 1.5 * at(leaders[k - 1]);
+    if (grows) names.push_back(info[v].name);
+  }
   return names;
+}
+
+std::string unbounded_reason(const std::vector<Leader>& leaders, const std::vector<std::string>& causes) {
+  std::string text = "no least value: it keeps falling as " + join(causes) + " run away (";
+  for (const Leader& l : leaders) {
+    if (l.cap > leaders.front().cap) text += ", ";
+    text += format_number(std::round(l.best.condition_number * 1e6) / 1e6) + " at size " + format_number(l.cap);
+  }
+  return text + " characteristic lengths)";
 }
 
 }  // namespace
@@ -184,18 +221,18 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   const int rounds = open ? static_cast<int>(caps.size()) : 1;
   Progress progress(control, settings.starts * rounds);
   Result result;
-  std::vector<double> best;
-  std::vector<std::string> running;
+  std::vector<Leader> leaders;
   for (int k = 0; k < rounds; ++k) {
-    const Prepared p(problem, open ? caps[static_cast<std::size_t>(k)] : absurd);
+    const double cap = open ? caps[static_cast<std::size_t>(k)] : absurd;
+    const Prepared p(problem, cap);
     const Round round = run_round(p, settings, control, progress);
     result.evaluations += round.evaluations;
     result.starts_done += round.done;
     std::vector<Candidate> candidates = distinct(p, round);
     if (!candidates.empty()) {
-      running = at_cap(p, candidates.front());
-      best.push_back(candidates.front().condition_number);
-      if (result.candidates.empty() || best.back() <= result.candidates.front().condition_number)
+      const Candidate& best = candidates.front();
+      leaders.push_back({cap, best, runs_to_cap(p, best)});
+      if (result.candidates.empty() || best.condition_number <= result.candidates.front().condition_number)
         result.candidates = std::move(candidates);
     }
     if (control.stop.stop_requested()) {
@@ -207,16 +244,10 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   if (result.candidates.empty()) return result;
   result.status = Status::optimal;
   result.reason = "feasible and stationary by our own checks";
-  bool improving = open && !running.empty() && best.size() == caps.size();
-  for (std::size_t k = 1; improving && k < best.size(); ++k) improving = best[k] < best[k - 1] * (1.0 - still_improving);
-  if (improving) {
+  if (keeps_improving(leaders)) {
     result.status = Status::unbounded;
-    result.causes = running;
-    result.reason = "no least value: it keeps falling as " + join(running) + " run away (";
-    for (std::size_t k = 0; k < best.size(); ++k)
-      result.reason += (k > 0 ? ", " : "") + format_number(std::round(best[k] * 1e6) / 1e6) + " at size " +
-                       format_number(caps[k]);
-    result.reason += " characteristic lengths)";
+    result.causes = growing(problem, leaders);
+    result.reason = unbounded_reason(leaders, result.causes);
   }
   return result;
 }
@@ -234,7 +265,7 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
     const double now = violation <= 1e-8 ? std::exp(point.log_condition_number()) : last;
     out.best.push_back(std::min(last, now));
   };
-  out.end = minimise(p, start, formulation, settings.max_evaluations, {}, observe).end;
+  out.end = minimise(p, p.coordinates.coordinates(start), formulation, settings.max_evaluations, {}, observe).end;
   return out;
 }
 

@@ -33,15 +33,22 @@ enum Quantity : int {
 /// More than any family has; keeps DesignPoint off the heap.
 constexpr int max_variables = 40;
 
+/// Rows of the largest and the smallest singular value; of two equal ones the axial.
+struct Extremes {
+  int max, min;
+};
+
 /// Quantities of one design and their partial derivatives, one column a variable.
 struct DesignPoint {
   Eigen::Matrix<double, quantity_count, 1> value;
   Eigen::Matrix<double, quantity_count, Eigen::Dynamic, Eigen::ColMajor, quantity_count, max_variables> gradient;
 
+  Extremes extremes() const;
+
   /// log of the condition number: largest minus smallest log singular value.
   double log_condition_number() const;
 
-  /// Its gradient; where two singular values tie, that of the first in the order of Quantity.
+  /// Its gradient; where two singular values tie, that of the axial one.
   Eigen::VectorXd log_condition_number_gradient() const;
 };
 

@@ -9,8 +9,7 @@ namespace ninedof {
 /// Thrown for input no answer can be given to. The message names the argument, what came and what was expected.
 class InvalidArgument : public std::invalid_argument {
  public:
-  InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
-      : std::invalid_argument(argument + ": got " + got + ", expected " + expected) {}
+  InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected);
 };
 
 /// How a solver ended.

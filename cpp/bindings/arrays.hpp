@@ -1,0 +1,113 @@
+#pragma once
+/// The one place where Python arrays become our types and back: type, shape and contiguity are checked here.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "ninedof/configuration.hpp"
+#include "ninedof/error.hpp"
+#include "ninedof/geometry.hpp"
+#include "ninedof/parallel.hpp"
+
+namespace ninedof::python {
+
+namespace py = pybind11;
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// "(3, 3)"
+inline std::string shape_text(const std::vector<py::ssize_t>& shape) {
+  std::string text = "(";
+  for (const py::ssize_t n : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(n);
+  return text + ")";
+}
+
+/// A float64 array of exactly this shape, or InvalidArgument naming the argument.
+inline Array array_of_shape(const std::string& name, const py::object& value, const std::vector<py::ssize_t>& shape) {
+  Array a = Array::ensure(value);
+  if (!a) {
+    PyErr_Clear();
+    throw InvalidArgument(name, py::repr(value).cast<std::string>(), "numbers of shape " + shape_text(shape));
+  }
+  const std::vector<py::ssize_t> got(a.shape(), a.shape() + a.ndim());
+  if (got != shape) throw InvalidArgument(name, "shape " + shape_text(got), "shape " + shape_text(shape));
+  return a;
+}
+
+inline Triple triple_from(const std::string& name, const py::object& value) {
+  const Array a = array_of_shape(name, value, {3, 3});
+  Triple t;
+  for (py::ssize_t i = 0; i < 3; ++i) t[static_cast<std::size_t>(i)] = Vec3(a.at(i, 0), a.at(i, 1), a.at(i, 2));
+  return t;
+}
+
+inline Array array_from(const Triple& t) {
+  Array a(std::vector<py::ssize_t>{3, 3});
+  for (py::ssize_t i = 0; i < 3; ++i)
+    for (py::ssize_t k = 0; k < 3; ++k) a.mutable_at(i, k) = t[static_cast<std::size_t>(i)][k];
+  a.attr("setflags")(py::arg("write") = false);
+  return a;
+}
+
+template <class Derived>
+Array array_from(const Eigen::MatrixBase<Derived>& m) {
+  std::vector<py::ssize_t> shape{m.rows()};
+  if constexpr (Derived::ColsAtCompileTime != 1) shape.push_back(m.cols());
+  Array a(shape);
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(a.mutable_data(), m.rows(), m.cols()) = m;
+  return a;
+}
+
+/// n configurations as three arrays (n, 3), (n, 3, 3), (n, 3). Python has checked and broadcast them.
+class ConfigurationStack {
+ public:
+  ConfigurationStack(Array position, Array rotation, Array internal_point)
+      : position_(std::move(position)), rotation_(std::move(rotation)), internal_point_(std::move(internal_point)) {
+    const py::ssize_t n = position_.ndim() == 2 ? position_.shape(0) : -1;
+    if (n < 0 || position_.size() != 3 * n || rotation_.size() != 9 * n || internal_point_.size() != 3 * n)
+      throw InvalidArgument("configuration", "arrays that do not match", "shapes (n, 3), (n, 3, 3), (n, 3)");
+    p_ = position_.data();
+    q_ = rotation_.data();
+    s_ = internal_point_.data();
+  }
+
+  long count() const { return static_cast<long>(position_.shape(0)); }
+
+  Configuration operator[](long i) const {
+    using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    return {Eigen::Map<const Vec3>(p_ + 3 * i), Eigen::Map<const RowMajor3>(q_ + 9 * i), Eigen::Map<const Vec3>(s_ + 3 * i)};
+  }
+
+ private:
+  Array position_, rotation_, internal_point_;
+  const double *p_, *q_, *s_;
+};
+
+/// Calls row(i, output row i) for every i of [0, count) without the GIL (nothing in it touches Python), on `threads` threads.
+/// Fills `out` where one is given, else a new array (count, columns).
+template <class Row>
+Array for_each_row(long count, py::ssize_t columns, int threads, const py::object& out, const Row& row) {
+  Array result;
+  if (out.is_none()) {
+    result = Array(std::vector<py::ssize_t>{count, columns});
+  } else {
+    // Not `ensure`: a converted copy would be filled and thrown away.
+    if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns || !out.cast<py::array>().writeable())
+      throw InvalidArgument("out", py::repr(py::type::handle_of(out)).cast<std::string>(),
+                            "a writeable C-contiguous float64 array of the result's shape");
+    result = py::reinterpret_borrow<Array>(out);
+  }
+  double* data = result.mutable_data();
+  {
+    const py::gil_scoped_release nogil;
+    parallel_for(count, 1024, threads, [&](long first, long last) {
+      for (long i = first; i < last; ++i) row(i, data + i * columns);
+    });
+  }
+  return result;
+}
+
+}  // namespace ninedof::python

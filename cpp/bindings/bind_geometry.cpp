@@ -1,0 +1,149 @@
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "module.hpp"
+#include "ninedof/rotation.hpp"
+
+namespace ninedof::python {
+namespace {
+
+Orbit orbit_from(const std::string& name, const py::object& value) {
+  const Array a = array_of_shape(name, value, {3});
+  return {a.at(0), a.at(1), a.at(2)};
+}
+
+/// Every rotation proper and every number finite; in a stack NaN marks a pose without data and passes.
+void check_configurations(const Array& position, const Array& rotation, const Array& internal_point, bool is_stack) {
+  const ConfigurationStack stack(position, rotation, internal_point);
+  for (long i = 0; i < stack.count(); ++i) {
+    const Configuration c = stack[i];
+    const bool missing = c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN();
+    if (!(is_stack && missing)) validate(c);
+  }
+}
+
+py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z) {
+  const py::ssize_t n = zp.size();
+  Array position(std::vector<py::ssize_t>{n, 3}), rotation(std::vector<py::ssize_t>{n, 3, 3}),
+      internal_point(std::vector<py::ssize_t>{n, 3});
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const Configuration c = neutral(zp.data()[i], zs.data()[i], theta_z.data()[i]);
+    Eigen::Map<Vec3>(position.mutable_data() + 3 * i) = c.position;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.mutable_data() + 9 * i) = c.rotation;
+    Eigen::Map<Vec3>(internal_point.mutable_data() + 3 * i) = c.internal_point;
+  }
+  return py::make_tuple(position, rotation, internal_point);
+}
+
+bool equal(const Geometry& a, const Geometry& b) {
+  return a.base_external() == b.base_external() && a.base_internal() == b.base_internal() &&
+         a.platform_external() == b.platform_external() && a.platform_internal() == b.platform_internal();
+}
+
+py::tuple state(const Geometry& g) {
+  return py::make_tuple(array_from(g.base_external()), array_from(g.base_internal()), array_from(g.platform_external()),
+                        array_from(g.platform_internal()));
+}
+
+Geometry from_arrays(const py::object& base_external, const py::object& base_internal, const py::object& platform_external,
+                     const py::object& platform_internal) {
+  return {triple_from("base_external", base_external), triple_from("base_internal", base_internal),
+          triple_from("platform_external", platform_external), triple_from("platform_internal", platform_internal)};
+}
+
+}  // namespace
+
+void bind_geometry(py::module_& m) {
+  py::class_<Geometry>(m, "Geometry", R"(The twelve joint centres: what is fixed once the robot is built.
+
+Four arrays of shape (3, 3), one joint a row, in one length unit. Base joints in the base frame, platform joints in the
+platform frame. Immutable, hashable by value, picklable.
+
+Parameters
+----------
+base_external : array_like, shape (3, 3)
+    Joints r_i of the external legs on the base (eq. 37a).
+base_internal : array_like, shape (3, 3)
+    Joints r^_i of the lower internal legs on the base (eq. 37b).
+platform_external : array_like, shape (3, 3)
+    Joints u_i of the external legs on the platform (eq. 38a).
+platform_internal : array_like, shape (3, 3)
+    Joints u~_i of the upper internal legs on the platform (eq. 38b).
+
+Raises
+------
+ValueError
+    If an array has another shape, a coordinate is not finite, or three joints of a kind coincide or lie on a line: the
+    platform or the internal point could then move whatever the legs do. The message names the argument.
+
+Examples
+--------
+>>> import ninedof as nd
+>>> nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0).base_external.shape
+(3, 3)
+)")
+      .def(py::init(&from_arrays), py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"),
+           py::arg("platform_internal"))
+      .def_static("hexagonal", &Geometry::hexagonal, py::arg("a1"), py::arg("a2"), py::arg("b1"), py::arg("b2"),
+                  R"(The semi-regular hexagons of eqs. (37)-(38).
+
+Parameters
+----------
+a1, a2 : float
+    Alternating sides of the base, length, >= 0 and not both zero. a1 = 0 is a triangle with coupled joints.
+b1, b2 : float
+    Alternating sides of the platform, likewise.
+
+Raises
+------
+ValueError
+    If a side is negative or not finite, or a plate has no size.
+)")
+      .def_static(
+          "symmetric",
+          [](const py::object& base_external, const py::object& base_internal, const py::object& platform_external,
+             const py::object& platform_internal) {
+            return Geometry::symmetric(orbit_from("base_external", base_external), orbit_from("base_internal", base_internal),
+                                       orbit_from("platform_external", platform_external),
+                                       orbit_from("platform_internal", platform_internal));
+          },
+          py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"), py::arg("platform_internal"),
+          R"(Four C3 orbits about z, each given by its first joint as (radius, angle, height).
+
+Radius (> 0) and height in length units, angle in radians; joints 2 and 3 follow at -120 and -240 degrees, the numbering
+of eqs. (37)-(38).
+
+Raises
+------
+ValueError
+    If a radius is not positive or a number is not finite.
+)")
+      .def_property_readonly("base_external", [](const Geometry& g) { return array_from(g.base_external()); },
+                             "r_i, base frame, shape (3, 3), read-only.")
+      .def_property_readonly("base_internal", [](const Geometry& g) { return array_from(g.base_internal()); },
+                             "r^_i, base frame, shape (3, 3), read-only.")
+      .def_property_readonly("platform_external", [](const Geometry& g) { return array_from(g.platform_external()); },
+                             "u_i, platform frame, shape (3, 3), read-only.")
+      .def_property_readonly("platform_internal", [](const Geometry& g) { return array_from(g.platform_internal()); },
+                             "u~_i, platform frame, shape (3, 3), read-only.")
+      .def("__eq__", &equal, py::is_operator())
+      .def("__hash__",
+           [](const Geometry& g) {
+             return py::hash(py::make_tuple(array_from(g.base_external()).attr("tobytes")(),
+                                            array_from(g.platform_external()).attr("tobytes")()));
+           })
+      .def("__repr__",
+           [](const Geometry& g) {
+             const auto list = [](const Triple& t) { return py::repr(array_from(t).attr("tolist")()).cast<std::string>(); };
+             return "Geometry(base_external=" + list(g.base_external()) + ", base_internal=" + list(g.base_internal()) +
+                    ", platform_external=" + list(g.platform_external()) +
+                    ", platform_internal=" + list(g.platform_internal()) + ")";
+           })
+      .def(py::pickle(&state, [](const py::tuple& t) { return from_arrays(t[0], t[1], t[2], t[3]); }));
+
+  m.def("check_configurations", &check_configurations, py::arg("position"), py::arg("rotation"), py::arg("internal_point"),
+        py::arg("is_stack"));
+  m.def("neutral", &neutral_stack, py::arg("zp"), py::arg("zs"), py::arg("theta_z"));
+}
+
+}  // namespace ninedof::python

@@ -1,0 +1,123 @@
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "arrays.hpp"
+#include "module.hpp"
+#include "ninedof/optimize.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// What the worker tells the Python thread.
+struct News {
+  std::mutex guard;
+  std::condition_variable changed;
+  bool finished = false;
+  int done = 0, total = 0;
+  double best = std::numeric_limits<double>::infinity();
+};
+
+/// Runs the core on a thread of its own, while this one, the caller's, listens to signals and reports progress. Ctrl-C
+/// stops the run, which then returns what it has; an exception of `progress` stops it and goes on to the caller.
+Result run(const Problem& problem, const Settings& settings, const py::object& progress) {
+  News news;
+  Result result;
+  std::exception_ptr failure;
+  std::jthread worker([&](const std::stop_token& stop) {
+    Control control{stop, [&](int done, int total, double best) {
+                      const std::lock_guard lock(news.guard);
+                      news.done = done;
+                      news.total = total;
+                      news.best = best;
+                    }};
+    try {
+      result = optimize(problem, settings, control);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(news.guard);
+    news.finished = true;
+    news.changed.notify_one();
+  });
+  const auto finish = [&] {
+    const py::gil_scoped_release nogil;
+    worker.join();
+  };
+  int reported = 0;
+  for (bool finished = false; !finished;) {
+    int done = 0, total = 0;
+    double best = 0.0;
+    {
+      const py::gil_scoped_release nogil;
+      std::unique_lock lock(news.guard);
+      news.changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return news.finished; });
+      finished = news.finished;
+      done = news.done;
+      total = news.total;
+      best = news.best;
+    }
+    try {
+      if (!progress.is_none() && done > reported) progress(done, total, best);
+      reported = done;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (py::error_already_set& error) {
+      worker.request_stop();
+      finish();
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+      break;
+    }
+  }
+  if (worker.joinable()) finish();
+  if (failure) std::rethrow_exception(failure);
+  return result;
+}
+
+Formulation formulation_from(const std::string& word) {
+  if (word == "minimax") return Formulation::minimax;
+  if (word == "plain") return Formulation::plain;
+  throw InvalidArgument("formulation", "\"" + word + "\"", "\"minimax\" or \"plain\"");
+}
+
+}  // namespace
+
+void bind_optimize(py::module_& m) {
+  py::class_<Candidate>(m, "Candidate")
+      .def_property_readonly("variables", [](const Candidate& c) { return array_from(c.variables); })
+      .def_readonly("condition_number", &Candidate::condition_number)
+      .def_readonly("optimality_residual", &Candidate::optimality_residual)
+      .def_readonly("constraint_violation", &Candidate::constraint_violation)
+      .def_readonly("active", &Candidate::active)
+      .def_readonly("reached", &Candidate::reached);
+  py::class_<Result>(m, "Result")
+      .def_property_readonly("status", [](const Result& r) { return to_string(r.status); })
+      .def_readonly("reason", &Result::reason)
+      .def_readonly("causes", &Result::causes)
+      .def_readonly("candidates", &Result::candidates)
+      .def_readonly("evaluations", &Result::evaluations)
+      .def_readonly("starts_done", &Result::starts_done);
+  m.def(
+      "optimize",
+      [](const Problem& problem, int starts, std::uint64_t seed, int threads, int max_evaluations, const py::object& progress) {
+        return run(problem, {starts, seed, threads, max_evaluations}, progress);
+      },
+      py::arg("problem"), py::arg("starts"), py::arg("seed"), py::arg("threads"), py::arg("max_evaluations"),
+      py::arg("progress"));
+  m.def(
+      "trace",
+      [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
+        const Trace t = [&] {
+          const Formulation f = formulation_from(formulation);
+          const py::gil_scoped_release nogil;
+          return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f);
+        }();
+        return py::make_tuple(t.best, t.end);
+      },
+      py::arg("problem"), py::arg("start"), py::arg("formulation"));
+}
+
+}  // namespace ninedof::python

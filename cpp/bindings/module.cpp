@@ -1,0 +1,13 @@
+/// The table of contents of ninedof._core. Public names are chosen in Python.
+
+#include "module.hpp"
+
+PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
+  m.doc() = "The compiled core of ninedof. Private: use the names of `ninedof`.";
+  m.attr("version") = NINEDOF_VERSION;
+  ninedof::python::bind_geometry(m);
+  ninedof::python::bind_kinematics(m);
+  ninedof::python::bind_conditioning(m);
+  ninedof::python::bind_design(m);
+  ninedof::python::bind_optimize(m);
+}

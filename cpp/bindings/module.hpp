@@ -1,0 +1,16 @@
+#pragma once
+/// One registration function per concept.
+
+#include <pybind11/pybind11.h>
+
+namespace ninedof::python {
+
+namespace py = pybind11;
+
+void bind_geometry(py::module_& m);
+void bind_kinematics(py::module_& m);
+void bind_conditioning(py::module_& m);
+void bind_design(py::module_& m);
+void bind_optimize(py::module_& m);
+
+}  // namespace ninedof::python

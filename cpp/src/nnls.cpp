@@ -1,0 +1,47 @@
+#include <Eigen/QR>
+#include <algorithm>
+#include <vector>
+
+#include "active_set.hpp"
+
+namespace ninedof {
+
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::Index n = a.cols();
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(n);
+  if (n == 0) return w;
+  const double tolerance =
+      1e-14 * static_cast<double>(a.rows()) * a.cwiseAbs().maxCoeff() * std::max(1.0, b.cwiseAbs().maxCoeff());
+  std::vector<Eigen::Index> passive;  // weights that may be positive
+  const auto unconstrained = [&] {
+    Eigen::MatrixXd sub(a.rows(), static_cast<Eigen::Index>(passive.size()));
+    for (std::size_t k = 0; k < passive.size(); ++k) sub.col(static_cast<Eigen::Index>(k)) = a.col(passive[k]);
+    return Eigen::VectorXd(sub.colPivHouseholderQr().solve(b));
+  };
+  for (Eigen::Index outer = 0; outer < 3 * n + 10; ++outer) {
+    Eigen::VectorXd descent = a.transpose() * (b - a * w);
+    for (const Eigen::Index k : passive) descent[k] = 0.0;
+    Eigen::Index enter = 0;
+    if (descent.maxCoeff(&enter) <= tolerance) break;
+    passive.push_back(enter);
+    while (!passive.empty()) {
+      const Eigen::VectorXd trial = unconstrained();
+      double step = 1.0;
+      for (std::size_t k = 0; k < passive.size(); ++k) {
+        const double now = w[passive[k]], next = trial[static_cast<Eigen::Index>(k)];
+        if (next <= 0.0 && now > next) step = std::min(step, now / (now - next));
+      }
+      for (std::size_t k = 0; k < passive.size(); ++k)
+        w[passive[k]] += step * (trial[static_cast<Eigen::Index>(k)] - w[passive[k]]);
+      if (step >= 1.0) break;
+      std::erase_if(passive, [&](Eigen::Index k) {
+        const bool gone = w[k] <= 1e-15;
+        if (gone) w[k] = 0.0;
+        return gone;
+      });
+    }
+  }
+  return w.cwiseMax(0.0);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,57 @@
+"""Kinematic design of the nine-degree-of-freedom redundant parallel manipulator of Zanganeh and Angeles."""
+
+try:
+    from ninedof import _core
+except ImportError as error:  # a source tree without its compiled part
+    raise ImportError(
+        "the compiled part of ninedof (ninedof._core) is missing or does not fit this Python: "
+        "install the package with `pip install .` from its source directory and import it from elsewhere"
+    ) from error
+
+from ninedof.conditioning import (
+    axis_singular_values,
+    condition_number,
+    isotropy_residual,
+    manipulability,
+    singular_values,
+)
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.kinematics import (
+    VelocityMatrices,
+    forward_velocity,
+    inverse_velocity,
+    jacobian,
+    leg_lengths,
+    velocity_matrices,
+)
+from ninedof.lengths import characteristic_length
+from ninedof.optimize import Candidate, Result, Status, Trace, optimize, trace
+from ninedof.study import DesignPoint, Study
+
+__version__: str = _core.version
+
+__all__ = [
+    "Candidate",
+    "Configuration",
+    "DesignPoint",
+    "Geometry",
+    "Result",
+    "Status",
+    "Study",
+    "Trace",
+    "VelocityMatrices",
+    "axis_singular_values",
+    "characteristic_length",
+    "condition_number",
+    "forward_velocity",
+    "inverse_velocity",
+    "isotropy_residual",
+    "jacobian",
+    "leg_lengths",
+    "manipulability",
+    "optimize",
+    "singular_values",
+    "trace",
+    "velocity_matrices",
+]

@@ -1,0 +1,57 @@
+"""Checks and broadcasting at the Python side of the array boundary."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:
+    """Return `value` as float64 with the given trailing shape, or raise ValueError naming the argument."""
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "biuf":
+            raise TypeError
+        array = array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: got {value!r}, expected real numbers of shape {_shape_text(trailing)}") from None
+    if array.ndim < len(trailing) or array.shape[array.ndim - len(trailing) :] != trailing:
+        raise ValueError(f"{name}: got shape {array.shape}, expected shape {_shape_text(trailing)}")
+    return array
+
+
+def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int, ...], list[Floats]]:
+    """Broadcast the leading dimensions of named arrays, each given with its number of trailing ones."""
+    leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]
+    try:
+        shape = np.broadcast_shapes(*leading)
+    except ValueError:
+        got = ", ".join(f"{name} {lead}" for name, lead in zip(arrays, leading, strict=True))
+        raise ValueError(f"leading dimensions do not broadcast: got {got}") from None
+    return shape, [
+        np.ascontiguousarray(np.broadcast_to(a, shape + a.shape[a.ndim - trailing :])) for a, trailing in arrays.values()
+    ]
+
+
+def frozen(array: Floats) -> Floats:
+    """Return a read-only C-contiguous array that shares no memory with a caller's."""
+    own = np.array(array, dtype=np.float64, order="C", copy=True)
+    own.flags.writeable = False
+    return own
+
+
+def _shape_text(trailing: tuple[int, ...]) -> str:
+    return "(" + ", ".join(["...", *map(str, trailing)]) + ")"
+
+
+def thread_argument(threads: Any) -> int:
+    """Turn `threads` (None for one a processor) into the core's integer."""
+    if threads is None:
+        return 0
+    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or threads < 1:
+        raise ValueError(f"threads: got {threads!r}, expected None or a whole number >= 1")
+    return int(threads)

@@ -1,0 +1,170 @@
+"""Kinetostatic indices of the homogenized Jacobian J' (eqs. 2-5)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.arrays import Floats, thread_argument
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.lengths import resolve_length
+
+__all__ = [
+    "axis_singular_values",
+    "condition_number",
+    "isotropy_residual",
+    "manipulability",
+    "singular_values",
+]
+
+
+def singular_values(
+    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
+) -> Floats:
+    """Return the six singular values of J', descending.
+
+    They come from a 6x6 matrix whose singular values are the reciprocals, without inverting or squaring anything, so a
+    singular configuration gives infinity and not an error.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0, or a kind as in `characteristic_length`.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 6)
+        Speed per unit of leg rate: l_c rad/time and length/time alike. Infinite ones count the motions that locked legs
+        leave free.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    return _core.singular_values(geometry, *configuration._flat(), lc, 0).reshape(*configuration.shape, 6)
+
+
+def axis_singular_values(
+    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
+) -> Floats:
+    """Return the six singular values of J' by the closed form for C3 designs on their axis.
+
+    A second, independent way to the numbers of `singular_values`, exact at any conditioning.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        Every joint triple a C3 orbit about z.
+    configuration : Configuration
+        Shape (...); position and internal point on z, rotation about z.
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0, or a kind as in `characteristic_length`.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 6)
+        Descending.
+
+    Raises
+    ------
+    ValueError
+        Naming what breaks the symmetry.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    return _core.axis_singular_values(geometry, *configuration._flat(), lc, 0).reshape(*configuration.shape, 6)
+
+
+def condition_number(
+    geometry: Geometry,
+    configuration: Configuration,
+    characteristic_length: ArrayLike | str = 1.0,
+    norm: str = "2",
+    threads: int | None = None,
+    out: Floats | None = None,
+) -> Any:
+    """Return the condition number of J'.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0, or a kind as in `characteristic_length`.
+    norm : {"2", "frobenius"}
+        "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm and
+        the pseudo-inverse, 6 at best.
+    threads : int, optional
+        Threads for a stack; one a processor by default. The result does not depend on it.
+    out : numpy.ndarray, optional
+        Where to write the result: float64, C-contiguous, shape (...).
+
+    Returns
+    -------
+    float or numpy.ndarray, shape (...)
+        Infinite at a singular configuration (and above 2.8e14, which double precision cannot tell from one).
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> round(nd.condition_number(g, nd.Configuration.neutral(3.9828, 2.3745)), 4)
+    3.911
+
+    """
+    functions = {"2": _core.condition_number_two, "frobenius": _core.condition_number_frobenius}
+    if norm not in functions:
+        raise ValueError(f'norm: got {norm!r}, expected "2" or "frobenius"')
+    return _index(functions[norm], geometry, configuration, characteristic_length, threads, out)
+
+
+def manipulability(
+    geometry: Geometry,
+    configuration: Configuration,
+    characteristic_length: ArrayLike | str = 1.0,
+    threads: int | None = None,
+    out: Floats | None = None,
+) -> Any:
+    """Return sqrt(det(J' J'^T)), the product of the singular values of J'.
+
+    Parameters as in `condition_number`. Infinite at a singular configuration, where some twist needs no leg rate.
+    """
+    return _index(_core.manipulability, geometry, configuration, characteristic_length, threads, out)
+
+
+def isotropy_residual(
+    geometry: Geometry,
+    configuration: Configuration,
+    characteristic_length: ArrayLike | str = 1.0,
+    threads: int | None = None,
+    out: Floats | None = None,
+) -> Any:
+    """Return how far J' is from isotropy: |J' J'^T - sigma 1|_F / |sigma 1|_F, sigma = trace(J' J'^T) / 6.
+
+    Eq. (5) with the 6x6 product (J'^T J' is 9x9 and of rank 6, so never a multiple of 1). 0 exactly at isotropy, which no
+    design of this kind reaches; infinite at a singular configuration. Parameters as in `condition_number`.
+    """
+    return _index(_core.isotropy_residual, geometry, configuration, characteristic_length, threads, out)
+
+
+def _index(
+    core: Callable[..., Floats],
+    geometry: Geometry,
+    configuration: Configuration,
+    length: ArrayLike | str,
+    threads: int | None,
+    out: Floats | None,
+) -> Any:
+    lc = resolve_length(geometry, configuration, length)
+    if out is not None and (not isinstance(out, np.ndarray) or out.shape != configuration.shape):
+        got = f"shape {out.shape}" if isinstance(out, np.ndarray) else repr(type(out).__name__)
+        raise ValueError(f"out: got {got}, expected a float64 array of shape {configuration.shape}")
+    flat = core(geometry, *configuration._flat(), lc, thread_argument(threads), out)
+    return out if out is not None else flat.reshape(configuration.shape)[()]

@@ -1,0 +1,195 @@
+"""Positions and velocities: leg lengths, the matrices of eqs. (30)-(36), forward and inverse velocity."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.arrays import Floats, as_floats, broadcast_leading
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.lengths import resolve_length
+
+__all__ = [
+    "VelocityMatrices",
+    "forward_velocity",
+    "inverse_velocity",
+    "jacobian",
+    "leg_lengths",
+    "velocity_matrices",
+]
+
+
+class VelocityMatrices(NamedTuple):
+    """The matrices of eqs. (30)-(35); leading dimensions are those of the configuration."""
+
+    A: Floats
+    """External legs, rows [u_i x e_i / l_c, e_i], shape (..., 3, 6). Eq. (30)."""
+    B: Floats
+    """Lower internal unit vectors, base joint to O, shape (..., 3, 3). Eq. (31)."""
+    C: Floats
+    """Upper internal unit vectors, platform joint to O, shape (..., 3, 3). Eq. (32)."""
+    D: Floats
+    """Rows u~_i x e~_i / l_c, shape (..., 3, 3). Eq. (33)."""
+    E: Floats
+    """[D C], shape (..., 3, 6). Eq. (35b)."""
+    F: Floats
+    """[A; E], shape (..., 6, 6). Eq. (35a)."""
+    G: Floats
+    """[1 0 0; 0 -1 C B^-1], shape (..., 6, 9); NaN in the last block where det B = 0. Eq. (35a)."""
+
+
+def leg_lengths(geometry: Geometry, configuration: Configuration) -> Floats:
+    """Return the nine leg lengths: inverse position analysis.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        One configuration or a stack of shape (...).
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 9)
+        l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b), in the length unit of the input.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> nd.leg_lengths(g, nd.Configuration.neutral(3.9828, 2.4432)).round(4)[[0, 3, 6]]
+    array([4.9363, 2.2793, 4.1507])
+
+    """
+    flat = _core.leg_lengths(geometry, *configuration._flat(), 0)
+    return flat.reshape(*configuration.shape, 9)
+
+
+def velocity_matrices(
+    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
+) -> VelocityMatrices:
+    """Return A, B, C, D, E, F and G of eqs. (30)-(35) by name.
+
+    The twist they act on is (l_c omega, pdot): with plain omega, eqs. (27) and (29) as printed would need undivided
+    angular columns.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0 that makes the matrices homogeneous, or a kind as in `characteristic_length`.
+
+    Raises
+    ------
+    ValueError
+        If the characteristic length is not finite and positive.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    flat = _core.velocity_matrices(geometry, *configuration._flat(), lc, 0)
+    sizes = {"A": (3, 6), "B": (3, 3), "C": (3, 3), "D": (3, 3), "E": (3, 6), "F": (6, 6), "G": (6, 9)}
+    parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes.values()])[:-1], axis=1)
+    shaped = (
+        np.ascontiguousarray(part).reshape(*configuration.shape, *size)
+        for part, size in zip(parts, sizes.values(), strict=True)
+    )
+    return VelocityMatrices(*shaped)
+
+
+def jacobian(
+    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
+) -> Floats:
+    """Return J' = F^-1 G of eq. (36), in closed form.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0, or a kind as in `characteristic_length`.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 6, 9)
+        Rows: twist (l_c omega, pdot). Columns: leg rates in the order of `leg_lengths`. All NaN at a configuration where
+        F or B is exactly singular, since J' does not exist there; `condition_number` is infinite.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    flat = _core.jacobian(geometry, *configuration._flat(), lc, 0)
+    return flat.reshape(*configuration.shape, 6, 9)
+
+
+def forward_velocity(
+    geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike
+) -> tuple[Floats, Floats, Floats]:
+    """Return the velocity that given leg rates produce.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    leg_rates : array_like, shape (..., 9)
+        ldot, qdot, rdot in the order of `leg_lengths`, length/time. Broadcasts against the configuration.
+
+    Returns
+    -------
+    omega : numpy.ndarray, shape (..., 3)
+        Angular velocity of the platform, rad/time, base frame.
+    pdot : numpy.ndarray, shape (..., 3)
+        Velocity of the platform origin, length/time.
+    sdot : numpy.ndarray, shape (..., 3)
+        Velocity of the internal point, length/time.
+        All NaN where the configuration is singular.
+
+    """
+    rates = as_floats("leg_rates", leg_rates, (9,))
+    shape, flat, (rates,) = _with_configuration(configuration, {"leg_rates": rates})
+    out = _core.forward_velocity(geometry, *flat, rates.reshape(-1, 9), 0).reshape(*shape, 3, 3)
+    return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
+
+
+def inverse_velocity(
+    geometry: Geometry, configuration: Configuration, omega: ArrayLike, pdot: ArrayLike, sdot: ArrayLike
+) -> Floats:
+    """Return the leg rates of a given velocity, eqs. (24)-(26).
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    omega, pdot, sdot : array_like, shape (..., 3)
+        Angular velocity of the platform (rad/time), velocities of its origin and of O (length/time), base frame.
+        They broadcast against the configuration.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 9)
+        ldot, qdot, rdot in the order of `leg_lengths`. Defined everywhere; 0 for a leg of zero length.
+
+    """
+    parts = {
+        "omega": as_floats("omega", omega, (3,)),
+        "pdot": as_floats("pdot", pdot, (3,)),
+        "sdot": as_floats("sdot", sdot, (3,)),
+    }
+    shape, flat, velocity = _with_configuration(configuration, parts)
+    stacked = np.ascontiguousarray(np.concatenate([v.reshape(-1, 3) for v in velocity], axis=1))
+    return _core.inverse_velocity(geometry, *flat, stacked, 0).reshape(*shape, 9)
+
+
+def _with_configuration(
+    c: Configuration, others: dict[str, Floats]
+) -> tuple[tuple[int, ...], tuple[Floats, Floats, Floats], list[Floats]]:
+    """Broadcast a configuration against further (..., k) arrays; return the shape and everything flat."""
+    named = {"position": (c.position, 1), "rotation": (c.rotation, 2), "internal_point": (c.internal_point, 1)}
+    shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
+    return shape, (p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest
