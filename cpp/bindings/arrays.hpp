@@ -57,7 +57,8 @@ Array array_from(const Eigen::MatrixBase<Derived>& m) {
   std::vector<py::ssize_t> shape{m.rows()};
   if constexpr (Derived::ColsAtCompileTime != 1) shape.push_back(m.cols());
   Array a(shape);
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(a.mutable_data(), m.rows(), m.cols()) = m;
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(a.mutable_data(), m.rows(),
+                                                                                     m.cols()) = m;
   return a;
 }
 
@@ -78,7 +79,8 @@ class ConfigurationStack {
 
   Configuration operator[](long i) const {
     using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    return {Eigen::Map<const Vec3>(p_ + 3 * i), Eigen::Map<const RowMajor3>(q_ + 9 * i), Eigen::Map<const Vec3>(s_ + 3 * i)};
+    return {Eigen::Map<const Vec3>(p_ + 3 * i), Eigen::Map<const RowMajor3>(q_ + 9 * i),
+            Eigen::Map<const Vec3>(s_ + 3 * i)};
   }
 
  private:
@@ -95,7 +97,8 @@ Array for_each_row(long count, py::ssize_t columns, int threads, const py::objec
     result = Array(std::vector<py::ssize_t>{count, columns});
   } else {
     // Not `ensure`: a converted copy would be filled and thrown away.
-    if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns || !out.cast<py::array>().writeable())
+    if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns ||
+        !out.cast<py::array>().writeable())
       throw InvalidArgument("out", py::repr(py::type::handle_of(out)).cast<std::string>(),
                             "a writeable C-contiguous float64 array of the result's shape");
     result = py::reinterpret_borrow<Array>(out);

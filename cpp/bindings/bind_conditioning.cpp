@@ -14,8 +14,8 @@ namespace {
 /// Binds one index of a configuration, a number, over a stack.
 template <class Index>
 void bind_index(py::module_& m, const char* name, Index index) {
-  m.def(name, [index](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads,
-                      const py::object& out) {
+  m.def(name, [index](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
+                      int threads, const py::object& out) {
     const ConfigurationStack c(p, q, s);
     const Lengths lc(length, c.count());
     return for_each_row(c.count(), 1, threads, out, [&](long i, double* to) { *to = index(g, c[i], lc[i]); });
@@ -25,10 +25,12 @@ void bind_index(py::module_& m, const char* name, Index index) {
 }  // namespace
 
 void bind_conditioning(py::module_& m) {
-  bind_index(m, "condition_number_two",
-             [](const Geometry& g, const Configuration& c, double lc) { return condition_number(g, c, lc, Norm::two); });
-  bind_index(m, "condition_number_frobenius",
-             [](const Geometry& g, const Configuration& c, double lc) { return condition_number(g, c, lc, Norm::frobenius); });
+  bind_index(m, "condition_number_two", [](const Geometry& g, const Configuration& c, double lc) {
+    return condition_number(g, c, lc, Norm::two);
+  });
+  bind_index(m, "condition_number_frobenius", [](const Geometry& g, const Configuration& c, double lc) {
+    return condition_number(g, c, lc, Norm::frobenius);
+  });
   bind_index(m, "manipulability", &manipulability);
   bind_index(m, "isotropy_residual", &isotropy_residual);
 
@@ -36,9 +38,8 @@ void bind_conditioning(py::module_& m) {
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
           const ConfigurationStack c(p, q, s);
           const Lengths lc(length, c.count());
-          return for_each_row(c.count(), 6, threads, py::none(), [&](long i, double* out) {
-            Eigen::Map<Vec6>{out} = singular_values(g, c[i], lc[i]);
-          });
+          return for_each_row(c.count(), 6, threads, py::none(),
+                              [&](long i, double* out) { Eigen::Map<Vec6>{out} = singular_values(g, c[i], lc[i]); });
         });
   m.def("axis_singular_values",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {

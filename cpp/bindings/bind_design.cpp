@@ -45,7 +45,8 @@ void bind_design(py::module_& m) {
 
   py::class_<Problem>(m, "Problem", "A design problem as the core takes it; made by `Study`.")
       .def(py::init([](std::string family, const std::vector<std::pair<double, double>>& bounds,
-                       const std::vector<std::tuple<std::string, double, double>>& limits, double characteristic_length) {
+                       const std::vector<std::tuple<std::string, double, double>>& limits,
+                       double characteristic_length) {
              Problem p{std::move(family), {}, {}, characteristic_length};
              for (const auto& [low, high] : bounds) p.variables.push_back({low, high});
              for (const auto& [name, low, high] : limits) p.limits.push_back({name, low, high});
@@ -53,7 +54,8 @@ void bind_design(py::module_& m) {
              return p;
            }),
            py::arg("family"), py::arg("bounds"), py::arg("limits"), py::arg("characteristic_length"))
-      .def("geometry", [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(full(p, x)); })
+      .def("geometry",
+           [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(full(p, x)); })
       .def("configuration",
            [](const Problem& p, const std::vector<double>& x) {
              const Configuration c = design_family(p.family).configuration(full(p, x));

@@ -22,17 +22,34 @@ void check_configurations(const Array& position, const Array& rotation, const Ar
   }
 }
 
-py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z) {
-  const py::ssize_t n = zp.size();
-  Array position(std::vector<py::ssize_t>{n, 3}), rotation(std::vector<py::ssize_t>{n, 3, 3}),
-      internal_point(std::vector<py::ssize_t>{n, 3});
-  for (py::ssize_t i = 0; i < n; ++i) {
-    const Configuration c = neutral(zp.data()[i], zs.data()[i], theta_z.data()[i]);
+/// Three arrays being filled with configurations.
+struct Filling {
+  explicit Filling(py::ssize_t n)
+      : position(std::vector<py::ssize_t>{n, 3}),
+        rotation(std::vector<py::ssize_t>{n, 3, 3}),
+        internal_point(std::vector<py::ssize_t>{n, 3}) {}
+
+  void set(py::ssize_t i, const Configuration& c) {
     Eigen::Map<Vec3>(position.mutable_data() + 3 * i) = c.position;
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.mutable_data() + 9 * i) = c.rotation;
     Eigen::Map<Vec3>(internal_point.mutable_data() + 3 * i) = c.internal_point;
   }
-  return py::make_tuple(position, rotation, internal_point);
+  py::tuple result() const { return py::make_tuple(position, rotation, internal_point); }
+
+  Array position, rotation, internal_point;
+};
+
+py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z) {
+  Filling out(zp.size());
+  for (py::ssize_t i = 0; i < zp.size(); ++i) out.set(i, neutral(zp.data()[i], zs.data()[i], theta_z.data()[i]));
+  return out.result();
+}
+
+py::tuple moved_stack(const Array& position, const Array& rotation, const Array& internal_point, const Array& tangent) {
+  const ConfigurationStack stack(position, rotation, internal_point);
+  Filling out(stack.count());
+  for (long i = 0; i < stack.count(); ++i) out.set(i, plus(stack[i], Eigen::Map<const Vec9>(tangent.data() + 9 * i)));
+  return out.result();
 }
 
 bool equal(const Geometry& a, const Geometry& b) {
@@ -45,8 +62,8 @@ py::tuple state(const Geometry& g) {
                         array_from(g.platform_internal()));
 }
 
-Geometry from_arrays(const py::object& base_external, const py::object& base_internal, const py::object& platform_external,
-                     const py::object& platform_internal) {
+Geometry from_arrays(const py::object& base_external, const py::object& base_internal,
+                     const py::object& platform_external, const py::object& platform_internal) {
   return {triple_from("base_external", base_external), triple_from("base_internal", base_internal),
           triple_from("platform_external", platform_external), triple_from("platform_internal", platform_internal)};
 }
@@ -103,11 +120,12 @@ ValueError
           "symmetric",
           [](const py::object& base_external, const py::object& base_internal, const py::object& platform_external,
              const py::object& platform_internal) {
-            return Geometry::symmetric(orbit_from("base_external", base_external), orbit_from("base_internal", base_internal),
-                                       orbit_from("platform_external", platform_external),
-                                       orbit_from("platform_internal", platform_internal));
+            return Geometry::symmetric(
+                orbit_from("base_external", base_external), orbit_from("base_internal", base_internal),
+                orbit_from("platform_external", platform_external), orbit_from("platform_internal", platform_internal));
           },
-          py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"), py::arg("platform_internal"),
+          py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"),
+          py::arg("platform_internal"),
           R"(Four C3 orbits about z, each given by its first joint as (radius, angle, height).
 
 Radius (> 0) and height in length units, angle in radians; joints 2 and 3 follow at -120 and -240 degrees, the numbering
@@ -118,14 +136,18 @@ Raises
 ValueError
     If a radius is not positive or a number is not finite.
 )")
-      .def_property_readonly("base_external", [](const Geometry& g) { return array_from(g.base_external()); },
-                             "r_i, base frame, shape (3, 3), read-only.")
-      .def_property_readonly("base_internal", [](const Geometry& g) { return array_from(g.base_internal()); },
-                             "r^_i, base frame, shape (3, 3), read-only.")
-      .def_property_readonly("platform_external", [](const Geometry& g) { return array_from(g.platform_external()); },
-                             "u_i, platform frame, shape (3, 3), read-only.")
-      .def_property_readonly("platform_internal", [](const Geometry& g) { return array_from(g.platform_internal()); },
-                             "u~_i, platform frame, shape (3, 3), read-only.")
+      .def_property_readonly(
+          "base_external", [](const Geometry& g) { return array_from(g.base_external()); },
+          "r_i, base frame, shape (3, 3), read-only.")
+      .def_property_readonly(
+          "base_internal", [](const Geometry& g) { return array_from(g.base_internal()); },
+          "r^_i, base frame, shape (3, 3), read-only.")
+      .def_property_readonly(
+          "platform_external", [](const Geometry& g) { return array_from(g.platform_external()); },
+          "u_i, platform frame, shape (3, 3), read-only.")
+      .def_property_readonly(
+          "platform_internal", [](const Geometry& g) { return array_from(g.platform_internal()); },
+          "u~_i, platform frame, shape (3, 3), read-only.")
       .def("__eq__", &equal, py::is_operator())
       .def("__hash__",
            [](const Geometry& g) {
@@ -134,15 +156,18 @@ ValueError
            })
       .def("__repr__",
            [](const Geometry& g) {
-             const auto list = [](const Triple& t) { return py::repr(array_from(t).attr("tolist")()).cast<std::string>(); };
+             const auto list = [](const Triple& t) {
+               return py::repr(array_from(t).attr("tolist")()).cast<std::string>();
+             };
              return "Geometry(base_external=" + list(g.base_external()) + ", base_internal=" + list(g.base_internal()) +
                     ", platform_external=" + list(g.platform_external()) +
                     ", platform_internal=" + list(g.platform_internal()) + ")";
            })
       .def(py::pickle(&state, [](const py::tuple& t) { return from_arrays(t[0], t[1], t[2], t[3]); }));
 
-  m.def("check_configurations", &check_configurations, py::arg("position"), py::arg("rotation"), py::arg("internal_point"),
-        py::arg("is_stack"));
+  m.def("check_configurations", &check_configurations, py::arg("position"), py::arg("rotation"),
+        py::arg("internal_point"), py::arg("is_stack"));
+  m.def("moved", &moved_stack, py::arg("position"), py::arg("rotation"), py::arg("internal_point"), py::arg("tangent"));
   m.def("neutral", &neutral_stack, py::arg("zp"), py::arg("zs"), py::arg("theta_z"));
 }
 

@@ -25,13 +25,16 @@ constexpr py::ssize_t matrices_size = 153;
 void bind_kinematics(py::module_& m) {
   m.def("leg_lengths", [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads) {
     const ConfigurationStack c(p, q, s);
-    return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) { write(leg_lengths(g, c[i]), out); });
+    return for_each_row(c.count(), 9, threads, py::none(),
+                        [&](long i, double* out) { write(leg_lengths(g, c[i]), out); });
   });
-  m.def("jacobian", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
-    const ConfigurationStack c(p, q, s);
-    const Lengths lc(length, c.count());
-    return for_each_row(c.count(), 54, threads, py::none(), [&](long i, double* out) { write(jacobian(g, c[i], lc[i]), out); });
-  });
+  m.def("jacobian",
+        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
+          const ConfigurationStack c(p, q, s);
+          const Lengths lc(length, c.count());
+          return for_each_row(c.count(), 54, threads, py::none(),
+                              [&](long i, double* out) { write(jacobian(g, c[i], lc[i]), out); });
+        });
   m.def("velocity_matrices",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
           const ConfigurationStack c(p, q, s);
@@ -56,17 +59,17 @@ void bind_kinematics(py::module_& m) {
             write(v.sdot, write(v.pdot, write(v.omega, out)));
           });
         });
-  m.def("inverse_velocity",
-        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& velocity, int threads) {
-          const ConfigurationStack c(p, q, s);
-          const double* v = velocity.data();
-          return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
-            const double* at = v + 9 * i;
-            write(inverse_velocity(g, c[i],
-                                   {Eigen::Map<const Vec3>(at), Eigen::Map<const Vec3>(at + 3), Eigen::Map<const Vec3>(at + 6)}),
-                  out);
-          });
-        });
+  m.def("inverse_velocity", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& velocity,
+                               int threads) {
+    const ConfigurationStack c(p, q, s);
+    const double* v = velocity.data();
+    return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
+      const double* at = v + 9 * i;
+      write(inverse_velocity(
+                g, c[i], {Eigen::Map<const Vec3>(at), Eigen::Map<const Vec3>(at + 3), Eigen::Map<const Vec3>(at + 6)}),
+            out);
+    });
+  });
 }
 
 }  // namespace ninedof::python

@@ -99,12 +99,12 @@ void bind_optimize(py::module_& m) {
       .def_readonly("causes", &Result::causes)
       .def_readonly("candidates", &Result::candidates)
       .def_readonly("evaluations", &Result::evaluations)
-      .def_readonly("starts_done", &Result::starts_done);
+      .def_readonly("starts_done", &Result::starts_done)
+      .def_readonly("interrupted", &Result::interrupted);
   m.def(
       "optimize",
-      [](const Problem& problem, int starts, std::uint64_t seed, int threads, int max_evaluations, const py::object& progress) {
-        return run(problem, {starts, seed, threads, max_evaluations}, progress);
-      },
+      [](const Problem& problem, int starts, std::uint64_t seed, int threads, int max_evaluations,
+         const py::object& progress) { return run(problem, {starts, seed, threads, max_evaluations}, progress); },
       py::arg("problem"), py::arg("starts"), py::arg("seed"), py::arg("threads"), py::arg("max_evaluations"),
       py::arg("progress"));
   m.def(

@@ -7,7 +7,8 @@ namespace ninedof::python {
 
 class Lengths {
  public:
-  Lengths(Array values, long count) : values_(std::move(values)), data_(values_.data()), step_(values_.size() == 1 ? 0 : 1) {
+  Lengths(Array values, long count)
+      : values_(std::move(values)), data_(values_.data()), step_(values_.size() == 1 ? 0 : 1) {
     if (values_.size() != 1 && values_.size() != count)
       throw InvalidArgument("characteristic_length", std::to_string(values_.size()) + " values",
                             "one, or one for each of the " + std::to_string(count) + " configurations");

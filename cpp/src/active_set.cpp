@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace ninedof {
 namespace {
@@ -49,6 +50,7 @@ std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
 Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a) {
   const Eigen::Index n = p.coordinates.size();
   if (n == 0) return {};
+  if (!l.point.value.allFinite() || !l.gradient.allFinite()) return {std::numeric_limits<double>::infinity(), {}};
   std::vector<Eigen::VectorXd> list;
   for (const int row : a.maxima) list.emplace_back(l.gradient.row(row));
   for (const int row : a.minima) list.emplace_back(-l.gradient.row(row));

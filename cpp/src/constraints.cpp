@@ -65,8 +65,7 @@ const std::vector<Known>& known() {
 
 std::vector<Margin> margins_of(const Limit& limit) {
   if (std::isnan(limit.low) || std::isnan(limit.high) || limit.low > limit.high || limit.high <= 0.0)
-    throw InvalidArgument(limit.name, "[" + format_number(limit.low) + ", " + format_number(limit.high) + "]",
-                          "low <= high and high > 0");
+    throw InvalidArgument(limit.name, format_interval(limit.low, limit.high), "low <= high and high > 0");
   std::string names;
   for (const Known& k : known()) {
     if (k.name == limit.name) return k.make(limit);

@@ -106,7 +106,8 @@ Eigen::VectorXd Coordinates::coordinates(const Eigen::VectorXd& x) const {
 Eigen::VectorXd Coordinates::slopes(const Eigen::VectorXd& x) const {
   Eigen::VectorXd out(size());
   for (int k = 0; k < size(); ++k)
-    out[k] = family_->variables()[static_cast<std::size_t>(variable(k))].is_angle ? 1.0 : std::hypot(unit_, x[variable(k)]);
+    out[k] =
+        family_->variables()[static_cast<std::size_t>(variable(k))].is_angle ? 1.0 : std::hypot(unit_, x[variable(k)]);
   return out;
 }
 

@@ -1,7 +1,7 @@
 #include "ninedof/design.hpp"
 
-#include "ninedof/hexagonal_family.hpp"
 #include "ninedof/error.hpp"
+#include "ninedof/hexagonal_family.hpp"
 
 namespace ninedof {
 namespace {

@@ -37,12 +37,22 @@ std::string format_number(double value) {
   return {text.data(), end};
 }
 
+std::string format_interval(double low, double high) {
+  std::string text = format_number(low);
+  text.insert(text.begin(), '[');
+  text += ", ";
+  text += format_number(high);
+  text += ']';
+  return text;
+}
+
 void require_finite(const std::string& argument, double value) {
   if (!std::isfinite(value)) throw InvalidArgument(argument, format_number(value), "a finite number");
 }
 
 void require_positive(const std::string& argument, double value) {
-  if (!std::isfinite(value) || value <= 0.0) throw InvalidArgument(argument, format_number(value), "a finite number > 0");
+  if (!std::isfinite(value) || value <= 0.0)
+    throw InvalidArgument(argument, format_number(value), "a finite number > 0");
 }
 
 }  // namespace ninedof

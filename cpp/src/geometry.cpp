@@ -77,7 +77,8 @@ Geometry Geometry::hexagonal(double a1, double a2, double b1, double b2) {
   require_side("b1", b1);
   require_side("b2", b2);
   if (a1 == 0.0 && a2 == 0.0) throw InvalidArgument("a1, a2", "0 and 0", "a base of some size: at least one side > 0");
-  if (b1 == 0.0 && b2 == 0.0) throw InvalidArgument("b1, b2", "0 and 0", "a platform of some size: at least one side > 0");
+  if (b1 == 0.0 && b2 == 0.0)
+    throw InvalidArgument("b1, b2", "0 and 0", "a platform of some size: at least one side > 0");
   const Hexagon base = hexagon(a1, a2), platform = hexagon(b1, b2);
   return {base.external, base.internal, platform.external, platform.internal};
 }

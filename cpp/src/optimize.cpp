@@ -61,7 +61,8 @@ Round run_round(const Prepared& p, const Settings& s, const Control& control, Pr
   round.runs.resize(static_cast<std::size_t>(count));
   parallel_for(count, 1, s.threads, [&](long first, long) {
     if (control.stop.stop_requested()) return;
-    Run run = minimise(p, p.coordinates.start(static_cast<int>(first), s.seed), Formulation::minimax, s.max_evaluations, control.stop);
+    Run run = minimise(p, p.coordinates.start(static_cast<int>(first), s.seed), Formulation::minimax, s.max_evaluations,
+                       control.stop);
     progress.finished(run.end);
     round.runs[static_cast<std::size_t>(first)] = std::move(run);
   });
@@ -135,12 +136,14 @@ void explain_failure(const Prepared& p, const Settings& s, const Control& contro
   }
   if (!best || control.stop.stop_requested()) return;
   if (best->feasible()) {
-    result.reason = "feasible designs exist, but no start passed the checks of optimality: raise starts or max_evaluations";
+    result.reason =
+        "feasible designs exist, but no start passed the checks of optimality: raise starts or max_evaluations";
     return;
   }
   result.status = Status::infeasible;
   result.causes = best->active;
-  result.reason = "no design satisfies all limits; at the least violation (" + format_number(best->constraint_violation) +
+  result.reason = "no design satisfies all limits; at the least violation (" +
+                  format_number(best->constraint_violation) +
                   " in the logarithm of a ratio) these bind: " + join(best->active);
 }
 
@@ -201,7 +204,7 @@ void Problem::validate() const {
                           std::to_string(info.size()) + ", one for each variable of " + family);
   for (std::size_t k = 0; k < info.size(); ++k) {
     const Bounds& b = variables[k];
-    const std::string text = "[" + format_number(b.low) + ", " + format_number(b.high) + "]";
+    const std::string text = format_interval(b.low, b.high);
     if (!(b.low <= b.high)) throw InvalidArgument(info[k].name, text, "low <= high, both numbers");
     if (b.low == b.high) require_finite(info[k].name, b.low);
     if (!info[k].is_angle && b.low < 0.0) throw InvalidArgument(info[k].name, text, "a length, low >= 0");
@@ -236,7 +239,9 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
         result.candidates = std::move(candidates);
     }
     if (control.stop.stop_requested()) {
-      result.reason = "interrupted after " + std::to_string(result.starts_done) + " starts; the best so far is returned";
+      result.interrupted = true;
+      result.reason =
+          "interrupted after " + std::to_string(result.starts_done) + " starts; the best so far is returned";
       return result;
     }
     if (k + 1 == rounds && result.candidates.empty()) explain_failure(p, settings, control, result);

@@ -43,8 +43,15 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start) {
   look(p, y, l);
   const ActiveSet active = active_set(p, l, y);
   std::vector<bool> held(static_cast<std::size_t>(n), false);
-  for (const auto* side : {&active.at_low, &active.at_high})
-    for (const int k : *side) held[static_cast<std::size_t>(k)] = true;
+  for (const int k : active.at_low) {
+    held[static_cast<std::size_t>(k)] = true;
+    y[k] = p.coordinates.low()[k];
+  }
+  for (const int k : active.at_high) {
+    held[static_cast<std::size_t>(k)] = true;
+    y[k] = p.coordinates.high()[k];
+  }
+  look(p, y, l);
   std::vector<Eigen::Index> moving;
   for (int k = 0; k < n; ++k)
     if (!held[static_cast<std::size_t>(k)]) moving.push_back(k);
@@ -60,7 +67,8 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start) {
     const Eigen::MatrixXd g = l.gradient(Eigen::all, moving);
     const Eigen::VectorXd slope = (objective * g).transpose();
     const Eigen::MatrixXd jacobian = e.coefficients * g;
-    const Eigen::VectorXd multipliers = jacobian.transpose().completeOrthogonalDecomposition().solve(-slope);
+    Eigen::VectorXd multipliers(rows);
+    if (rows > 0) multipliers = jacobian.transpose().completeOrthogonalDecomposition().solve(-slope);
     const Eigen::RowVectorXd lagrangian = objective + multipliers.transpose() * e.coefficients;
 
     Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(m + rows, m + rows);

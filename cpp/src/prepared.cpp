@@ -12,7 +12,8 @@ Prepared::Prepared(const Problem& given, double cap)
 
 void look(const Prepared& p, const Eigen::VectorXd& y, Look& out) {
   out.x = p.coordinates.variables(y);
-  p.family->evaluate({out.x.data(), static_cast<std::size_t>(out.x.size())}, p.problem.characteristic_length, out.point);
+  p.family->evaluate({out.x.data(), static_cast<std::size_t>(out.x.size())}, p.problem.characteristic_length,
+                     out.point);
   const Eigen::VectorXd slopes = p.coordinates.slopes(out.x);
   out.gradient.resize(quantity_count, p.coordinates.size());
   for (int k = 0; k < p.coordinates.size(); ++k)

@@ -54,14 +54,16 @@ Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpS
   // With a tolerance of zero NLopt would keep the start as its "best feasible" point: iterates meet constraints to rounding only.
   const Eigen::VectorXd slack = Eigen::VectorXd::Constant(nlp.constraints, settings.constraint_tolerance);
   if (nlp.constraints > 0)
-    nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(nlp.constraints), constraints, &session, slack.data());
+    nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(nlp.constraints), constraints, &session,
+                                     slack.data());
   nlopt_set_ftol_rel(opt.get(), settings.tolerance);
   nlopt_set_xtol_rel(opt.get(), settings.tolerance);
   nlopt_set_maxeval(opt.get(), settings.max_evaluations);
-  Eigen::VectorXd y = start.cwiseMax(nlp.low).cwiseMin(nlp.high);
+  const Eigen::VectorXd inside = start.cwiseMax(nlp.low).cwiseMin(nlp.high);
+  Eigen::VectorXd y = inside;
   double f = 0.0;
   nlopt_optimize(opt.get(), y.data(), &f);
-  return y;
+  return y.allFinite() ? y : inside;
 }
 
 }  // namespace ninedof

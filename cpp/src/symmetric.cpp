@@ -15,7 +15,8 @@ constexpr double tolerance = 1e-9;
 void require_orbit(const std::string& name, const Triple& t) {
   const double angle = -2.0 * std::numbers::pi / 3.0;
   const double size = std::max({t[0].norm(), t[1].norm(), t[2].norm()});
-  const double miss = std::max((rotation_about_z(angle) * t[0] - t[1]).norm(), (rotation_about_z(angle) * t[1] - t[2]).norm());
+  const double miss =
+      std::max((rotation_about_z(angle) * t[0] - t[1]).norm(), (rotation_about_z(angle) * t[1] - t[2]).norm());
   if (!(miss <= tolerance * size))
     throw InvalidArgument(name, "joints off a C3 orbit by " + format_number(miss),
                           "three joints that rotations by -120 degrees about z carry into each other");
@@ -44,8 +45,12 @@ AxisDesign<double> axis_design(const Geometry& g, const Configuration& c) {
   require_on_axis("internal_point", c.internal_point, size);
   if (!((c.rotation.col(2) - Vec3::UnitZ()).norm() <= tolerance))
     throw InvalidArgument("rotation", "a tilted platform", "a rotation about z");
-  return {point(g.base_external()[0]), point(g.base_internal()[0]), point(c.rotation * g.platform_external()[0]),
-          point(c.rotation * g.platform_internal()[0]), c.position.z(), c.internal_point.z()};
+  return {point(g.base_external()[0]),
+          point(g.base_internal()[0]),
+          point(c.rotation * g.platform_external()[0]),
+          point(c.rotation * g.platform_internal()[0]),
+          c.position.z(),
+          c.internal_point.z()};
 }
 
 }  // namespace ninedof

@@ -33,7 +33,8 @@ def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int,
         got = ", ".join(f"{name} {lead}" for name, lead in zip(arrays, leading, strict=True))
         raise ValueError(f"leading dimensions do not broadcast: got {got}") from None
     return shape, [
-        np.ascontiguousarray(np.broadcast_to(a, shape + a.shape[a.ndim - trailing :])) for a, trailing in arrays.values()
+        np.ascontiguousarray(np.broadcast_to(a, shape + a.shape[a.ndim - trailing :]))
+        for a, trailing in arrays.values()
     ]
 
 

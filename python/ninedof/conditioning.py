@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.arrays import Floats, thread_argument
-from ninedof.configuration import Configuration
+from ninedof.configuration import Configuration, operands
 from ninedof.geometry import Geometry
 from ninedof.lengths import resolve_length
 
@@ -47,7 +47,7 @@ def singular_values(
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
-    return _core.singular_values(geometry, *configuration._flat(), lc, 0).reshape(*configuration.shape, 6)
+    return _core.singular_values(*operands(geometry, configuration), lc, 0).reshape(*configuration.shape, 6)
 
 
 def axis_singular_values(
@@ -78,7 +78,7 @@ def axis_singular_values(
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
-    return _core.axis_singular_values(geometry, *configuration._flat(), lc, 0).reshape(*configuration.shape, 6)
+    return _core.axis_singular_values(*operands(geometry, configuration), lc, 0).reshape(*configuration.shape, 6)
 
 
 def condition_number(
@@ -99,8 +99,8 @@ def condition_number(
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`.
     norm : {"2", "frobenius"}
-        "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm and
-        the pseudo-inverse, 6 at best.
+        "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm
+        and the pseudo-inverse, 6 at best.
     threads : int, optional
         Threads for a stack; one a processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
@@ -148,8 +148,8 @@ def isotropy_residual(
 ) -> Any:
     """Return how far J' is from isotropy: |J' J'^T - sigma 1|_F / |sigma 1|_F, sigma = trace(J' J'^T) / 6.
 
-    Eq. (5) with the 6x6 product (J'^T J' is 9x9 and of rank 6, so never a multiple of 1). 0 exactly at isotropy, which no
-    design of this kind reaches; infinite at a singular configuration. Parameters as in `condition_number`.
+    Eq. (5) with the 6x6 product (J'^T J' is 9x9 and of rank 6, so never a multiple of 1). 0 exactly at isotropy,
+    which no design of this kind reaches; infinite at a singular configuration. Parameters as in `condition_number`.
     """
     return _index(_core.isotropy_residual, geometry, configuration, characteristic_length, threads, out)
 
@@ -166,5 +166,5 @@ def _index(
     if out is not None and (not isinstance(out, np.ndarray) or out.shape != configuration.shape):
         got = f"shape {out.shape}" if isinstance(out, np.ndarray) else repr(type(out).__name__)
         raise ValueError(f"out: got {got}, expected a float64 array of shape {configuration.shape}")
-    flat = core(geometry, *configuration._flat(), lc, thread_argument(threads), out)
+    flat = core(*operands(geometry, configuration), lc, thread_argument(threads), out)
     return out if out is not None else flat.reshape(configuration.shape)[()]

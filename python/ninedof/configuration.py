@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.arrays import Floats, as_floats, broadcast_leading, frozen
+from ninedof.geometry import Geometry
 
 __all__ = ["Configuration"]
 
@@ -82,6 +83,24 @@ class Configuration:
         p, q, s = _core.neutral(*(a.reshape(-1) for a in arrays))
         return cls(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
 
+    def moved(self, tangent: ArrayLike) -> Configuration:
+        """Return the configuration displaced along a tangent, Q becoming exp(omega) Q.
+
+        Parameters
+        ----------
+        tangent : array_like, shape (..., 9)
+            (omega, dp, ds): rotation vector in radians and displacements in length units, base frame. Broadcasts
+            against the configuration.
+
+        """
+        t = as_floats("tangent", tangent, (9,))
+        p, q, s = self._arrays()
+        shape, (p, q, s, t) = broadcast_leading(
+            {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1), "tangent": (t, 1)}
+        )
+        moved = _core.moved(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3), t.reshape(-1, 9))
+        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in moved))
+
     @property
     def position(self) -> Floats:
         """P, shape (..., 3)."""
@@ -109,7 +128,7 @@ class Configuration:
         return self.shape[0]
 
     def __getitem__(self, index: Any) -> Configuration:
-        """Configurations picked from a stack, indexed along the leading dimensions."""
+        """Pick configurations from a stack, indexed along the leading dimensions."""
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
@@ -120,7 +139,7 @@ class Configuration:
         return picked
 
     def __eq__(self, other: object) -> bool:
-        """Same numbers, same shape."""
+        """Compare numbers and shape."""
         if not isinstance(other, Configuration):
             return NotImplemented
         pairs = zip(self._arrays(), other._arrays(), strict=True)
@@ -129,7 +148,7 @@ class Configuration:
     __hash__ = None  # type: ignore[assignment]  # a stack of arrays, as numpy's own
 
     def __repr__(self) -> str:
-        """The numbers of a single configuration, or the shape of a stack."""
+        """Show the numbers of a single configuration, or the shape of a stack."""
         if self.shape:
             return f"<Configuration stack of shape {self.shape}>"
         p, q, s = (a.tolist() for a in self._arrays())
@@ -142,6 +161,12 @@ class Configuration:
     def _arrays(self) -> tuple[Floats, Floats, Floats]:
         return self._position, self._rotation, self._internal_point
 
-    def _flat(self) -> tuple[Floats, Floats, Floats]:
-        """C-contiguous (n, 3), (n, 3, 3), (n, 3), as the core takes them."""
-        return self._position.reshape(-1, 3), self._rotation.reshape(-1, 3, 3), self._internal_point.reshape(-1, 3)
+
+def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+    """Return what the core takes: the geometry, and (n, 3), (n, 3, 3), (n, 3). A swapped argument is named."""
+    if not isinstance(geometry, Geometry):
+        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    if not isinstance(configuration, Configuration):
+        raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
+    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
+    return geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)

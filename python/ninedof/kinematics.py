@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.arrays import Floats, as_floats, broadcast_leading
-from ninedof.configuration import Configuration
+from ninedof.configuration import Configuration, operands
 from ninedof.geometry import Geometry
 from ninedof.lengths import resolve_length
 
@@ -64,7 +64,7 @@ def leg_lengths(geometry: Geometry, configuration: Configuration) -> Floats:
     array([4.9363, 2.2793, 4.1507])
 
     """
-    flat = _core.leg_lengths(geometry, *configuration._flat(), 0)
+    flat = _core.leg_lengths(*operands(geometry, configuration), 0)
     return flat.reshape(*configuration.shape, 9)
 
 
@@ -91,7 +91,7 @@ def velocity_matrices(
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
-    flat = _core.velocity_matrices(geometry, *configuration._flat(), lc, 0)
+    flat = _core.velocity_matrices(*operands(geometry, configuration), lc, 0)
     sizes = {"A": (3, 6), "B": (3, 3), "C": (3, 3), "D": (3, 3), "E": (3, 6), "F": (6, 6), "G": (6, 9)}
     parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes.values()])[:-1], axis=1)
     shaped = (
@@ -101,9 +101,7 @@ def velocity_matrices(
     return VelocityMatrices(*shaped)
 
 
-def jacobian(
-    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
-) -> Floats:
+def jacobian(geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0) -> Floats:
     """Return J' = F^-1 G of eq. (36), in closed form.
 
     Parameters
@@ -117,12 +115,12 @@ def jacobian(
     Returns
     -------
     numpy.ndarray, shape (..., 6, 9)
-        Rows: twist (l_c omega, pdot). Columns: leg rates in the order of `leg_lengths`. All NaN at a configuration where
-        F or B is exactly singular, since J' does not exist there; `condition_number` is infinite.
+        Rows: twist (l_c omega, pdot). Columns: leg rates in the order of `leg_lengths`. All NaN at a configuration
+        where F or B is exactly singular, since J' does not exist there; `condition_number` is infinite.
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
-    flat = _core.jacobian(geometry, *configuration._flat(), lc, 0)
+    flat = _core.jacobian(*operands(geometry, configuration), lc, 0)
     return flat.reshape(*configuration.shape, 6, 9)
 
 
@@ -151,8 +149,8 @@ def forward_velocity(
 
     """
     rates = as_floats("leg_rates", leg_rates, (9,))
-    shape, flat, (rates,) = _with_configuration(configuration, {"leg_rates": rates})
-    out = _core.forward_velocity(geometry, *flat, rates.reshape(-1, 9), 0).reshape(*shape, 3, 3)
+    shape, flat, (rates,) = _with_configuration(geometry, configuration, {"leg_rates": rates})
+    out = _core.forward_velocity(*flat, rates.reshape(-1, 9), 0).reshape(*shape, 3, 3)
     return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
 
 
@@ -181,15 +179,16 @@ def inverse_velocity(
         "pdot": as_floats("pdot", pdot, (3,)),
         "sdot": as_floats("sdot", sdot, (3,)),
     }
-    shape, flat, velocity = _with_configuration(configuration, parts)
+    shape, flat, velocity = _with_configuration(geometry, configuration, parts)
     stacked = np.ascontiguousarray(np.concatenate([v.reshape(-1, 3) for v in velocity], axis=1))
-    return _core.inverse_velocity(geometry, *flat, stacked, 0).reshape(*shape, 9)
+    return _core.inverse_velocity(*flat, stacked, 0).reshape(*shape, 9)
 
 
 def _with_configuration(
-    c: Configuration, others: dict[str, Floats]
-) -> tuple[tuple[int, ...], tuple[Floats, Floats, Floats], list[Floats]]:
-    """Broadcast a configuration against further (..., k) arrays; return the shape and everything flat."""
+    g: Geometry, c: Configuration, others: dict[str, Floats]
+) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
+    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands and the arrays."""
+    operands(g, c)
     named = {"position": (c.position, 1), "rotation": (c.rotation, 2), "internal_point": (c.internal_point, 1)}
     shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
-    return shape, (p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest
+    return shape, (g, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.arrays import Floats, as_floats
-from ninedof.configuration import Configuration
+from ninedof.configuration import Configuration, operands
 from ninedof.geometry import Geometry
 
 __all__ = ["characteristic_length"]
@@ -25,9 +25,10 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
         Shape (...).
     kind : {"optimal", "natural", "mean_leg", "platform_radius"}
         "optimal" makes the condition number least (found by bisection: the condition number is quasi-convex in the
-        length). "natural" makes rotation and translation weigh the same in the leg rates, the Frobenius norms of the two
-        halves of M being equal; at an isotropic design it is the length that shows the isotropy. "mean_leg" is the mean of
-        the nine legs; "platform_radius" the largest distance of a platform joint from the platform origin.
+        length). "natural" makes rotation and translation weigh the same in the leg rates, the Frobenius norms of the
+        two halves of M being equal; at an isotropic design it is the length that shows the isotropy. "mean_leg" is
+        the mean of the nine legs; "platform_radius" the largest distance of a platform joint from the platform
+        origin.
 
     Returns
     -------
@@ -35,12 +36,13 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
         In the length unit of the input. "optimal" and "natural" are NaN at a singular configuration.
 
     """
-    flat = _core.characteristic_length(geometry, *configuration._flat(), kind, 0)
+    flat = _core.characteristic_length(*operands(geometry, configuration), kind, 0)
     return flat.reshape(configuration.shape)[()]
 
 
 def resolve_length(geometry: Geometry, configuration: Configuration, length: ArrayLike | str) -> Floats:
     """Return a characteristic length as a flat array of one value, or of one for each configuration."""
+    operands(geometry, configuration)
     if isinstance(length, str):
         return np.reshape(characteristic_length(geometry, configuration, length), -1)
     value = as_floats("characteristic_length", length, ())

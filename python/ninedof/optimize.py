@@ -45,8 +45,8 @@ class Candidate:
     active: tuple[str, ...]
     """Variables on a bound and constraints on their limit."""
     optimality_residual: float
-    """Norm of the least combination of active gradients of log(condition number), lengths on a logarithmic scale: 0 where no
-    direction improves to first order."""
+    """Norm of the least combination of active gradients of log(condition number), lengths on a logarithmic scale: 0
+    where no direction improves to first order."""
     constraint_violation: float
     """Largest negative margin; 0 if none."""
     reached: int
@@ -68,6 +68,8 @@ class Result:
     starts_done: int
     seconds: float
     study: Study
+    interrupted: bool = False
+    """Whether Ctrl-C ended the run."""
     lower_bound: float | None = None
     """A proved bound, where one was asked for."""
 
@@ -122,8 +124,8 @@ def optimize(
     """Find the design of least condition number.
 
     Multi-start sequential quadratic programming (NLopt's SLSQP) on the smooth minimax form of the problem, with exact
-    gradients; every end is polished by Newton's method and judged by checks that do not believe the solver. Ctrl-C stops
-    within a fraction of a second and returns what there is, with status "stopped".
+    gradients; every end is polished by Newton's method and judged by checks that do not believe the solver. Ctrl-C
+    stops within a fraction of a second and returns what there is, with status "stopped".
 
     Parameters
     ----------
@@ -176,6 +178,7 @@ def optimize(
         starts_done=core.starts_done,
         seconds=perf_counter() - begin,
         study=study,
+        interrupted=core.interrupted,
     )
 
 
@@ -197,7 +200,8 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     start : mapping
         Name to value of the free variables; moved inside the bounds.
     formulation : {"minimax", "plain"}
-        "plain" minimises log(condition number) itself, as the paper's SQP run did, and jams where two singular values meet.
+        "plain" minimises log(condition number) itself, as the paper's SQP run did, and jams where two singular values
+        meet.
 
     """
     problem = study.problem()

@@ -22,9 +22,9 @@ class AxisFamily : public DesignFamily {
     const T base = larger(radius(d.base_external), radius(d.base_internal));
     const T platform = larger(radius(d.platform_external), radius(d.platform_internal));
     out.gradient.resize(quantity_count, N);
-    const std::array<const T*, quantity_count> all{&s.axial_max, &s.axial_min, &s.transverse_max, &s.transverse_min,
-                                                   &s.l,         &s.q,         &s.r,              &base,
-                                                   &platform,    &d.zp,        &d.zs};
+    const std::array<const T*, quantity_count> all{
+        &s.axial_max, &s.axial_min, &s.transverse_max, &s.transverse_min, &s.l, &s.q, &s.r, &base, &platform,
+        &d.zp,        &d.zs};
     for (int row = 0; row < quantity_count; ++row) set_log(*all[index(row)], row, out);
   }
 

@@ -12,8 +12,8 @@ namespace ninedof {
 enum class LengthKind {
   mean_leg,         ///< mean of the nine leg lengths
   platform_radius,  ///< largest distance of a platform joint from the platform origin
-  natural,          ///< makes the rotation and translation columns of M equal in Frobenius norm; isotropic designs keep it
-  optimal,          ///< makes the condition number least
+  natural,  ///< makes the rotation and translation columns of M equal in Frobenius norm; isotropic designs keep it
+  optimal,  ///< makes the condition number least
 };
 
 /// "mean_leg", "platform_radius", "natural" or "optimal"; throws InvalidArgument for another word.

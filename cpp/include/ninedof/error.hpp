@@ -26,6 +26,9 @@ const char* to_string(Status status);
 /// The shortest decimal that reads back as the same double.
 std::string format_number(double value);
 
+/// "[low, high]" in such decimals.
+std::string format_interval(double low, double high);
+
 /// Throws InvalidArgument unless `value` is finite and greater than zero.
 void require_positive(const std::string& argument, double value);
 

@@ -12,9 +12,7 @@ class HexagonalFamily : public AxisFamily<HexagonalFamily, 7> {
   const std::string& name() const override { return name_; }
   const std::vector<VariableInfo>& variables() const override { return variables_; }
 
-  Geometry geometry(std::span<const double> x) const override {
-    return Geometry::hexagonal(x[0], x[1], x[2], x[3]);
-  }
+  Geometry geometry(std::span<const double> x) const override { return Geometry::hexagonal(x[0], x[1], x[2], x[3]); }
   Configuration configuration(std::span<const double> x) const override { return neutral(x[4], x[5], x[6]); }
 
   template <class T>
@@ -42,9 +40,9 @@ class HexagonalFamily : public AxisFamily<HexagonalFamily, 7> {
   }
 
   std::string name_ = "hexagonal";
-  std::vector<VariableInfo> variables_{
-      {"a1", false, 0.0, 60.0},  {"a2", false, 0.0, 60.0},  {"b1", false, 0.0, 60.0}, {"b2", false, 0.0, 60.0},
-      {"zp", false, 0.05, 80.0}, {"zs", false, 0.05, 80.0}, {"theta_z", true, 0.0, 0.0}};
+  std::vector<VariableInfo> variables_{{"a1", false, 0.0, 60.0},   {"a2", false, 0.0, 60.0},  {"b1", false, 0.0, 60.0},
+                                       {"b2", false, 0.0, 60.0},   {"zp", false, 0.05, 80.0}, {"zs", false, 0.05, 80.0},
+                                       {"theta_z", true, 0.0, 0.0}};
 };
 
 }  // namespace ninedof

@@ -74,6 +74,7 @@ struct Result {
   std::vector<Candidate> candidates; ///< distinct local optima, best first; empty if nothing acceptable was found
   long evaluations = 0;              ///< of the design's quantities, over all starts
   int starts_done = 0;
+  bool interrupted = false;          ///< by Control::stop
 };
 
 /// Multi-start minimax optimization. Same problem, settings: same bits, whatever the thread count.

@@ -1,0 +1,128 @@
+"""The command line: parses, calls one function, prints."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="Optimum design of the nine-degree-of-freedom parallel manipulator of Zanganeh and Angeles.",
+    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem.",
+)
+
+DONE, BAD_INPUT, NO_RESULT, INTERRUPTED = 0, 2, 3, 130
+
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the result as JSON on standard output, words on standard error.")
+]
+Threads = Annotated[
+    int | None, typer.Option(help="Threads; one a processor by default. The result does not depend on it.")
+]
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof optimize                         the paper's problem, beside the published optimum\n\n"
+    "  ninedof optimize study.toml --out run1   a study of your own, run folder run1\n\n"
+    "  ninedof optimize --json --no-figures | jq .optimization.status"
+)
+def optimize(
+    study: Annotated[
+        Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")] = None,
+    starts: Annotated[int | None, typer.Option(help="Starts, in place of the study's.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
+    threads: Threads = None,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")] = True,
+    json: Json = False,
+) -> None:
+    """Find the design of least condition number."""
+    from ninedof import commands
+
+    raise typer.Exit(commands.optimize(study, out, starts, seed, threads, figures, json))
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432\n\n"
+    "  ninedof evaluate design.toml --lc optimal\n\n"
+    "  ninedof evaluate runs/20260101-120000    the best design of a run"
+)
+def evaluate(
+    design: Annotated[
+        Path | None, typer.Argument(help="A design file (TOML), a run folder or its record.json.")
+    ] = None,
+    a1: Annotated[float | None, typer.Option(help="Base side (eq. 37).")] = None,
+    a2: Annotated[float | None, typer.Option(help="Base side.")] = None,
+    b1: Annotated[float | None, typer.Option(help="Platform side (eq. 38).")] = None,
+    b2: Annotated[float | None, typer.Option(help="Platform side.")] = None,
+    zp: Annotated[float | None, typer.Option(help="Height of the platform.")] = None,
+    zs: Annotated[float | None, typer.Option(help="Height of the internal point.")] = None,
+    theta_z_deg: Annotated[float | None, typer.Option(help="Twist of the platform, degrees; 0 by default.")] = None,
+    lc: Annotated[
+        str | None,
+        typer.Option(
+            help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; 1 by default."
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Print the indices of one design and configuration."""
+    from ninedof import commands
+
+    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    raise typer.Exit(commands.evaluate(design, sides, theta_z_deg, lc, json))
+
+
+@app.command(epilog="[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'")
+def paper(threads: Threads = None, json: Json = False) -> None:
+    """Print every number of the paper beside ours, with a verdict each."""
+    from ninedof import commands
+
+    raise typer.Exit(commands.paper(threads, json))
+
+
+def _version(value: bool) -> None:
+    if value:
+        from ninedof import __version__
+
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+    ] = False,
+) -> None:
+    pass
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line; bad input ends in one line on standard error and status 2."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    asks_about_itself = bool(given) and given[0] in ("-h", "--help", "--version")
+    if not given or (given[0].startswith("-") and not asks_about_itself):
+        given.insert(0, "optimize")
+    try:
+        app(given, prog_name="ninedof")
+    except ValueError as error:
+        typer.echo(f"ninedof: {error}", err=True)
+        raise SystemExit(BAD_INPUT) from None
+    except BrokenPipeError:  # the reader went away, `ninedof paper | head`
+        sys.stderr.close()
+        raise SystemExit(DONE) from None
+    except KeyboardInterrupt:
+        typer.echo("ninedof: interrupted", err=True)
+        raise SystemExit(INTERRUPTED) from None

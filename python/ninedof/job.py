@@ -1,0 +1,173 @@
+"""From a result to a run folder: gather what the figures show, draw them, write the record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ninedof import paper
+from ninedof.conditioning import condition_number
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.optimize import Result, trace
+from ninedof.records import Record, describe_result, write_record
+
+if TYPE_CHECKING:
+    from ninedof.plot import DesignCurves
+
+__all__ = ["check_out", "new_directory", "record_comparison", "record_result"]
+
+Say = Callable[[str], object]
+"""Told what is being done, a few words at a time."""
+
+Named = tuple[str, Geometry, Configuration, float]
+"""A design to draw: name, geometry, configuration, condition number."""
+
+TRACED_STARTS = 48  # runs shown in the convergence figure
+
+
+def check_out(out: Path | None) -> None:
+    """Refuse a run folder that exists and is not empty, before any work is done: a run never overwrites another."""
+    if out is not None and out.exists() and (not out.is_dir() or any(out.iterdir())):
+        raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
+
+
+def new_directory(out: Path | None) -> Path:
+    """Create the run folder: `out`, or runs/<time> here."""
+    if out is not None:
+        return _created(out)
+    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    path, attempt = Path("runs") / stamp, 1
+    while path.exists():
+        path, attempt = Path("runs") / f"{stamp}-{attempt}", attempt + 1
+    return _created(path)
+
+
+def _created(path: Path) -> Path:
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(
+            f"out: got {path}, which cannot be created ({error.strerror}), expected a writeable place"
+        ) from None
+    return path
+
+
+def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: Say) -> Path:
+    """Write the run folder of the paper's problem; return the path of the record."""
+    results = {
+        "published": {"a1": paper.A1, "b1": paper.B1, "zp": paper.ZP, "condition_number": paper.KAPPA},
+        "as_printed": c.as_printed,
+        "why": c.why,
+        "designs": [describe_row(row) for row in c.rows()],
+        "optimization": describe_result(c.result),
+    }
+    designs = [("published", c.best_zs), ("optimum", c.same_class)] if c.same_class is not None else []
+    named = [(name, row.geometry, row.configuration, row.condition_number) for name, row in designs if row is not None]
+    compared = {"level": paper.KAPPA, "crossings": c.crossings}
+    return _record(c.result, results, named if figures else [], directory, say, **compared)
+
+
+def record_result(result: Result, directory: Path, figures: bool, say: Say) -> Path:
+    """Write the run folder of a study; return the path of the record."""
+    named = [("optimum", c.geometry, c.configuration, c.condition_number) for c in result.candidates[:1]]
+    return _record(result, {"optimization": describe_result(result)}, named if figures else [], directory, say)
+
+
+def _record(
+    result: Result, results: dict[str, Any], designs: list[Named], directory: Path, say: Say, **compared: Any
+) -> Path:
+    """Write the record, then the figures, then the record again with their names: an interruption loses no result."""
+    record = Record(result.study, results)
+    path = write_record(record, directory)
+    if designs:
+        files = _figures(designs, result, directory, say, **compared)
+        write_record(replace(record, files=tuple(f.name for f in files)), directory)
+    return path
+
+
+def describe_row(row: paper.Row) -> dict[str, Any]:
+    """Return a row of the comparison as plain JSON values."""
+    return {
+        "title": row.title,
+        "variables": row.variables,
+        "condition_number": row.condition_number,
+        "leg_lengths": dict(zip(("l", "q", "r"), row.legs, strict=True)),
+        "radius_ratio": row.radius_ratio,
+        "gain_percent": row.gain,
+        "active": list(row.active),
+    }
+
+
+def _figures(
+    designs: list[Named],
+    result: Result,
+    directory: Path,
+    say: Say,
+    level: float | None = None,
+    crossings: tuple[float, ...] = (),
+) -> list[Path]:
+    """Draw the designs in space, their condition number along zs and theta_z, and the convergence."""
+    say("drawing the mechanisms")
+    from ninedof import plot
+
+    panels = [plot.Mechanism(name, g, c, kappa, _heights(c)) for name, g, c, kappa in designs]
+    unit = "l_c" if result.study.characteristic_length == 1.0 else ""
+    files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
+    say("drawing the condition number along zs and theta_z")
+    first = [_curves(*designs[0], level, crossings)]
+    curves = first + [_curves(*design) for design in designs[1:]]
+    files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
+    say("drawing the convergence")
+    runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
+    if runs["minimax"] and result.condition_number is not None:
+        files += plot.save(
+            plot.convergence(runs["minimax"], runs["plain"], result.condition_number), directory, "convergence"
+        )
+    return files
+
+
+def _heights(c: Configuration) -> str:
+    return f"zp = {c.position[2]:.4f}, zs = {c.internal_point[2]:.4f}"
+
+
+def _curves(
+    name: str,
+    g: Geometry,
+    c: Configuration,
+    kappa: float,
+    level: float | None = None,
+    crossings: tuple[float, ...] = (),
+) -> DesignCurves:
+    from ninedof.plot import DesignCurves
+
+    zp, zs = float(c.position[2]), float(c.internal_point[2])
+    theta_z = float(np.arctan2(c.rotation[1, 0], c.rotation[0, 0]))
+    heights = np.linspace(0.02, 0.98, 385) * zp
+    twists = theta_z + np.radians(np.linspace(-60.0, 60.0, 361))
+    around = np.asarray(condition_number(g, Configuration.neutral(zp, zs, theta_z + np.array([-1e-6, 1e-6]))))
+    return DesignCurves(
+        name=name,
+        zs=heights,
+        along_zs=condition_number(g, Configuration.neutral(zp, heights, theta_z)),
+        theta_z=twists,
+        along_theta_z=condition_number(g, Configuration.neutral(zp, zs, twists)),
+        point=(zs, theta_z, kappa),
+        slope=float(np.diff(around)[0] / 2e-6) if level is not None else None,
+        level=level,
+        crossings=crossings,
+    )
+
+
+def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
+    """Follow single runs from the starts of the optimization; none where no variable is free."""
+    study = result.study
+    if not any(isinstance(bound, tuple) for bound in study.variables.values()):
+        return []
+    rows = study.problem().starts(min(study.starts, TRACED_STARTS), study.seed)
+    return [trace(study, dict(zip(study.variables, x.tolist(), strict=True)), formulation).best for x in rows]

@@ -1,0 +1,19 @@
+"""Figures. What is drawn comes in as geometries, configurations and arrays; nothing is computed but where the ink goes.
+
+Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
+"""
+
+from ninedof.plot.convergence import convergence
+from ninedof.plot.landscape import DesignCurves, condition_curves
+from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
+from ninedof.plot.style import save
+
+__all__ = [
+    "DesignCurves",
+    "Mechanism",
+    "condition_curves",
+    "convergence",
+    "draw_mechanism",
+    "mechanisms",
+    "save",
+]

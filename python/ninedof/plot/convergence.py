@@ -1,0 +1,135 @@
+"""How an optimization comes down: the smooth minimax form beside plain SQP, from the same starts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, PercentFormatter
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof.plot import style
+
+Floats = NDArray[np.float64]
+
+FLOOR, CEILING = 1e-10, 1e4  # gaps shown; what is below is rounding, what is above a start far from any good design
+
+
+def convergence(
+    minimax: Sequence[ArrayLike],
+    plain: Sequence[ArrayLike],
+    best: float,
+    tolerance: float = 1e-6,
+) -> Figure:
+    """Return a figure of the distance to the best known condition number against evaluations spent.
+
+    Above, one line a start and their median; runs that end further away than the tolerance stand out. Below, the share
+    of starts that have come within the tolerance.
+
+    Parameters
+    ----------
+    minimax, plain : sequence of array_like
+        For each start the least condition number after each evaluation, infinite before the first allowed design, as
+        `ninedof.Trace.best`.
+    best : float
+        The best known condition number.
+    tolerance : float
+        How near counts as there.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof import plot
+    >>> study = nd.Study.paper()
+    >>> starts = [dict(zip(study.variables, x)) for x in study.problem().starts(4, 0)]
+    >>> runs = {form: [nd.trace(study, x, form).best for x in starts] for form in ("minimax", "plain")}
+    >>> figure = plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
+
+    """
+    if not minimax or not plain:
+        raise ValueError("minimax, plain: got no runs, expected at least one of each")
+    methods = (("minimax SQP", minimax, style.SERIES[1]), ("plain SQP", plain, style.SERIES[0]))
+    longest = max(np.size(run) for run in (*minimax, *plain))
+    near = style.power_of_ten(tolerance)
+    with style.look():
+        figure = style.new_figure(8.0, 5.34)
+        share = figure.add_axes((0.105, 0.095, 0.875, 0.25))
+        for x, (name, runs, colour) in zip((0.105, 0.5575), methods, strict=True):
+            gaps = [np.maximum(np.atleast_1d(np.asarray(run, dtype=np.float64)) - best, FLOOR) for run in runs]
+            held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
+            axes = figure.add_axes((x, 0.455, 0.4225, 0.48))
+            axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} arrive")
+            _runs(axes, gaps, held, colour, tolerance, near)
+            _share(share, name, (held <= tolerance).mean(axis=0), colour)
+        first, second = figure.axes[1:]
+        first.set_ylabel("condition number\nabove the best")
+        second.tick_params(labelleft=False)
+        for axes in figure.axes:
+            axes.set(xscale="log", xlim=(1, 1.1 * longest))
+            axes.xaxis.set_major_locator(FixedLocator([1, 3, 10, 30, 100, 300, 1000, 3000]))
+            axes.xaxis.set_minor_locator(NullLocator())
+            axes.xaxis.set_major_formatter("{x:.0f}")
+        share.set(ylim=(0, 1.05), xlabel="evaluations", ylabel=f"starts within {near}")
+        share.yaxis.set_major_locator(FixedLocator([0, 0.25, 0.5, 0.75, 1]))
+        share.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
+    return figure
+
+
+def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: float, near: str) -> None:
+    """One line a start, the median of all (`held` keeps what each ended with), the tolerance."""
+    there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
+    stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
+    median = np.quantile(held, 0.5, axis=0, method="lower")  # an average would fail while half the runs are infinite
+    axes.add_collection(LineCollection(there, colors=colour, linewidths=0.6, alpha=0.35, zorder=2))
+    axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=1.0, alpha=0.85, zorder=3))
+    axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=2.0, zorder=4))
+    ends = np.array([line[-1] for line in stuck if len(line)]).reshape(-1, 2)
+    axes.plot(*ends.T, "o", color=style.ALARM, ms=4.5, mec="white", mew=0.6, zorder=5)
+    axes.axhline(tolerance, color=style.INK, lw=0.8, ls=(0, (5, 3)), zorder=1)
+    axes.set(yscale="log", ylim=(FLOOR, CEILING))
+    axes.yaxis.set_major_locator(LogLocator(numticks=8))
+    axes.yaxis.set_major_formatter(style.power_of_ten)
+    axes.yaxis.set_minor_locator(NullLocator())
+    keys = [style.key(colour, lw=1.2, label="one start"), style.key(style.INK, lw=2.0, label="median")]
+    if stuck:
+        label = f"stuck above {near}"
+        keys.append(style.key(style.ALARM, lw=1.2, marker="o", ms=4.5, mec="white", mew=0.6, label=label))
+    axes.legend(handles=keys, loc="lower left", frameon=True, framealpha=0.85, edgecolor="none")
+
+
+def _steps(gap: Floats) -> Floats:
+    """Staircase of one run, shape (n, 2), from its first finite value to its end or to the floor.
+
+    Corners only where the line moves by 1/25 of a decade, about its own width.
+    """
+    alive = np.isfinite(gap)
+    alive[1:] &= gap[:-1] > FLOOR
+    x = np.flatnonzero(alive)
+    if not len(x):
+        return np.empty((0, 2))
+    level = np.round(25 * np.log10(gap[x]))
+    corner = np.flatnonzero(np.append(True, level[1:] != level[:-1]))
+    x = np.union1d(x[corner], x[-1:])
+    y = gap[x]
+    return np.column_stack([np.repeat(x + 1.0, 2)[1:], np.repeat(y, 2)[:-1]])
+
+
+def _share(axes: Any, name: str, there: Floats, colour: str) -> None:
+    axes.step(np.arange(1, len(there) + 1), there, where="post", color=colour, lw=2.2)
+    half, end = there >= 0.5, there >= there[-1]
+    text = f"{name}\n{there[-1]:.1%} by {int(np.argmax(end)) + 1}".replace(".0%", "%").replace("%", " %")
+    if half[-1]:
+        text = text.replace("\n", f"\nhalf by {int(np.argmax(half)) + 1}, ")
+    axes.annotate(
+        text,
+        (float(np.argmax(half) + 1 if half[-1] else len(there)), 0.5),
+        xytext=(-8, 0),
+        textcoords="offset points",
+        ha="right",
+        color=colour,
+        weight="bold",
+        size=style.SMALL_SIZE,
+    )

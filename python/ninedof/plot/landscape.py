@@ -1,0 +1,170 @@
+"""The condition number around a design: along zs and along theta_z."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import ConnectionPatch, Rectangle
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof.plot import style
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class DesignCurves:
+    """Condition number of one design along two lines through its own point. Lengths in one unit, angles in radians."""
+
+    name: str
+    zs: ArrayLike
+    """Heights of O, shape (n,)."""
+    along_zs: ArrayLike
+    """Condition number there; infinite where singular."""
+    theta_z: ArrayLike
+    """Twists of the platform, shape (m,)."""
+    along_theta_z: ArrayLike
+    """Condition number there."""
+    point: tuple[float, float, float]
+    """The design's own zs, theta_z and condition number."""
+    slope: float | None = None
+    """d(condition number)/d(theta_z) at the point, per radian: draws the tangent."""
+    level: float | None = None
+    """A condition number to compare with: draws a magnified view about it."""
+    crossings: tuple[float, ...] = ()
+    """The zs where the level is met, for that view."""
+    least: tuple[float, float] | None = None
+    """The lowest point between them, zs and condition number, for that view."""
+
+
+def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
+    """Return a figure of the condition number along zs and along theta_z.
+
+    The first design with a level and crossings has them in a magnified view of its own: at full scale two crossings
+    near the minimum are one point.
+
+    Parameters
+    ----------
+    designs : sequence of DesignCurves
+        One to four, in this order of colours.
+    unit : str
+        Of the lengths.
+
+    Examples
+    --------
+    >>> from ninedof import plot
+    >>> design = plot.DesignCurves(
+    ...     "mine", [2.0, 2.5, 3.0], [4.1, 3.9, 4.2], [-0.1, 0.0, 0.1], [4.0, 3.9, 3.8], point=(2.5, 0.0, 3.9)
+    ... )
+    >>> figure = plot.condition_curves([design], unit="m")
+
+    """
+    if not 0 < len(designs) <= len(style.SERIES):
+        raise ValueError(f"designs: got {len(designs)}, expected 1 to {len(style.SERIES)}")
+    pairs = list(zip(style.SERIES, designs, strict=False))
+    compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
+    with style.look():
+        figure = style.new_figure(8.0, 5.34)
+        bottom, height = (0.475, 0.45) if compared else (0.185, 0.74)
+        left = figure.add_axes((0.085, bottom, 0.415, height))
+        right = figure.add_axes((0.575, 0.185, 0.405, 0.74))
+        for colour, design in pairs:
+            zs, theta, kappa = design.point
+            _curve(left, design.zs, design.along_zs, (zs, kappa), colour)
+            degrees = np.degrees(np.asarray(design.theta_z, dtype=np.float64))
+            _curve(right, degrees, design.along_theta_z, (float(np.degrees(theta)), kappa), colour)
+        left.set_title("along zs")
+        left.set(xlabel=style.with_unit("zs, height of O", unit), ylabel="condition number")
+        right.set_title("along theta_z")
+        right.set(xlabel="theta_z, twist of the platform (degrees)")
+        _crop(left, 1.35, [d.point[2] for d in designs])
+        _crop(right, 1.2, [d.point[2] for d in designs])
+        for design in designs:
+            if design.slope is not None:
+                _tangent(right, design, design.slope)
+        if compared:
+            box = figure.add_axes((0.085, 0.185, 0.415, 0.165))
+            _magnify(left, box, *compared)
+        keys = [
+            style.key(colour, lw=2.0, marker="o", ms=7, mec="white", label=f"{d.name}: {d.point[2]:.4f}")
+            for colour, d in pairs
+        ]
+        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, fontsize=style.TEXT_SIZE)
+    return figure
+
+
+def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colour: str) -> None:
+    values = np.asarray(y, dtype=np.float64)
+    axes.plot(x, np.where(np.isfinite(values), values, np.nan), color=colour, lw=2.0)
+    axes.plot(*own, "o", color=colour, ms=7, mec="white", mew=1.2, zorder=5)
+
+
+def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
+    """Show all curves up to `factor` times their least value, and the part of the x axis where one is that low."""
+    x, y = np.hstack([np.array(line.get_data()) for line in axes.lines])
+    finite = y[np.isfinite(y)]
+    if not len(finite):
+        return
+    low, high = float(finite.min()), float(finite.max())
+    top = min(max(factor * low, 1.05 * max(own)), high) + 1e-6 * low
+    seen = x[y <= top]
+    axes.set_ylim(low - 0.12 * (top - low), top + 0.02 * (top - low))
+    axes.set_xlim(seen.min() - 0.04 * np.ptp(seen), seen.max() + 0.04 * np.ptp(seen))
+
+
+def _tangent(axes: Any, design: DesignCurves, slope: float) -> None:
+    _, theta, kappa = design.point
+    at, per_degree = float(np.degrees(theta)), float(np.radians(slope))
+    ends = at + 0.28 * float(np.ptp(axes.get_xlim())) * np.array([-1.0, 1.0])
+    axes.plot(ends, kappa + per_degree * (ends - at), color=style.INK, lw=1.1, ls=(0, (5, 3)), zorder=4)
+    text = f"dashed, {design.name}:\nslope {per_degree:+.4f} a degree,\nnot 0 as eq. (7) has it"
+    side = 0.025 if slope < 0 else 0.975  # where the line is high
+    note = axes.text(side, 0.025, text.replace("-", "\N{MINUS SIGN}"), size=style.SMALL_SIZE, transform=axes.transAxes)
+    note.set(
+        ha="left" if slope < 0 else "right",
+        va="bottom",
+        linespacing=1.3,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+    )
+
+
+def _magnify(axes: Any, box: Any, colour: str, design: DesignCurves) -> None:
+    """Draw the curve about the level on axes of its own, and the frame it comes from."""
+    zs, kappa = np.asarray(design.zs, dtype=np.float64), np.asarray(design.along_zs, dtype=np.float64)
+    level, first, last = float(design.level or 0.0), min(design.crossings), max(design.crossings)
+    margin = 0.6 * max(last - first, 0.02 * abs(last))
+    inside = kappa[(zs >= first - margin) & (zs <= last + margin)]
+    depth = max(level - float(min(inside, default=level)), 1e-4 * level)
+    x, y = (first - margin, last + margin), (level - 1.7 * depth, level + 1.3 * depth)
+    box.plot(zs, kappa, color=colour, lw=2.0)
+    box.axhline(level, color=style.INK, lw=0.9, ls=(0, (5, 3)))
+    for crossing in design.crossings:
+        box.plot([crossing], [level], "o", color=colour, ms=6, mec="white", mew=1.0, zorder=5)
+    if design.least is not None:
+        box.plot(*design.least, "D", color=colour, ms=4.5, mec="white", mew=0.8, zorder=5)
+        box.annotate(
+            f"least {design.least[1]:.4f} at {design.least[0]:.4f}",
+            design.least,
+            xytext=(0, -6),
+            textcoords="offset points",
+            size=style.SMALL_SIZE,
+            ha="center",
+            va="top",
+        )
+    box.set(xlim=x, ylim=y, xticks=design.crossings, yticks=[level])
+    box.xaxis.set_major_formatter("{x:.4f}")
+    box.yaxis.set_major_formatter("{x:.4f}")
+    name = box.text(0.5, 0.93, f"{design.name}, magnified", size=style.SMALL_SIZE, transform=box.transAxes)
+    name.set(ha="center", va="top")
+    box.spines[["top", "right"]].set_visible(True)
+    axes.add_patch(Rectangle((x[0], y[0]), x[1] - x[0], y[1] - y[0], fill=False, edgecolor=style.INK, lw=0.7, zorder=6))
+    for label in axes.get_xticklabels():
+        label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1})  # hides the connecting lines below it
+    for side, corner in zip(x, (0.0, 1.0), strict=True):
+        link = ConnectionPatch((side, y[0]), (corner, 1.0), axes.transData, box.transAxes, color=style.MUTED, lw=0.6)
+        link.set_zorder(0)
+        axes.add_artist(link)

@@ -1,0 +1,80 @@
+"""The body of a plate: the convex hull of its six joints, flat or solid."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_TOLERANCE = 1e-9  # relative to the size of the plate
+
+
+def distinct(points: Floats) -> Floats:
+    """Return the points without those that coincide with an earlier one, as coupled joints do."""
+    size = float(np.ptp(points, axis=0).max())
+    kept: list[Floats] = []
+    for point in points:
+        if all(np.linalg.norm(point - other) > _TOLERANCE * size for other in kept):
+            kept.append(point)
+    return np.array(kept)
+
+
+def outlines(joints: Floats) -> list[Floats]:
+    """Return the faces of the convex hull of a few points, each as an ordered outline.
+
+    One polygon where the points lie in a plane (joints inside it are left out), the faces of a solid otherwise. Planes
+    through three points are tried one by one: for six joints that is twenty, and there is no need of a hull library.
+
+    Parameters
+    ----------
+    joints : numpy.ndarray, shape (n, 3)
+        Not all on one line.
+
+    Returns
+    -------
+    list of numpy.ndarray, each of shape (m, 3)
+
+    """
+    points = distinct(joints)
+    size = float(np.ptp(points, axis=0).max())
+    faces: dict[tuple[int, ...], Floats] = {}
+    for triple in combinations(range(len(points)), 3):
+        a, b, c = points[list(triple)]
+        normal = np.cross(b - a, c - a)
+        length = float(np.linalg.norm(normal))
+        if length <= _TOLERANCE * size**2:
+            continue
+        normal /= length
+        heights = (points - a) @ normal
+        in_plane = np.abs(heights) <= _TOLERANCE * size
+        above, below = bool(np.any(heights[~in_plane] > 0)), bool(np.any(heights[~in_plane] < 0))
+        if not (above and below):
+            faces.setdefault(tuple(np.flatnonzero(in_plane).tolist()), _outline(points[in_plane], normal))
+    return list(faces.values())
+
+
+def _outline(points: Floats, normal: Floats) -> Floats:
+    """Corners of the convex hull of points in a plane, in order (Andrew's monotone chain)."""
+    across = points[1] - points[0]
+    across = across / np.linalg.norm(across)
+    flat = np.column_stack([points @ across, points @ np.cross(normal, across)])
+    slack = _TOLERANCE * float(np.ptp(flat, axis=0).max()) ** 2
+    order = np.lexsort((flat[:, 1], flat[:, 0])).tolist()
+
+    def chain(indices: list[int]) -> list[int]:
+        out: list[int] = []
+        for index in indices:
+            while len(out) > 1 and _turn(flat[out[-2]], flat[out[-1]], flat[index]) <= slack:
+                out.pop()
+            out.append(index)
+        return out[:-1]
+
+    return points[chain(order) + chain(order[::-1])]
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> float:
+    """Twice the area of a triangle in the plane, positive where it turns to the left."""
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
