@@ -27,14 +27,23 @@ inline std::string shape_text(const std::vector<py::ssize_t>& shape) {
 
 /// A float64 array of exactly this shape, or InvalidArgument naming the argument.
 inline Array array_of_shape(const std::string& name, const py::object& value, const std::vector<py::ssize_t>& shape) {
-  Array a = Array::ensure(value);
-  if (!a) {
-    PyErr_Clear();
-    throw InvalidArgument(name, py::repr(value).cast<std::string>(), "numbers of shape " + shape_text(shape));
-  }
+  // Real numbers only: numpy would turn text into numbers, drop imaginary parts and forget masks.
+  const py::array raw = py::array::ensure(value);
+  PyErr_Clear();
+  const bool real =
+      raw && std::string("biuf").find(raw.dtype().kind()) != std::string::npos && !py::hasattr(value, "mask");
+  if (!real)
+    throw InvalidArgument(name, py::repr(value).cast<std::string>(), "real numbers of shape " + shape_text(shape));
+  const Array a = Array::ensure(raw);
   const std::vector<py::ssize_t> got(a.shape(), a.shape() + a.ndim());
   if (got != shape) throw InvalidArgument(name, "shape " + shape_text(got), "shape " + shape_text(shape));
   return a;
+}
+
+/// A Python number as a double, or InvalidArgument naming the argument.
+inline double number_from(const std::string& name, const py::object& value) {
+  const Array a = array_of_shape(name, value, {});
+  return a.data()[0];
 }
 
 inline Triple triple_from(const std::string& name, const py::object& value) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "arrays.hpp"
 #include "lengths.hpp"
@@ -46,8 +47,13 @@ void bind_conditioning(py::module_& m) {
           const ConfigurationStack c(p, q, s);
           const Lengths lc(length, c.count());
           return for_each_row(c.count(), 6, threads, py::none(), [&](long i, double* out) {
-            const AxisSpectrum<double> a = axis_spectrum(axis_design(g, c[i]), lc[i]);
+            const Configuration pose = c[i];
             Vec6 sigma;
+            if (pose.position.hasNaN() || pose.rotation.hasNaN() || pose.internal_point.hasNaN()) {
+              Eigen::Map<Vec6>{out} = sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
+              return;
+            }
+            const AxisSpectrum<double> a = axis_spectrum(axis_design(g, pose), lc[i]);
             sigma << a.axial_max, a.axial_min, a.transverse_max, a.transverse_max, a.transverse_min, a.transverse_min;
             sigma = sigma.cwiseInverse().eval();
             std::sort(sigma.begin(), sigma.end(), std::greater<>());

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "arrays.hpp"
 #include "module.hpp"
 #include "ninedof/rotation.hpp"
@@ -39,9 +41,14 @@ struct Filling {
   Array position, rotation, internal_point;
 };
 
-py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z) {
+py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, bool is_stack) {
   Filling out(zp.size());
-  for (py::ssize_t i = 0; i < zp.size(); ++i) out.set(i, neutral(zp.data()[i], zs.data()[i], theta_z.data()[i]));
+  for (py::ssize_t i = 0; i < zp.size(); ++i) {
+    const double p = zp.data()[i], s = zs.data()[i], angle = theta_z.data()[i];
+    const bool missing = is_stack && (std::isnan(p) || std::isnan(s) || std::isnan(angle));
+    out.set(i, missing ? Configuration{Vec3(0.0, 0.0, p), rotation_about_z(angle), Vec3(0.0, 0.0, s)}
+                       : neutral(p, s, angle));
+  }
   return out.result();
 }
 
@@ -50,6 +57,11 @@ py::tuple moved_stack(const Array& position, const Array& rotation, const Array&
   Filling out(stack.count());
   for (long i = 0; i < stack.count(); ++i) out.set(i, plus(stack[i], Eigen::Map<const Vec9>(tangent.data() + 9 * i)));
   return out.result();
+}
+
+Geometry hexagonal_from(const py::object& a1, const py::object& a2, const py::object& b1, const py::object& b2) {
+  return Geometry::hexagonal(number_from("a1", a1), number_from("a2", a2), number_from("b1", b1),
+                             number_from("b2", b2));
 }
 
 bool equal(const Geometry& a, const Geometry& b) {
@@ -101,7 +113,7 @@ Examples
 )")
       .def(py::init(&from_arrays), py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"),
            py::arg("platform_internal"))
-      .def_static("hexagonal", &Geometry::hexagonal, py::arg("a1"), py::arg("a2"), py::arg("b1"), py::arg("b2"),
+      .def_static("hexagonal", &hexagonal_from, py::arg("a1"), py::arg("a2"), py::arg("b1"), py::arg("b2"),
                   R"(The semi-regular hexagons of eqs. (37)-(38).
 
 Parameters
@@ -151,8 +163,11 @@ ValueError
       .def("__eq__", &equal, py::is_operator())
       .def("__hash__",
            [](const Geometry& g) {
-             return py::hash(py::make_tuple(array_from(g.base_external()).attr("tobytes")(),
-                                            array_from(g.platform_external()).attr("tobytes")()));
+             // Numbers, not bytes: 0.0 and -0.0 are equal and must hash alike.
+             py::list rows;
+             for (const Triple* t : {&g.base_external(), &g.platform_external()})
+               for (const Vec3& joint : *t) rows.append(py::make_tuple(joint.x(), joint.y(), joint.z()));
+             return py::hash(py::tuple(rows));
            })
       .def("__repr__",
            [](const Geometry& g) {
@@ -168,7 +183,7 @@ ValueError
   m.def("check_configurations", &check_configurations, py::arg("position"), py::arg("rotation"),
         py::arg("internal_point"), py::arg("is_stack"));
   m.def("moved", &moved_stack, py::arg("position"), py::arg("rotation"), py::arg("internal_point"), py::arg("tangent"));
-  m.def("neutral", &neutral_stack, py::arg("zp"), py::arg("zs"), py::arg("theta_z"));
+  m.def("neutral", &neutral_stack, py::arg("zp"), py::arg("zs"), py::arg("theta_z"), py::arg("is_stack"));
 }
 
 }  // namespace ninedof::python

@@ -47,6 +47,40 @@ std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
   return out;
 }
 
+std::vector<std::string> conflict(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
+  const Eigen::Index n = p.coordinates.size();
+  const double worst = violation(p, l, y);
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<std::string> labels;
+  const auto variable = [&](int k) {
+    return p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].name;
+  };
+  for (const Margin& m : p.margins) {
+    if (m.value(l.point) > -worst + limit_contact) continue;
+    columns.emplace_back(l.gradient.transpose() * m.governing(l.point).coefficients);
+    labels.push_back(m.name);
+  }
+  if (p.coordinates.order_margin(y) <= -worst + limit_contact) {
+    columns.emplace_back(p.coordinates.order().gradient);
+    labels.emplace_back("zp > zs");
+  }
+  const std::size_t violated = labels.size();
+  for (int k = 0; k < n; ++k) {
+    const bool low = y[k] - p.coordinates.low()[k] <= 1e-5, high = p.coordinates.high()[k] - y[k] <= 1e-5;
+    if (low) columns.emplace_back(Eigen::VectorXd::Unit(n, k));
+    if (high) columns.emplace_back(-Eigen::VectorXd::Unit(n, k));
+    for (int side = 0; side < low + high; ++side) labels.push_back(variable(k));
+  }
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 1, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) system.col(static_cast<Eigen::Index>(k)).head(n) = columns[k];
+  system.row(n).head(static_cast<Eigen::Index>(violated)).setOnes();
+  const Eigen::VectorXd weights = nonnegative_least_squares(system, Eigen::VectorXd::Unit(n + 1, n));
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    if (weights[static_cast<Eigen::Index>(k)] > 1e-4) add_once(out, labels[k]);
+  return out;
+}
+
 Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a) {
   const Eigen::Index n = p.coordinates.size();
   if (n == 0) return {};
@@ -62,9 +96,10 @@ Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a) 
   Eigen::MatrixXd gradients(n, static_cast<Eigen::Index>(list.size()));
   for (std::size_t k = 0; k < list.size(); ++k) gradients.col(static_cast<Eigen::Index>(k)) = list[k];
 
-  // The two sums as heavily weighted rows; the weights are then normalised to meet them exactly.
+  // The two sums as rows of the least-squares problem, weighted like the largest gradient; the weights are then normalised
+  // to meet them exactly. Where the residual vanishes they do so anyway.
   const auto n1 = static_cast<Eigen::Index>(a.maxima.size()), n2 = static_cast<Eigen::Index>(a.minima.size());
-  const double heavy = 1e3 * std::max(1.0, gradients.cwiseAbs().maxCoeff());
+  const double heavy = std::max(1.0, gradients.cwiseAbs().maxCoeff());
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 2, gradients.cols());
   system.topRows(n) = gradients;
   system.row(n).head(n1).setConstant(heavy);

@@ -27,6 +27,10 @@ struct Stationarity {
 };
 Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a);
 
+/// Names of what is in conflict at a point of least violation: the constraints violated most and the bounds that, weighted,
+/// balance their gradients. Bounds that merely touch have no weight and are not named.
+std::vector<std::string> conflict(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
+
 /// min |A w - b| over w >= 0 (Lawson and Hanson's active-set method).
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 

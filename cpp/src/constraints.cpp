@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "ninedof/error.hpp"
@@ -64,8 +65,9 @@ const std::vector<Known>& known() {
 }
 
 std::vector<Margin> margins_of(const Limit& limit) {
-  if (std::isnan(limit.low) || std::isnan(limit.high) || limit.low > limit.high || limit.high <= 0.0)
-    throw InvalidArgument(limit.name, format_interval(limit.low, limit.high), "low <= high and high > 0");
+  if (std::isnan(limit.low) || std::isnan(limit.high) || limit.low > limit.high || limit.high <= 0.0 ||
+      limit.low == std::numeric_limits<double>::infinity())
+    throw InvalidArgument(limit.name, format_interval(limit.low, limit.high), "low <= high, low finite and high > 0");
   std::string names;
   for (const Known& k : known()) {
     if (k.name == limit.name) return k.make(limit);

@@ -10,8 +10,21 @@ namespace {
 /// Least difference of zp and zs in solver coordinates: below it the upper internal legs lie in the platform plane.
 constexpr double order_gap = 1e-6;
 
+/// An angle without bounds goes once round, and a little more so that no optimum sits on a bound of ours.
+constexpr double turn = 1.25 * std::numbers::pi;
+
 /// Distance from a bound that is rounding.
 constexpr double snap = 1e-13;
+
+/// The unit of the coordinates: bounds of small robots must not all fall into the linear part.
+double unit_of(const Problem& problem, const std::vector<VariableInfo>& info) {
+  double unit = problem.characteristic_length;
+  for (std::size_t k = 0; k < info.size(); ++k) {
+    const Bounds& b = problem.variables[k];
+    if (!info[k].is_angle && b.low < b.high) unit = std::min(unit, 0.2 * b.high);
+  }
+  return unit;
+}
 
 /// A generalised golden ratio: the root of x^(n+1) = x + 1, whose powers make an evenly spread additive sequence.
 double golden(int n) {
@@ -36,9 +49,13 @@ int find(const std::vector<VariableInfo>& variables, const std::string& name) {
 
 }  // namespace
 
-Coordinates::Coordinates(const Problem& problem, double cap)
-    : family_(&design_family(problem.family)), unit_(problem.characteristic_length) {
+bool serious_bound(const Problem& problem, double high) {
+  return high < 1e6 * problem.characteristic_length;
+}
+
+Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_family(problem.family)) {
   const auto& info = family_->variables();
+  unit_ = unit_of(problem, info);
   const auto n = static_cast<Eigen::Index>(info.size());
   fixed_.resize(n);
   x_low_.resize(n);
@@ -46,14 +63,15 @@ Coordinates::Coordinates(const Problem& problem, double cap)
   for (std::size_t i = 0; i < info.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const Bounds& b = problem.variables[i];
-    // An angle without bounds goes once round; a length without an upper one goes to the cap.
-    const double most = info[i].is_angle ? std::numbers::pi : cap * unit_;
-    x_low_[k] = std::max(b.low, -most);
-    x_high_[k] = b.low == b.high ? b.high : std::min(b.high, std::max(most, x_low_[k]));
+    const bool capped = !info[i].is_angle && b.low < b.high && !serious_bound(problem, b.high);
+    x_low_[k] = b.low;
+    x_high_[k] = capped ? cap : b.high;
+    if (info[i].is_angle && !std::isfinite(b.low)) x_low_[k] = std::isfinite(b.high) ? b.high - 2.0 * turn : -turn;
+    if (info[i].is_angle && !std::isfinite(b.high)) x_high_[k] = x_low_[k] + 2.0 * turn;
     fixed_[k] = x_low_[k];
     if (b.low == b.high) continue;
     free_.push_back(static_cast<int>(i));
-    capped_.push_back(!info[i].is_angle && b.high > x_high_[k]);
+    capped_.push_back(capped);
   }
   low_.resize(size());
   high_.resize(size());

@@ -1,8 +1,9 @@
 #pragma once
-/// The coordinates the solver works in: the free variables only, lengths as y = asinh(x / l_c).
+/// The coordinates the solver works in: the free variables only, lengths as y = asinh(x / unit).
 ///
-/// Linear below l_c and logarithmic above it, so that a bound at 0 stays reachable while sizes of 1 and of 10^6 look alike,
-/// and a study in millimetres runs as the same one in metres. The order of zs and zp carries over.
+/// Linear below the unit and logarithmic above it, so that a bound at 0 stays reachable while sizes of 1 and of 10^6 look
+/// alike, and a study in millimetres runs as the same one in metres. The unit is the characteristic length, or less where the
+/// bounds allow only small robots. The order of zs and zp carries over.
 
 #include <algorithm>
 #include <vector>
@@ -11,9 +12,12 @@
 
 namespace ninedof {
 
+/// Whether an upper bound of a length is one: a million characteristic lengths are not.
+bool serious_bound(const Problem& problem, double high);
+
 class Coordinates {
  public:
-  /// `cap`: largest size looked at, in characteristic lengths; bounds beyond it are cut there.
+  /// `cap`: largest size looked at where a variable has no serious upper bound, in the study's unit.
   Coordinates(const Problem& problem, double cap);
 
   int size() const { return static_cast<int>(free_.size()); }

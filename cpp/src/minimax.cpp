@@ -104,13 +104,23 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
   Run run{judge(p, y)};
   if (n == 0) return run;
 
+  // NLopt returns its own choice among the points it saw, by a measure that counts alpha and beta; we keep the allowed
+  // design of least condition number.
+  Eigen::VectorXd seen = y;
+  double seen_log_kappa = infinity;
+
   Look l;
   Nlp nlp = blank(p, minimax ? 2 : 0, (minimax ? 4 : 0) + constraint_count(p));
   nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
     look(p, at.head(n), l);
     ++run.evaluations;
     minimax ? fill_minimax(p, l, at, out) : fill_plain(p, l, at, out);
-    if (observer) observer(l.point, violation(p, l, at.head(n)));
+    const double violated = violation(p, l, at.head(n));
+    if (violated <= 1e-9 && l.log_max() - l.log_min() < seen_log_kappa) {
+      seen = at.head(n);
+      seen_log_kappa = l.log_max() - l.log_min();
+    }
+    if (observer) observer(l.point, violated);
     return !stop.stop_requested();
   };
   const auto settled = [&] { return run.end.feasible() && run.end.stationary(); };
@@ -130,7 +140,8 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
       full[n] = l.log_max();
       full[n + 1] = l.log_min();
     }
-    const bool better = take(slsqp(nlp, full, {.max_evaluations = max_evaluations}).head(n));
+    bool better = take(slsqp(nlp, full, {.max_evaluations = max_evaluations}).head(n));
+    better |= take(seen);
     if (!minimax) return run;
     if (run.end.feasible() && run.end.optimality_residual < 1e-2) take(polish(p, y));
     if (settled() || !better) break;
@@ -138,29 +149,33 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
   return run;
 }
 
-Run least_violation(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations, const std::stop_token& stop) {
+Violation least_violation(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations,
+                          const std::stop_token& stop) {
   const int n = p.coordinates.size();
-  Run run;
+  Violation out;
   Look l;
   look(p, start, l);
   Eigen::VectorXd full(n + 1);
   full << start, violation(p, l, start);
   Nlp nlp = blank(p, 1, constraint_count(p));
   nlp.low[n] = 0.0;
-  nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
+  nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& values) {
     look(p, at.head(n), l);
-    ++run.evaluations;
-    out.f = at[n];
-    out.f_gradient.setZero();
-    out.f_gradient[n] = 1.0;
-    write_constraints(p, l, at, 0, out);
-    out.c.array() -= at[n];
-    out.c_gradient.col(n).setConstant(-1.0);
+    ++out.evaluations;
+    values.f = at[n];
+    values.f_gradient.setZero();
+    values.f_gradient[n] = 1.0;
+    write_constraints(p, l, at, 0, values);
+    values.c.array() -= at[n];
+    values.c_gradient.col(n).setConstant(-1.0);
     return !stop.stop_requested();
   };
   if (n > 0) full = slsqp(nlp, full, {.max_evaluations = max_evaluations});
-  run.end = judge(p, full.head(n));
-  return run;
+  const Eigen::VectorXd y = full.head(n);
+  out.end = judge(p, y);
+  look(p, y, l);
+  out.causes = conflict(p, l, y);
+  return out;
 }
 
 }  // namespace ninedof

@@ -22,7 +22,15 @@ using Observer = std::function<void(const DesignPoint&, double)>;
 Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formulation, int max_evaluations,
              const std::stop_token& stop, const Observer& observer = {});
 
-/// The least violation reachable from a start: minimise t >= 0 with every margin >= -t.
-Run least_violation(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations, const std::stop_token& stop);
+/// The least violation reachable from a start, and the variables and constraints that hold it there.
+struct Violation {
+  Candidate end;
+  std::vector<std::string> causes;
+  long evaluations = 0;
+};
+
+/// Minimises t >= 0 with every margin >= -t.
+Violation least_violation(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations,
+                          const std::stop_token& stop);
 
 }  // namespace ninedof

@@ -1,5 +1,6 @@
 #include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "active_set.hpp"
@@ -10,8 +11,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
   const Eigen::Index n = a.cols();
   Eigen::VectorXd w = Eigen::VectorXd::Zero(n);
   if (n == 0) return w;
-  const double tolerance =
-      1e-14 * static_cast<double>(a.rows()) * a.cwiseAbs().maxCoeff() * std::max(1.0, b.cwiseAbs().maxCoeff());
+  const Eigen::VectorXd norms = a.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
   std::vector<Eigen::Index> passive;  // weights that may be positive
   const auto unconstrained = [&] {
     Eigen::MatrixXd sub(a.rows(), static_cast<Eigen::Index>(passive.size()));
@@ -19,10 +19,12 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
     return Eigen::VectorXd(sub.colPivHouseholderQr().solve(b));
   };
   for (Eigen::Index outer = 0; outer < 3 * n + 10; ++outer) {
-    Eigen::VectorXd descent = a.transpose() * (b - a * w);
+    // Cosines between the residual and the columns: scale-free, so that the smallest residual is still worked on.
+    const Eigen::VectorXd residual = b - a * w;
+    Eigen::VectorXd descent = (a.transpose() * residual).cwiseQuotient(norms);
     for (const Eigen::Index k : passive) descent[k] = 0.0;
     Eigen::Index enter = 0;
-    if (descent.maxCoeff(&enter) <= tolerance) break;
+    if (descent.maxCoeff(&enter) <= 1e-10 * residual.norm()) break;
     passive.push_back(enter);
     while (!passive.empty()) {
       const Eigen::VectorXd trial = unconstrained();

@@ -12,20 +12,29 @@
 namespace ninedof {
 namespace {
 
-/// Sizes, in characteristic lengths, to which a variable without a serious upper bound is let run, one round each.
-constexpr std::array<double, 3> caps{1e2, 1e3, 1e4};
-/// A bound beyond this many characteristic lengths is no bound.
-constexpr double absurd = 1e6;
+/// Variables without a serious upper bound are let run to these multiples of the study's own size, one round each.
+constexpr std::array<double, 4> stretches{1e2, 1e3, 1e4, 1e5};
 /// Relative gain from one cap to the next that counts as still improving.
 constexpr double still_improving = 1e-7;
+/// A condition number beyond this is rounding away from a singular design.
+constexpr double worst_regular = 1e14;
 
-bool is_open(const Problem& p) {
+/// The caps of the rounds: one that does not matter where every variable has a serious bound.
+std::vector<double> caps(const Problem& p) {
   const auto& info = design_family(p.family).variables();
-  for (std::size_t k = 0; k < info.size(); ++k)
-    if (!info[k].is_angle && p.variables[k].low != p.variables[k].high &&
-        p.variables[k].high >= absurd * p.characteristic_length)
-      return true;
-  return false;
+  double size = p.characteristic_length;
+  bool open = false;
+  for (std::size_t k = 0; k < info.size(); ++k) {
+    if (info[k].is_angle) continue;
+    const Bounds& b = p.variables[k];
+    const bool serious = b.low == b.high || serious_bound(p, b.high);
+    open |= !serious;
+    size = std::max(size, serious ? b.high : b.low);
+  }
+  std::vector<double> out;
+  for (const double stretch : stretches) out.push_back(stretch * size);
+  if (!open) out.resize(1);
+  return out;
 }
 
 /// Runs of one round, and what they cost.
@@ -45,8 +54,6 @@ class Progress {
     if (c.feasible()) best_ = std::min(best_, c.condition_number);
     if (control_.progress) control_.progress(done_, total_, best_);
   }
-  /// Results of a smaller cap are no bound on those of the next.
-  int done() const { return done_; }
 
  private:
   const Control& control_;
@@ -55,8 +62,13 @@ class Progress {
   double best_ = std::numeric_limits<double>::infinity();
 };
 
+/// Starts of one round: a design without free variables is looked at once.
+int start_count(const Prepared& p, const Settings& s) {
+  return p.coordinates.size() == 0 ? 1 : s.starts;
+}
+
 Round run_round(const Prepared& p, const Settings& s, const Control& control, Progress& progress) {
-  const int count = p.coordinates.size() == 0 ? 1 : s.starts;
+  const int count = start_count(p, s);
   Round round;
   round.runs.resize(static_cast<std::size_t>(count));
   parallel_for(count, 1, s.threads, [&](long first, long) {
@@ -94,7 +106,8 @@ bool stands_for(const Candidate& a, const Candidate& b) {
 std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
   std::vector<Candidate> ends;
   for (const auto& run : round.runs)
-    if (run && run->end.feasible() && run->end.stationary()) ends.push_back(run->end);
+    if (run && run->end.feasible() && run->end.stationary() && run->end.condition_number < worst_regular)
+      ends.push_back(run->end);
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Candidate& a, const Candidate& b) { return a.condition_number < b.condition_number; });
   std::vector<Candidate> out;
@@ -124,27 +137,45 @@ std::string join(const std::vector<std::string>& words) {
   return out;
 }
 
-/// No start ended well: is there a feasible design at all? If not, says which limits fight.
-void explain_failure(const Prepared& p, const Settings& s, const Control& control, Result& result) {
-  std::optional<Candidate> best;
-  const int count = std::min(s.starts, 8);
+bool all_singular(const Round& round) {
+  return std::none_of(round.runs.begin(), round.runs.end(), [](const std::optional<Run>& run) {
+    return run && run->end.feasible() && run->end.condition_number < worst_regular;
+  });
+}
+
+/// The height, zp or zs, that the bounds hold at zero; empty if none.
+std::string flat_height(const Problem& problem) {
+  const auto& info = design_family(problem.family).variables();
+  for (std::size_t k = 0; k < info.size(); ++k)
+    if ((info[k].name == "zp" || info[k].name == "zs") && problem.variables[k].high <= 0.0) return info[k].name;
+  return {};
+}
+
+/// No start ended well: is there a design within the limits at all? If not, says which limits fight.
+void explain_failure(const Prepared& p, const Round& round, const Settings& s, const Control& control, Result& result) {
+  std::optional<Violation> least;
+  const int count = std::min(start_count(p, s), 8);
   for (int k = 0; k < count && !control.stop.stop_requested(); ++k) {
-    const Run run = least_violation(p, p.coordinates.start(k, s.seed), s.max_evaluations, control.stop);
-    result.evaluations += run.evaluations;
-    if (!best || run.end.constraint_violation < best->constraint_violation) best = run.end;
-    if (best->feasible()) break;
+    Violation v = least_violation(p, p.coordinates.start(k, s.seed), s.max_evaluations, control.stop);
+    result.evaluations += v.evaluations;
+    if (!least || v.end.constraint_violation < least->end.constraint_violation) least = std::move(v);
+    if (least->end.feasible()) break;
   }
-  if (!best || control.stop.stop_requested()) return;
-  if (best->feasible()) {
+  if (!least || control.stop.stop_requested()) return;
+  if (!least->end.feasible()) {
+    result.status = Status::infeasible;
+    result.causes = least->causes;
+    result.reason = "no design satisfies all limits: these are in conflict, by at least " +
+                    format_number(least->end.constraint_violation) +
+                    " in the logarithm of a ratio: " + join(least->causes);
+  } else if (all_singular(round)) {
+    result.status = Status::infeasible;
+    result.reason =
+        "no design with a finite condition number was found within the limits: all that were reached are singular";
+  } else {
     result.reason =
         "feasible designs exist, but no start passed the checks of optimality: raise starts or max_evaluations";
-    return;
   }
-  result.status = Status::infeasible;
-  result.causes = best->active;
-  result.reason = "no design satisfies all limits; at the least violation (" +
-                  format_number(best->constraint_violation) +
-                  " in the logarithm of a ratio) these bind: " + join(best->active);
 }
 
 /// The best design of a round, and whether it has run to a cap of ours.
@@ -161,10 +192,10 @@ bool runs_to_cap(const Prepared& p, const Candidate& best) {
   return false;
 }
 
-/// Unbounded: at every cap the best design runs to it, and every wider cap improves the index.
+/// Unbounded: the best design runs to the last three caps, and each wider one improves the index.
 bool keeps_improving(const std::vector<Leader>& leaders) {
-  if (leaders.size() < caps.size()) return false;
-  for (std::size_t k = 0; k < leaders.size(); ++k) {
+  if (leaders.size() < 3) return false;
+  for (std::size_t k = leaders.size() - 3; k < leaders.size(); ++k) {
     if (!leaders[k].at_cap) return false;
     if (k > 0 && !(leaders[k].best.condition_number < leaders[k - 1].best.condition_number * (1.0 - still_improving)))
       return false;
@@ -178,7 +209,8 @@ std::vector<std::string> growing(const Problem& problem, const std::vector<Leade
   const auto& info = design_family(problem.family).variables();
   for (std::size_t v = 0; v < info.size(); ++v) {
     const auto at = [&](const Leader& l) { return l.best.variables[static_cast<Eigen::Index>(v)]; };
-    bool grows = !info[v].is_angle && problem.variables[v].high >= absurd * problem.characteristic_length;
+    const Bounds& b = problem.variables[v];
+    bool grows = !info[v].is_angle && b.low < b.high && !serious_bound(problem, b.high);
     for (std::size_t k = 1; grows && k < leaders.size(); ++k) grows = at(leaders[k]) > 1.5 * at(leaders[k - 1]);
     if (grows) names.push_back(info[v].name);
   }
@@ -191,7 +223,7 @@ std::string unbounded_reason(const std::vector<Leader>& leaders, const std::vect
     if (l.cap > leaders.front().cap) text += ", ";
     text += format_number(std::round(l.best.condition_number * 1e6) / 1e6) + " at size " + format_number(l.cap);
   }
-  return text + " characteristic lengths)";
+  return text + ")";
 }
 
 }  // namespace
@@ -210,6 +242,11 @@ void Problem::validate() const {
     if (!info[k].is_angle && b.low < 0.0) throw InvalidArgument(info[k].name, text, "a length, low >= 0");
   }
   margins(limits);
+  // A design of ordinary size within the bounds must be a robot: says so where both sides of a plate are held at zero.
+  std::vector<double> ordinary;
+  for (std::size_t k = 0; k < info.size(); ++k)
+    ordinary.push_back(std::clamp(info[k].is_angle ? 0.0 : characteristic_length, variables[k].low, variables[k].high));
+  design_family(family).geometry(ordinary);
 }
 
 void Settings::validate() const {
@@ -220,13 +257,17 @@ void Settings::validate() const {
 Result optimize(const Problem& problem, const Settings& settings, const Control& control) {
   problem.validate();
   settings.validate();
-  const bool open = is_open(problem);
-  const int rounds = open ? static_cast<int>(caps.size()) : 1;
-  Progress progress(control, settings.starts * rounds);
   Result result;
+  if (const std::string flat = flat_height(problem); !flat.empty()) {
+    result.status = Status::infeasible;
+    result.causes = {flat};
+    result.reason = "0 < zs < zp (eq. 9b) leaves no design: " + flat + " is 0";
+    return result;
+  }
+  const std::vector<double> sizes = caps(problem);
+  Progress progress(control, start_count(Prepared(problem, sizes.front()), settings) * static_cast<int>(sizes.size()));
   std::vector<Leader> leaders;
-  for (int k = 0; k < rounds; ++k) {
-    const double cap = open ? caps[static_cast<std::size_t>(k)] : absurd;
+  for (const double cap : sizes) {
     const Prepared p(problem, cap);
     const Round round = run_round(p, settings, control, progress);
     result.evaluations += round.evaluations;
@@ -244,7 +285,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
           "interrupted after " + std::to_string(result.starts_done) + " starts; the best so far is returned";
       return result;
     }
-    if (k + 1 == rounds && result.candidates.empty()) explain_failure(p, settings, control, result);
+    if (cap == sizes.back() && result.candidates.empty()) explain_failure(p, round, settings, control, result);
   }
   if (result.candidates.empty()) return result;
   result.status = Status::optimal;
@@ -260,7 +301,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
 Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation formulation, const Settings& settings) {
   problem.validate();
   settings.validate();
-  const Prepared p(problem, absurd);
+  const Prepared p(problem, caps(problem).back());
   if (start.size() != static_cast<Eigen::Index>(problem.variables.size()) || !start.allFinite())
     throw InvalidArgument("start", std::to_string(start.size()) + " values",
                           std::to_string(problem.variables.size()) + " finite ones, one for each variable");
@@ -277,7 +318,7 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
 Eigen::MatrixXd starts(const Problem& problem, const Settings& settings) {
   problem.validate();
   settings.validate();
-  const Prepared p(problem, is_open(problem) ? caps.back() : absurd);
+  const Prepared p(problem, caps(problem).back());
   Eigen::MatrixXd out(static_cast<Eigen::Index>(problem.variables.size()), settings.starts);
   for (int k = 0; k < settings.starts; ++k) out.col(k) = p.coordinates.variables(p.coordinates.start(k, settings.seed));
   return out;

@@ -7,7 +7,7 @@ namespace ninedof {
 
 /// Coordinates and margins worked out once, shared by all starts.
 struct Prepared {
-  /// `cap`: largest size looked at, in characteristic lengths.
+  /// `cap`: largest size looked at where a variable has no serious upper bound.
   Prepared(const Problem& problem, double cap);
 
   Problem problem;

@@ -9,12 +9,14 @@ from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 
+MOST_THREADS = 4096
+
 
 def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:
     """Return `value` as float64 with the given trailing shape, or raise ValueError naming the argument."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "biuf":
+        if array.dtype.kind not in "biuf" or isinstance(value, np.ma.MaskedArray):
             raise TypeError
         array = array.astype(np.float64)
     except (TypeError, ValueError):
@@ -53,6 +55,6 @@ def thread_argument(threads: Any) -> int:
     """Turn `threads` (None for one a processor) into the core's integer."""
     if threads is None:
         return 0
-    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or threads < 1:
-        raise ValueError(f"threads: got {threads!r}, expected None or a whole number >= 1")
+    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or not 1 <= threads <= MOST_THREADS:
+        raise ValueError(f"threads: got {threads!r}, expected None or a whole number from 1 to {MOST_THREADS}")
     return int(threads)

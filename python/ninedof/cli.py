@@ -19,8 +19,6 @@ app = typer.Typer(
     epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem.",
 )
 
-DONE, BAD_INPUT, NO_RESULT, INTERRUPTED = 0, 2, 3, 130
-
 Json = Annotated[
     bool, typer.Option("--json", help="Print the result as JSON on standard output, words on standard error.")
 ]
@@ -119,10 +117,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         app(given, prog_name="ninedof")
     except ValueError as error:
         typer.echo(f"ninedof: {error}", err=True)
-        raise SystemExit(BAD_INPUT) from None
+        raise SystemExit(2) from None
     except BrokenPipeError:  # the reader went away, `ninedof paper | head`
         sys.stderr.close()
-        raise SystemExit(DONE) from None
+        raise SystemExit(0) from None
     except KeyboardInterrupt:
         typer.echo("ninedof: interrupted", err=True)
-        raise SystemExit(INTERRUPTED) from None
+        raise SystemExit(130) from None

@@ -14,12 +14,13 @@ from rich.table import Table
 
 from ninedof import job
 from ninedof import paper as the_paper
-from ninedof.cli import DONE, INTERRUPTED, NO_RESULT
 from ninedof.designs import Design, hexagonal_design, indices, load_design
 from ninedof.optimize import Result, Status
 from ninedof.optimize import optimize as solve
 from ninedof.records import describe_result, to_json
 from ninedof.study import Study
+
+DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, bad input, is the command line's
 
 
 def exit_status(result: Result) -> int:

@@ -115,12 +115,12 @@ def condition_number(
     --------
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> round(nd.condition_number(g, nd.Configuration.neutral(3.9828, 2.3745)), 4)
+    >>> float(nd.condition_number(g, nd.Configuration.neutral(3.9828, 2.3745)).round(4))
     3.911
 
     """
     functions = {"2": _core.condition_number_two, "frobenius": _core.condition_number_frobenius}
-    if norm not in functions:
+    if not isinstance(norm, str) or norm not in functions:
         raise ValueError(f'norm: got {norm!r}, expected "2" or "frobenius"')
     return _index(functions[norm], geometry, configuration, characteristic_length, threads, out)
 

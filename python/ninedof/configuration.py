@@ -80,8 +80,16 @@ class Configuration:
                 "theta_z": (as_floats("theta_z", theta_z, ()), 0),
             }
         )
-        p, q, s = _core.neutral(*(a.reshape(-1) for a in arrays))
-        return cls(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
+        flat_zp, flat_zs, flat_theta_z = (a.reshape(-1) for a in arrays)
+        p, q, s = _core.neutral(flat_zp, flat_zs, flat_theta_z, bool(shape))
+        return cls._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
+
+    @classmethod
+    def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Configuration:
+        """Take arrays that have been checked before."""
+        new = cls.__new__(cls)
+        new._position, new._rotation, new._internal_point = map(frozen, (position, rotation, internal_point))
+        return new
 
     def moved(self, tangent: ArrayLike) -> Configuration:
         """Return the configuration displaced along a tangent, Q becoming exp(omega) Q.
@@ -132,11 +140,12 @@ class Configuration:
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
-        picked = Configuration.__new__(Configuration)
-        picked._position = frozen(self._position.reshape(-1, 3)[picks])
-        picked._rotation = frozen(self._rotation.reshape(-1, 3, 3)[picks])
-        picked._internal_point = frozen(self._internal_point.reshape(-1, 3)[picks])
-        return picked
+        p, q, s = self._arrays()
+        return self._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
+
+    def __bool__(self) -> bool:
+        """Be true, as objects are; the length of a stack does not matter."""
+        return True
 
     def __eq__(self, other: object) -> bool:
         """Compare numbers and shape."""
@@ -156,7 +165,7 @@ class Configuration:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the three arrays."""
-        return Configuration, self._arrays()
+        return Configuration._of, self._arrays()
 
     def _arrays(self) -> tuple[Floats, Floats, Floats]:
         return self._position, self._rotation, self._internal_point

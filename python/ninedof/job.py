@@ -28,7 +28,7 @@ Say = Callable[[str], object]
 Named = tuple[str, Geometry, Configuration, float]
 """A design to draw: name, geometry, configuration, condition number."""
 
-TRACED_STARTS = 48  # runs shown in the convergence figure
+TRACED_STARTS = 200  # runs shown in the convergence figure
 
 
 def check_out(out: Path | None) -> None:
@@ -151,6 +151,7 @@ def _curves(
     heights = np.linspace(0.02, 0.98, 385) * zp
     twists = theta_z + np.radians(np.linspace(-60.0, 60.0, 361))
     around = np.asarray(condition_number(g, Configuration.neutral(zp, zs, theta_z + np.array([-1e-6, 1e-6]))))
+    compared = level is not None
     return DesignCurves(
         name=name,
         zs=heights,
@@ -158,16 +159,17 @@ def _curves(
         theta_z=twists,
         along_theta_z=condition_number(g, Configuration.neutral(zp, zs, twists)),
         point=(zs, theta_z, kappa),
-        slope=float(np.diff(around)[0] / 2e-6) if level is not None else None,
+        slope=float(np.diff(around)[0] / 2e-6) if compared else None,
         level=level,
         crossings=crossings,
+        least=(zs, kappa) if compared else None,
     )
 
 
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
-    """Follow single runs from the starts of the optimization; none where no variable is free."""
+    """Follow single runs from low-discrepancy starts; none where no variable is free."""
     study = result.study
     if not any(isinstance(bound, tuple) for bound in study.variables.values()):
         return []
-    rows = study.problem().starts(min(study.starts, TRACED_STARTS), study.seed)
+    rows = study.problem().starts(TRACED_STARTS, study.seed)
     return [trace(study, dict(zip(study.variables, x.tolist(), strict=True)), formulation).best for x in rows]

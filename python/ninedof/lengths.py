@@ -14,6 +14,8 @@ from ninedof.geometry import Geometry
 
 __all__ = ["characteristic_length"]
 
+KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
+
 
 def characteristic_length(geometry: Geometry, configuration: Configuration, kind: str = "optimal") -> Any:
     """Return the length that makes the Jacobian homogeneous, chosen from the robot itself.
@@ -36,6 +38,8 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
         In the length unit of the input. "optimal" and "natural" are NaN at a singular configuration.
 
     """
+    if not isinstance(kind, str):
+        raise ValueError(f"kind: got {kind!r}, expected one of {', '.join(KINDS)}")
     flat = _core.characteristic_length(*operands(geometry, configuration), kind, 0)
     return flat.reshape(configuration.shape)[()]
 
@@ -44,7 +48,9 @@ def resolve_length(geometry: Geometry, configuration: Configuration, length: Arr
     """Return a characteristic length as a flat array of one value, or of one for each configuration."""
     operands(geometry, configuration)
     if isinstance(length, str):
-        return np.reshape(characteristic_length(geometry, configuration, length), -1)
+        found = np.reshape(characteristic_length(geometry, configuration, length), -1)
+        # No length helps a singular pose, and none is known for a missing one: any will show them as such.
+        return np.where(np.isnan(found), 1.0, found)
     value = as_floats("characteristic_length", length, ())
     if value.size == 1:
         return value.reshape(-1)

@@ -157,6 +157,8 @@ def optimize(
     """
     if not isinstance(study, Study):
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
     if starts is not None or seed is not None:
         study = Study(
             family=study.family,
@@ -204,6 +206,10 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
         meet.
 
     """
+    if not isinstance(study, Study):
+        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if formulation not in ("minimax", "plain"):
+        raise ValueError(f'formulation: got {formulation!r}, expected "minimax" or "plain"')
     problem = study.problem()
     best, end = _core.trace(problem, study.vector(start), formulation)
     return Trace(tuple(best), _candidate(study, problem, end))

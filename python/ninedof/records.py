@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof import _core
+from ninedof import __version__
 from ninedof.optimize import Candidate, Result
 from ninedof.study import Study
 
@@ -40,7 +40,7 @@ class Record:
 def versions() -> dict[str, str]:
     """Return the versions a result depends on."""
     return {
-        "ninedof": _core.version,
+        "ninedof": __version__,
         "python": platform.python_version(),
         "numpy": np.__version__,
         "machine": platform.machine(),

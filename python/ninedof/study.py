@@ -20,6 +20,8 @@ from ninedof.geometry import Geometry
 
 __all__ = ["DesignPoint", "Study"]
 
+LARGEST = 500.0  # of a logarithm of a condition number; beyond, a singular value has vanished
+
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 
@@ -33,7 +35,7 @@ class DesignPoint:
     condition_number: float
     """Of J' at the neutral configuration; infinite where it is singular."""
     gradient: dict[str, float]
-    """d(condition number)/d(variable). Where singular values tie, that of one of them."""
+    """d(condition number)/d(variable); NaN where singular. Where singular values tie, that of one of them."""
     margins: dict[str, float]
     """Smallest margin of each constraint: the logarithm of the ratio left, negative where violated."""
     margin_gradients: dict[str, dict[str, float]]
@@ -101,8 +103,8 @@ class Study:
             "variables": variables,
             "constraints": constraints,
             "characteristic_length": length,
-            "starts": _whole("starts", self.starts, 1),
-            "seed": _whole("seed", self.seed, 0),
+            "starts": _whole("starts", self.starts, 1, 2**31 - 1),
+            "seed": _whole("seed", self.seed, 0, 2**63 - 1),
         }.items():
             object.__setattr__(self, name, value)
         self.problem()
@@ -130,6 +132,8 @@ class Study:
             raise ValueError(f"{os.fspath(path)}: cannot be read ({reason})") from None
         except tomllib.TOMLDecodeError as error:
             raise ValueError(f"{os.fspath(path)}: not a TOML file: {error}") from None
+        except RecursionError:
+            raise ValueError(f"{os.fspath(path)}: not a TOML file we can read: nested too deep") from None
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from None
 
@@ -192,15 +196,17 @@ class Study:
         names = list(self.variables)
         values = dict(zip(names, x, strict=True))
         core = problem.evaluate(x)
-        kappa = math.exp(core["log_condition_number"]) if core["log_condition_number"] < 690.0 else math.inf
+        regular = core["log_condition_number"] < LARGEST
+        kappa = math.exp(core["log_condition_number"]) if regular else math.inf
+        slope = kappa * core["gradient"] if regular else np.full(len(names), np.nan)
         margins: dict[str, tuple[float, Floats]] = {}
-        for name, value, slope in core["margins"]:
+        for name, value, margin_slope in core["margins"]:
             if name not in margins or value < margins[name][0]:
-                margins[name] = (value, slope)
+                margins[name] = (value, margin_slope)
         return DesignPoint(
             variables=values,
             condition_number=kappa,
-            gradient=dict(zip(names, (kappa * core["gradient"]).tolist(), strict=True)),
+            gradient=dict(zip(names, slope.tolist(), strict=True)),
             margins={name: value for name, (value, _) in margins.items()},
             margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, (_, s) in margins.items()},
             geometry=problem.geometry(x),
@@ -223,9 +229,11 @@ class Study:
 
 def _known_keys(where: str, given: Mapping[str, Any], known: Iterable[str]) -> None:
     known = list(known)
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{where}: got {given!r}, expected a mapping of names")
     for key in given:
         if key not in known:
-            close = difflib.get_close_matches(str(key), known, n=1)
+            close = difflib.get_close_matches(str(key).lower(), known, n=1, cutoff=0.5)
             hint = f" (did you mean {close[0]!r}?)" if close else ""
             raise ValueError(f"{where}: got the entry {key!r}, expected only {', '.join(known)}{hint}")
 
@@ -239,7 +247,10 @@ def _table(name: str, value: Any) -> Mapping[str, Any]:
 def _number(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
         raise ValueError(f"{name}: got {value!r}, expected a number")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name}: got {str(value)[:20]}..., expected a number of ordinary size") from None
 
 
 def _finite(name: str, value: Any) -> float:
@@ -249,14 +260,14 @@ def _finite(name: str, value: Any) -> float:
     return number
 
 
-def _whole(name: str, value: Any, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value < 2**63:
-        raise ValueError(f"{name}: got {value!r}, expected a whole number >= {least}")
+def _whole(name: str, value: Any, least: int, most: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
+        raise ValueError(f"{name}: got {value!r}, expected a whole number from {least} to {most}")
     return int(value)
 
 
 def _pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
-    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != 2:
+    if not isinstance(value, list | tuple | np.ndarray) or np.ndim(value) != 1 or len(value) != 2:
         raise ValueError(f"{name}: got {value!r}, expected {expected}")
     low, high = value
     return low, high

@@ -10,11 +10,23 @@ namespace ninedof {
 
 template <int N>
 struct Dual {
-  double value = 0.0;
-  std::array<double, N> gradient{};
+  /// The gradient is filled up with zeros to whole 16-byte vectors: loops over it have no remainder to do one by one.
+  static constexpr std::size_t padded = (N + 1) / 2 * 2;
 
-  Dual() = default;
-  Dual(double constant) : value(constant) {}  // NOLINT: constants mix freely with duals in formulas
+  alignas(16) std::array<double, padded> gradient;
+  double value;
+
+  Dual() : Dual(0.0) {}
+  Dual(double constant) : gradient{}, value(constant) {}  // NOLINT: constants mix freely with duals in formulas
+
+  /// The chain rule: `v` with gradient a dx. The gradient is written once, not cleared first.
+  Dual(double v, double a, const Dual& x) : value(v) {
+    for (std::size_t k = 0; k < padded; ++k) gradient[k] = a * x.gradient[k];
+  }
+  /// `v` with gradient a dx + b dy
+  Dual(double v, double a, const Dual& x, double b, const Dual& y) : value(v) {
+    for (std::size_t k = 0; k < padded; ++k) gradient[k] = a * x.gradient[k] + b * y.gradient[k];
+  }
 
   /// The independent variable number `index`.
   static Dual variable(double value, int index) {
@@ -24,54 +36,32 @@ struct Dual {
   }
 };
 
-namespace detail {
-
-/// value with gradient a * da
-template <int N>
-Dual<N> chain(double value, double a, const Dual<N>& x) {
-  Dual<N> out;
-  out.value = value;
-  for (std::size_t k = 0; k < N; ++k) out.gradient[k] = a * x.gradient[k];
-  return out;
-}
-
-/// value with gradient a * dx + b * dy
-template <int N>
-Dual<N> chain(double value, double a, const Dual<N>& x, double b, const Dual<N>& y) {
-  Dual<N> out;
-  out.value = value;
-  for (std::size_t k = 0; k < N; ++k) out.gradient[k] = a * x.gradient[k] + b * y.gradient[k];
-  return out;
-}
-
-}  // namespace detail
-
 template <int N>
 Dual<N> operator+(const Dual<N>& a, const Dual<N>& b) {
-  return detail::chain(a.value + b.value, 1.0, a, 1.0, b);
+  return {a.value + b.value, 1.0, a, 1.0, b};
 }
 template <int N>
 Dual<N> operator-(const Dual<N>& a, const Dual<N>& b) {
-  return detail::chain(a.value - b.value, 1.0, a, -1.0, b);
+  return {a.value - b.value, 1.0, a, -1.0, b};
 }
 template <int N>
 Dual<N> operator*(const Dual<N>& a, const Dual<N>& b) {
-  return detail::chain(a.value * b.value, b.value, a, a.value, b);
+  return {a.value * b.value, b.value, a, a.value, b};
 }
 template <int N>
 Dual<N> operator/(const Dual<N>& a, const Dual<N>& b) {
   const double inverse = 1.0 / b.value;
   const double quotient = a.value * inverse;
-  return detail::chain(quotient, inverse, a, -quotient * inverse, b);
+  return {quotient, inverse, a, -quotient * inverse, b};
 }
 template <int N>
 Dual<N> operator-(const Dual<N>& a) {
-  return detail::chain(-a.value, -1.0, a);
+  return {-a.value, -1.0, a};
 }
 
 template <int N>
 Dual<N> operator+(const Dual<N>& a, double b) {
-  return detail::chain(a.value + b, 1.0, a);
+  return {a.value + b, 1.0, a};
 }
 template <int N>
 Dual<N> operator+(double a, const Dual<N>& b) {
@@ -79,15 +69,15 @@ Dual<N> operator+(double a, const Dual<N>& b) {
 }
 template <int N>
 Dual<N> operator-(const Dual<N>& a, double b) {
-  return detail::chain(a.value - b, 1.0, a);
+  return {a.value - b, 1.0, a};
 }
 template <int N>
 Dual<N> operator-(double a, const Dual<N>& b) {
-  return detail::chain(a - b.value, -1.0, b);
+  return {a - b.value, -1.0, b};
 }
 template <int N>
 Dual<N> operator*(const Dual<N>& a, double b) {
-  return detail::chain(a.value * b, b, a);
+  return {a.value * b, b, a};
 }
 template <int N>
 Dual<N> operator*(double a, const Dual<N>& b) {
@@ -96,30 +86,39 @@ Dual<N> operator*(double a, const Dual<N>& b) {
 template <int N>
 Dual<N> operator/(double a, const Dual<N>& b) {
   const double quotient = a / b.value;
-  return detail::chain(quotient, -quotient / b.value, b);
+  return {quotient, -quotient / b.value, b};
 }
 
 /// At zero, where the slope is infinite, the derivative is given as 0: such points are kinks or singular designs.
 template <int N>
 Dual<N> sqrt(const Dual<N>& x) {
   const double root = std::sqrt(x.value);
-  return detail::chain(root, root > 0.0 ? 0.5 / root : 0.0, x);
+  return {root, root > 0.0 ? 0.5 / root : 0.0, x};
 }
 template <int N>
 Dual<N> log(const Dual<N>& x) {
-  return detail::chain(std::log(x.value), 1.0 / x.value, x);
+  return {std::log(x.value), 1.0 / x.value, x};
 }
 template <int N>
 Dual<N> sin(const Dual<N>& x) {
-  return detail::chain(std::sin(x.value), std::cos(x.value), x);
+  return {std::sin(x.value), std::cos(x.value), x};
 }
 template <int N>
 Dual<N> cos(const Dual<N>& x) {
-  return detail::chain(std::cos(x.value), -std::sin(x.value), x);
+  return {std::cos(x.value), -std::sin(x.value), x};
 }
 template <int N>
 Dual<N> abs(const Dual<N>& x) {
   return x.value < 0.0 ? -x : x;
+}
+
+/// x * x, with one product for each partial derivative where the operator takes two.
+inline double square(double x) {
+  return x * x;
+}
+template <int N>
+Dual<N> square(const Dual<N>& x) {
+  return {x.value * x.value, 2.0 * x.value, x};
 }
 
 /// The plain value of a number of either type.

@@ -40,11 +40,6 @@ struct AxisSpectrum {
 namespace detail {
 
 template <class T>
-T square(const T& x) {
-  return x * x;
-}
-
-template <class T>
 struct Pair {
   T max, min;
 };
@@ -58,12 +53,13 @@ Pair<T> triangular_block(const T& g, const T& f_squared, const T& w, double scal
   return {scale * 0.5 * sum, scale * 2.0 * (g * w) / sum};
 }
 
-/// a b / hypot(a, b) for a, b >= 0: what is left of a unit of leg speed shared by an upper and a lower internal leg.
+/// What is left of a unit of leg speed along a direction shared by an upper and a lower internal leg of lengths q and r whose
+/// components in it are a, b >= 0: (a/q) (b/r) / hypot(a/q, b/r), written with one division.
 template <class T>
-T shared(const T& a, const T& b) {
+T shared(const T& a, const T& q, const T& b, const T& r) {
   using std::sqrt;
-  const T norm = sqrt(square(a) + square(b));
-  return value_of(norm) == 0.0 ? norm : a * b / norm;
+  const T n = sqrt(square(a * r) + square(b * q));
+  return value_of(n) == 0.0 ? n : a * b / n;
 }
 
 }  // namespace detail
@@ -72,7 +68,6 @@ T shared(const T& a, const T& b) {
 template <class T>
 AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_length) {
   using detail::shared;
-  using detail::square;
   using std::abs;
   using std::sqrt;
   const double inverse_lc = 1.0 / characteristic_length;
@@ -97,9 +92,8 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_leng
   const T lower_radius2 = square(d.base_internal.x) + square(d.base_internal.y);
   const T q = sqrt(upper_radius2 + square(upper_z));
   const T r = sqrt(lower_radius2 + square(lower_z));
-  const T inverse_q = 1.0 / q, inverse_r = 1.0 / r;
 
-  const T axial_w = shared(abs(upper_z) * inverse_q, abs(lower_z) * inverse_r);
+  const T axial_w = shared(abs(upper_z), q, abs(lower_z), r);
   const detail::Pair<T> axial = detail::triangular_block(abs(mz), square(ez), axial_w, std::sqrt(3.0));
 
   const T eta = rho * inverse_lc;
@@ -107,7 +101,7 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_leng
   const T stretch = sqrt(stretch2);
   const T g = sqrt(square(mx + eta * ey) + square(my - eta * ex)) / stretch;
   const T f_squared = (square(ex + eta * my) + square(ey - eta * mx)) / stretch2;
-  const T w = shared(sqrt(upper_radius2) * inverse_q, sqrt(lower_radius2) * inverse_r) * stretch;
+  const T w = shared(sqrt(upper_radius2), q, sqrt(lower_radius2), r) * stretch;
   const detail::Pair<T> transverse = detail::triangular_block(g, f_squared, w, std::sqrt(1.5));
 
   return {axial.max, axial.min, transverse.max, transverse.min, l, q, r};
