@@ -41,7 +41,8 @@ std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
     return p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].name;
   };
   for (const int k : a.at_low) add_once(out, variable(k));
-  for (const int k : a.at_high) add_once(out, variable(k));
+  for (const int k : a.at_high)
+    if (!p.coordinates.capped(k)) add_once(out, variable(k));  // a cap of ours is no bound of the study
   for (const int k : a.margins) add_once(out, p.margins[static_cast<std::size_t>(k)].name);
   if (a.order) add_once(out, "zp > zs");
   return out;

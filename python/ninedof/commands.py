@@ -188,9 +188,7 @@ def comparison_words(c: the_paper.Comparison) -> str:
 def result_table(result: Result) -> Table:
     """Lay the candidates of a study side by side, best first."""
     shown = result.candidates[:4]
-    table = Table(
-        title=f"{len(result.candidates)} distinct local optima, {result.starts_done} starts", title_justify="left"
-    )
+    table = Table(title=f"{_count(len(result.candidates))}, {result.starts_done} starts", title_justify="left")
     table.add_column("")
     for k in range(len(shown)):
         table.add_column("best" if k == 0 else f"no. {k + 1}", justify="right")
@@ -203,6 +201,10 @@ def result_table(result: Result) -> Table:
     table.add_row("stationarity", *(f"{c.optimality_residual:.1e}" for c in shown))
     table.add_row("violation", *(f"{c.constraint_violation:.1e}" for c in shown))
     return table
+
+
+def _count(optima: int) -> str:
+    return "1 local optimum" if optima == 1 else f"{optima} distinct local optima"
 
 
 def evaluate(
