@@ -11,6 +11,7 @@ namespace {
 constexpr double tie = 1e-6;            // of log singular values that count as equal
 constexpr double bound_contact = 1e-7;  // of a coordinate that counts as on its bound
 constexpr double limit_contact = 1e-6;  // of a margin that counts as zero
+constexpr double order_contact = 1e-9;  // of the logarithm of zp / zs; large robots come close to 0
 
 void add_once(std::vector<std::string>& list, const std::string& name) {
   if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
@@ -31,7 +32,7 @@ ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y)
     if (y[k] - c.low()[k] <= bound_contact) a.at_low.push_back(k);
     if (c.high()[k] - y[k] <= bound_contact) a.at_high.push_back(k);
   }
-  a.order = c.order_margin(y) <= limit_contact;
+  a.order = c.order_margin(y) <= order_contact;
   return a;
 }
 
@@ -40,9 +41,11 @@ std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
   const auto variable = [&](int k) {
     return p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].name;
   };
-  for (const int k : a.at_low) add_once(out, variable(k));
+  // A cap of ours is no bound of the study.
+  for (const int k : a.at_low)
+    if (!p.coordinates.capped_low(k)) add_once(out, variable(k));
   for (const int k : a.at_high)
-    if (!p.coordinates.capped(k)) add_once(out, variable(k));  // a cap of ours is no bound of the study
+    if (!p.coordinates.capped_high(k)) add_once(out, variable(k));
   for (const int k : a.margins) add_once(out, p.margins[static_cast<std::size_t>(k)].name);
   if (a.order) add_once(out, "zp > zs");
   return out;

@@ -8,7 +8,7 @@ namespace ninedof {
 namespace {
 
 /// Least difference of zp and zs in solver coordinates: below it the upper internal legs lie in the platform plane.
-constexpr double order_gap = 1e-6;
+constexpr double order_gap = 1e-10;
 
 /// An angle without bounds goes once round, and a little more so that no optimum sits on a bound of ours.
 constexpr double turn = 1.25 * std::numbers::pi;
@@ -63,15 +63,16 @@ Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_f
   for (std::size_t i = 0; i < info.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const Bounds& b = problem.variables[i];
-    const bool capped = !info[i].is_angle && b.low < b.high && !serious_bound(problem, b.high);
-    x_low_[k] = b.low;
-    x_high_[k] = capped ? cap : b.high;
-    if (info[i].is_angle && !std::isfinite(b.low)) x_low_[k] = std::isfinite(b.high) ? b.high - 2.0 * turn : -turn;
-    if (info[i].is_angle && !std::isfinite(b.high)) x_high_[k] = x_low_[k] + 2.0 * turn;
+    const bool angle = info[i].is_angle, free = b.low < b.high;
+    const bool cap_low = angle && free && !std::isfinite(b.low);
+    const bool cap_high = free && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high));
+    x_low_[k] = !cap_low ? b.low : cap_high ? -turn : b.high - 2.0 * turn;
+    x_high_[k] = !cap_high ? b.high : angle ? x_low_[k] + 2.0 * turn : cap;
     fixed_[k] = x_low_[k];
-    if (b.low == b.high) continue;
+    if (!free) continue;
     free_.push_back(static_cast<int>(i));
-    capped_.push_back(capped);
+    capped_low_.push_back(cap_low);
+    capped_high_.push_back(cap_high);
   }
   low_.resize(size());
   high_.resize(size());

@@ -26,8 +26,9 @@ class Coordinates {
 
   /// Family variable behind free coordinate `k`.
   int variable(int k) const { return free_[static_cast<std::size_t>(k)]; }
-  /// Whether the cap, not the study, limits free coordinate `k` from above.
-  bool capped(int k) const { return capped_[static_cast<std::size_t>(k)]; }
+  /// Whether a cap of ours, and no bound of the study, limits free coordinate `k` from below, from above.
+  bool capped_low(int k) const { return capped_low_[static_cast<std::size_t>(k)]; }
+  bool capped_high(int k) const { return capped_high_[static_cast<std::size_t>(k)]; }
 
   /// All family variables, bounds met exactly.
   Eigen::VectorXd variables(const Eigen::VectorXd& y) const;
@@ -56,7 +57,7 @@ class Coordinates {
   Eigen::VectorXd fixed_;  // all variables; free ones are overwritten
   Eigen::VectorXd x_low_, x_high_;
   std::vector<int> free_;
-  std::vector<bool> capped_;
+  std::vector<bool> capped_low_, capped_high_;
   Eigen::VectorXd low_, high_;
   int zp_, zs_;            // free coordinate, or -1 where fixed
   double y_zp_, y_zs_;     // of the fixed ones

@@ -116,7 +116,7 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     ++run.evaluations;
     minimax ? fill_minimax(p, l, at, out) : fill_plain(p, l, at, out);
     const double violated = violation(p, l, at.head(n));
-    if (violated <= 1e-9 && l.log_max() - l.log_min() < seen_log_kappa) {
+    if (violated <= clearly_allowed && l.log_max() - l.log_min() < seen_log_kappa) {
       seen = at.head(n);
       seen_log_kappa = l.log_max() - l.log_min();
     }

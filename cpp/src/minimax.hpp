@@ -10,6 +10,10 @@ namespace ninedof {
 /// Condition number, violation, stationarity and active names at a point, from the design's own quantities.
 Candidate judge(const Prepared& p, const Eigen::VectorXd& y);
 
+/// Violation up to which a design on the way counts as allowed: well inside what Candidate::feasible grants, so that the
+/// little it gains in the index is rounding.
+constexpr double clearly_allowed = 1e-9;
+
 struct Run {
   Candidate end;
   long evaluations = 0;

@@ -12,10 +12,11 @@
 namespace ninedof {
 namespace {
 
-/// Variables without a serious upper bound are let run to these multiples of the study's own size, one round each.
-constexpr std::array<double, 4> stretches{1e2, 1e3, 1e4, 1e5};
-/// Relative gain from one cap to the next that counts as still improving.
-constexpr double still_improving = 1e-7;
+/// Variables without a serious upper bound are let run to these sizes, one round each: far beyond all that is bounded, and
+/// not so far that rounding in zp - zs blurs the index.
+constexpr std::array<double, 3> stretches{1.0, 10.0, 100.0};
+/// Relative gain over the caps that counts as still improving, and a loss that is rounding.
+constexpr double still_improving = 1e-7, rounding = 1e-8;
 /// A condition number beyond this is rounding away from a singular design.
 constexpr double worst_regular = 1e14;
 
@@ -32,7 +33,8 @@ std::vector<double> caps(const Problem& p) {
     size = std::max(size, serious ? b.high : b.low);
   }
   std::vector<double> out;
-  for (const double stretch : stretches) out.push_back(stretch * size);
+  const double first = std::max(10.0 * size, 100.0 * p.characteristic_length);
+  for (const double stretch : stretches) out.push_back(stretch * first);
   if (!open) out.resize(1);
   return out;
 }
@@ -102,12 +104,26 @@ bool stands_for(const Candidate& a, const Candidate& b) {
   return a.optimality_residual < b.optimality_residual;
 }
 
+/// Whether a run has ended where we cut an angle without bounds: no optimum of the study.
+bool at_cut_angle(const Prepared& p, const Candidate& c) {
+  const Eigen::VectorXd y = p.coordinates.coordinates(c.variables);
+  for (int k = 0; k < p.coordinates.size(); ++k) {
+    if (!p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].is_angle) continue;
+    if (p.coordinates.capped_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
+    if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
+  }
+  return false;
+}
+
+bool acceptable(const Prepared& p, const Candidate& c) {
+  return c.feasible() && c.stationary() && c.condition_number < worst_regular && !at_cut_angle(p, c);
+}
+
 /// Distinct acceptable ends, best first.
 std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
   std::vector<Candidate> ends;
   for (const auto& run : round.runs)
-    if (run && run->end.feasible() && run->end.stationary() && run->end.condition_number < worst_regular)
-      ends.push_back(run->end);
+    if (run && acceptable(p, run->end)) ends.push_back(run->end);
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Candidate& a, const Candidate& b) { return a.condition_number < b.condition_number; });
   std::vector<Candidate> out;
@@ -188,19 +204,20 @@ struct Leader {
 bool runs_to_cap(const Prepared& p, const Candidate& best) {
   const Eigen::VectorXd y = p.coordinates.coordinates(best.variables);
   for (int k = 0; k < p.coordinates.size(); ++k)
-    if (p.coordinates.capped(k) && p.coordinates.high()[k] - y[k] < 1e-3) return true;
+    if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-3) return true;
   return false;
 }
 
-/// Unbounded: the best design runs to the last three caps, and each wider one improves the index.
+/// Unbounded: the best design runs to every cap, none is worse than the one before, and together they improve the index.
+/// (A variable of no use to the index may run to a cap by chance.)
 bool keeps_improving(const std::vector<Leader>& leaders) {
-  if (leaders.size() < 3) return false;
-  for (std::size_t k = leaders.size() - 3; k < leaders.size(); ++k) {
+  if (leaders.size() < stretches.size()) return false;
+  for (std::size_t k = 0; k < leaders.size(); ++k) {
     if (!leaders[k].at_cap) return false;
-    if (k > 0 && !(leaders[k].best.condition_number < leaders[k - 1].best.condition_number * (1.0 - still_improving)))
+    if (k > 0 && leaders[k].best.condition_number > leaders[k - 1].best.condition_number * (1.0 + rounding))
       return false;
   }
-  return true;
+  return leaders.back().best.condition_number < leaders.front().best.condition_number * (1.0 - still_improving);
 }
 
 /// Variables without a serious bound that grow from cap to cap.
@@ -308,7 +325,7 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
   Trace out;
   const auto observe = [&](const DesignPoint& point, double violation) {
     const double last = out.best.empty() ? std::numeric_limits<double>::infinity() : out.best.back();
-    const double now = violation <= 1e-8 ? std::exp(point.log_condition_number()) : last;
+    const double now = violation <= clearly_allowed ? std::exp(point.log_condition_number()) : last;
     out.best.push_back(std::min(last, now));
   };
   out.end = minimise(p, p.coordinates.coordinates(start), formulation, settings.max_evaluations, {}, observe).end;

@@ -15,9 +15,7 @@ class AxisFamily : public DesignFamily {
  public:
   void evaluate(std::span<const double> x, double characteristic_length, DesignPoint& out) const override {
     using T = Dual<N>;
-    std::array<T, N> v;
-    for (int k = 0; k < N; ++k) v[index(k)] = T::variable(x[index(k)], k);
-    const AxisDesign<T> d = static_cast<const Derived&>(*this).axis_design(v);
+    const AxisDesign<T> d = static_cast<const Derived&>(*this).axis_design(T::variables(x.first<N>()));
     const AxisSpectrum<T> s = axis_spectrum(d, characteristic_length);
     const T base = larger(radius(d.base_external), radius(d.base_internal));
     const T platform = larger(radius(d.platform_external), radius(d.platform_internal));
@@ -41,8 +39,10 @@ class AxisFamily : public DesignFamily {
   }
   static void set_log(const Dual<N>& x, int row, DesignPoint& out) {
     constexpr double tiny = 1e-300;
-    const bool gone = !(x.value > tiny);
-    out.value[row] = std::log(gone ? tiny : x.value);
+    const bool gone = !(x.value > tiny);  // NaN included: a leg of zero length
+    // Where even a largest singular value is gone the design must still look singular, not isotropic.
+    const bool largest = row == log_axial_max || row == log_transverse_max;
+    out.value[row] = std::log(!gone ? x.value : largest ? 1.0 : tiny);
     for (int k = 0; k < N; ++k) out.gradient(row, k) = gone ? 0.0 : x.gradient[index(k)] / x.value;
   }
 };

@@ -70,7 +70,8 @@ class DesignFamily {
   virtual Geometry geometry(std::span<const double> x) const = 0;
   virtual Configuration configuration(std::span<const double> x) const = 0;
 
-  /// Quantities and gradients. A vanishing quantity is given as 1e-300 with zero gradient, so that logs stay finite.
+  /// Quantities and gradients. A vanishing quantity is given as 1e-300 with zero gradient, so that logs stay finite; a largest
+  /// singular value as 1, so that the design has an enormous condition number and not none.
   virtual void evaluate(std::span<const double> x, double characteristic_length, DesignPoint& out) const = 0;
 };
 

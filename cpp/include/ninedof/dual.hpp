@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace ninedof {
 
@@ -33,6 +35,17 @@ struct Dual {
     Dual x(value);
     x.gradient[static_cast<std::size_t>(index)] = 1.0;
     return x;
+  }
+
+  /// The N independent variables at `x`, written where they are used: copying one just made would stall the processor, which
+  /// cannot forward two narrow stores to one wide load.
+  static std::array<Dual, N> variables(std::span<const double, N> x) {
+    std::array<Dual, N> out;
+    for (std::size_t i = 0; i < N; ++i) {
+      out[i].value = x[i];
+      for (std::size_t k = 0; k < padded; ++k) out[i].gradient[k] = k == i ? 1.0 : 0.0;
+    }
+    return out;
   }
 };
 

@@ -1,0 +1,151 @@
+/// Hot calls do not allocate. Counted where all of it passes: in malloc, which this file replaces in the test executable
+/// (operator new and Eigen's aligned arrays end there). Under a sanitizer malloc is the sanitizer's own, to be replaced by
+/// nobody, and off glibc there is no other allocator to hand on to: there these tests are skipped and say so.
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <vector>
+
+#include "ninedof/conditioning.hpp"
+#include "ninedof/hexagonal_family.hpp"
+#include "ninedof/legs.hpp"
+#include "ninedof/svd6.hpp"
+#include "ninedof/symmetric.hpp"
+#include "ninedof/velocity.hpp"
+#include "support.hpp"
+
+using namespace ninedof;
+using namespace support;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define NINEDOF_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define NINEDOF_SANITIZED
+#endif
+#endif
+
+#if defined(__GLIBC__) && !defined(NINEDOF_SANITIZED)
+#define NINEDOF_COUNTS true
+namespace {
+std::atomic<long> allocations = 0;
+}
+extern "C" {
+void* __libc_malloc(std::size_t);  // NOLINT: glibc's names
+void* __libc_calloc(std::size_t, std::size_t);  // NOLINT
+void* __libc_realloc(void*, std::size_t);  // NOLINT
+void* __libc_memalign(std::size_t, std::size_t);  // NOLINT
+[[gnu::visibility("default")]] void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+[[gnu::visibility("default")]] void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+[[gnu::visibility("default")]] void* realloc(void* old, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+[[gnu::visibility("default")]] void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+[[gnu::visibility("default")]] int posix_memalign(void** out, std::size_t alignment, std::size_t size) noexcept {
+  ++allocations;
+  *out = __libc_memalign(alignment, size);
+  return *out == nullptr ? 12 : 0;  // ENOMEM
+}
+}
+#else
+#define NINEDOF_COUNTS false
+namespace {
+const long allocations = 0;
+}
+#endif
+
+namespace {
+
+/// Allocations made by ten calls.
+long allocations_of(const std::invocable auto& call) {
+  const long before = allocations;
+  for (int n = 0; n < 10; ++n) call();
+  return allocations - before;
+}
+
+/// Keeps a result alive under the optimizer.
+template <class T>
+void keep(const T& value) {
+  asm volatile("" : : "r"(&value) : "memory");
+}
+
+}  // namespace
+
+TEST_SUITE("allocation") {
+  TEST_CASE("whether allocations can be counted here") {
+    if (!NINEDOF_COUNTS) MESSAGE("not counted: built with a sanitizer, which brings its own malloc, or without glibc");
+    CHECK(true);
+  }
+
+  TEST_CASE("the count sees malloc, new, and Eigen's arrays" * doctest::skip(!NINEDOF_COUNTS)) {
+    CHECK(allocations_of([] {
+            void* p = std::malloc(100);
+            keep(p);
+            std::free(p);
+          }) == 10);
+    CHECK(allocations_of([] { keep(std::vector<double>(100)); }) == 10);
+    CHECK(allocations_of([] { keep(Eigen::VectorXd(100)); }) == 10);
+    CHECK(allocations_of([] { keep(Vec9::Zero().eval()); }) == 0);
+  }
+
+  TEST_CASE("general path: legs, Jacobian, velocity, conditioning, singular or not" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(181);
+    Robot singular = random_robot(random);
+    singular.configuration.internal_point = singular.geometry.base_internal()[0];
+    const Vec9 rates = random.matrix<Vec9>();
+    for (const Robot& robot : {random_robot(random), random_symmetric_robot(random), singular}) {
+      const auto& [g, c] = robot;
+      CHECK(allocations_of([&] { keep(legs(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(leg_lengths(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(jacobian(g, c, 0.7)); }) == 0);
+      CHECK(allocations_of([&] { keep(velocity_matrices(g, c, 0.7)); }) == 0);
+      CHECK(allocations_of([&] { keep(forward_velocity(g, c, rates)); }) == 0);
+      CHECK(allocations_of(
+                [&] { keep(inverse_velocity(g, c, {rates.head<3>(), rates.segment<3>(3), rates.tail<3>()})); }) == 0);
+      CHECK(allocations_of([&] { keep(conditioning_matrix(g, c, 0.7)); }) == 0);
+      CHECK(allocations_of([&] { keep(singular_values(g, c, 0.7)); }) == 0);
+      CHECK(allocations_of([&] { keep(condition_number(g, c, 0.7)); }) == 0);
+      CHECK(allocations_of([&] { keep(condition_number(g, c, 0.7, Norm::frobenius)); }) == 0);
+      CHECK(allocations_of([&] { keep(manipulability(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(isotropy_residual(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(plus(c, rates)); }) == 0);
+      CHECK(allocations_of([&] { keep(minus(c, plus(c, rates))); }) == 0);
+    }
+    const Mat6 m = random.matrix<Mat6>();
+    CHECK(allocations_of([&] { keep(singular_values_6x6(m)); }) == 0);
+  }
+
+  TEST_CASE("closed form, plain and with gradients" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(182);
+    const auto [g, c] = random_symmetric_robot(random);
+    const AxisDesign<double> d = axis_design(g, c);
+    CHECK(allocations_of([&] { keep(axis_spectrum(d, 0.7)); }) == 0);
+    using D = Dual<3>;
+    const auto point = [](const Point<double>& p) { return Point<D>{p.x, p.y, D::variable(p.z, 0)}; };
+    const AxisDesign<D> dual{point(d.base_external),     point(d.base_internal), point(d.platform_external),
+                             point(d.platform_internal), D::variable(d.zp, 1),   D::variable(d.zs, 2)};
+    CHECK(allocations_of([&] { keep(axis_spectrum(dual, 0.7)); }) == 0);
+  }
+
+  TEST_CASE("a design family into a warm DesignPoint" * doctest::skip(!NINEDOF_COUNTS)) {
+    const HexagonalFamily family;
+    const std::array<double, 7> x{0.2, 6.0, 3.0, 0.1, 5.0, 3.0, 0.1};
+    DesignPoint out;
+    family.evaluate(x, 1.0, out);
+    CHECK(allocations_of([&] { family.evaluate(x, 1.0, out); }) == 0);
+    CHECK(allocations_of([&] { keep(out.extremes()); }) == 0);
+    CHECK(allocations_of([&] { keep(out.log_condition_number()); }) == 0);
+  }
+}

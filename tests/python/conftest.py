@@ -1,0 +1,43 @@
+"""What all tests share: one hypothesis profile, the paper's robot, the reference cases."""
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+import ninedof as nd
+
+# The same examples in every run: a failure found by chance must not vanish by chance. No deadline: sanitizers are slow.
+settings.register_profile(
+    "fixed",
+    derandomize=True,
+    deadline=None,
+    database=None,
+    max_examples=60,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
+)
+settings.load_profile("fixed")
+
+REFERENCE = Path(__file__).parents[1] / "reference"
+
+
+def reference_cases():
+    return json.loads((REFERENCE / "kinematics.json").read_text(encoding="utf-8"))["cases"]
+
+
+@pytest.fixture(scope="session")
+def published():
+    """The published optimum in the reading that reproduces it: base side 5.8124, platform side 2.9062."""
+    return nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+
+
+@pytest.fixture(scope="session")
+def neutral():
+    return nd.Configuration.neutral(zp=3.9828, zs=2.3745)
+
+
+@pytest.fixture(scope="session")
+def stack():
+    """Five configurations around the neutral one, none singular."""
+    return nd.Configuration.neutral(zp=3.9828, zs=[1.9, 2.1, 2.3, 2.5, 2.7], theta_z=[0.0, 0.1, -0.2, 0.3, 0.4])

@@ -1,0 +1,183 @@
+"""Indices of the homogenized Jacobian, eqs. (2)-(5): values, invariances, singularities, the array boundary.
+
+Oracle for values: numpy's SVD of a J' assembled and inverted by LAPACK (numpy_model), where the package never forms J'.
+Oracles for invariances: none, only the symmetry itself.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+INDICES = (nd.condition_number, nd.manipulability, nd.isotropy_residual)
+EPS = np.finfo(float).eps
+
+
+def random_robot(seed):
+    rng = np.random.default_rng(seed)
+    return model.random_robots(rng, 1).at(0), rng
+
+
+def singular_values(m, lc=1.0):
+    return nd.singular_values(m.geometry(), m.configuration(), lc)
+
+
+def lost(m, lc=1.0):
+    """Relative error that rounding the input by one unit may cause, with some room."""
+    return 100 * EPS * max(model.condition_number(m, lc), model.condition_number(m))
+
+
+# --- Values -----------------------------------------------------------------------------------------------------------
+
+
+def test_singular_values_of_general_robots_against_numpy():
+    rng = np.random.default_rng(11)
+    robots = model.random_robots(rng, 2000)
+    lc = np.exp(rng.uniform(-2.0, 2.0, size=2000))
+    expected = model.singular_values(robots, lc[:, None, None])
+    found = np.array([singular_values(robots.at(k), lc[k]) for k in range(2000)])
+    kappa = expected[:, :1] / expected[:, 5:]
+    # numpy inverts F and B one after the other, so its own error grows with both.
+    both = kappa * np.linalg.cond(model.matrices(robots)[1])[:, None]
+    assert (np.abs(found / expected - 1.0) <= 20 * EPS * both).all()
+
+
+@given(SEEDS, st.floats(0.05, 20.0))
+def test_indices_by_their_definitions(seed, lc):
+    """Eqs. (2), (4), (5) written out with numpy on J' itself."""
+    m, _ = random_robot(seed)
+    g, c, J = m.geometry(), m.configuration(), model.jacobian(m, lc)
+    tolerance = {"rtol": 20 * lost(m, lc)}
+    assert_allclose(nd.condition_number(g, c, lc), np.linalg.cond(J), **tolerance)
+    frobenius = np.linalg.norm(J) * np.linalg.norm(np.linalg.pinv(J, rcond=1e-16))
+    assert_allclose(nd.condition_number(g, c, lc, norm="frobenius"), frobenius, **tolerance)
+    assert_allclose(nd.manipulability(g, c, lc), np.prod(np.linalg.svd(J, compute_uv=False)), **tolerance)
+    product = J @ J.T
+    sigma = np.trace(product) / 6.0
+    residual = np.linalg.norm(product - sigma * np.eye(6)) / np.linalg.norm(sigma * np.eye(6))
+    assert_allclose(nd.isotropy_residual(g, c, lc), residual, **tolerance)
+
+
+@given(SEEDS)
+def test_bounds_between_the_indices(seed):
+    m, _ = random_robot(seed)
+    g, c = m.geometry(), m.configuration()
+    two, frobenius = nd.condition_number(g, c), nd.condition_number(g, c, norm="frobenius")
+    assert two >= 1.0
+    assert frobenius >= 6.0
+    assert two <= frobenius <= 6.0 * two * (1.0 + 1e-12)
+    sigma = nd.singular_values(g, c)
+    assert (np.diff(sigma) <= 0.0).all()
+    assert two == pytest.approx(sigma[0] / sigma[5], rel=1e-14)
+
+
+def test_octahedral_design():
+    """Theory of position and velocity, section 5: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
+    c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
+    lc = np.sqrt(2.0) / 3.0
+    assert_allclose(nd.singular_values(g, c, lc) ** 2, [4.0] * 3 + [2.0 / 9.0] * 3, rtol=1e-14)
+    assert_allclose(nd.condition_number(g, c, lc), 3.0 * np.sqrt(2.0), rtol=1e-14)
+    # |J'|_F |J'^+|_F from the same eigenvalues.
+    assert_allclose(nd.condition_number(g, c, lc, norm="frobenius"), np.sqrt((38 / 3) * (57 / 4)), rtol=1e-14)
+    assert_allclose(nd.manipulability(g, c, lc), (4.0 * 2.0 / 9.0) ** 1.5, rtol=1e-14)
+    assert_allclose(nd.isotropy_residual(g, c, lc), (4 - 2 / 9) / (4 + 2 / 9), rtol=1e-14)
+
+
+def test_nearly_isotropic_design():
+    """Theory of limits, section 2: rho = 5 gives kappa = sqrt(1.12) exactly."""
+    side, p, s = np.sqrt(1.0 / 13.0), np.array([0.0, 0.0, 6.0]), np.array([0.0, 0.0, 1.0])
+    turn = Rotation.from_euler("z", [[0.0], [-120.0], [-240.0]], degrees=True).as_matrix()
+    external_base, external_platform = turn @ [0.7, -3.0, 6.2], turn @ [0.7, 1.0, 6.2] - p
+    g = nd.Geometry(external_base, turn @ [side, 0.0, 0.0], external_platform, turn @ [0.0, 5.0 * side, 0.0])
+    c = nd.Configuration(p, np.eye(3), s)
+    assert_allclose(nd.condition_number(g, c), np.sqrt(1.12), rtol=1e-14)
+    assert nd.condition_number(g, c) == pytest.approx(1.0583005244, abs=5e-11)
+    assert 6.0 <= nd.condition_number(g, c, norm="frobenius") < 6.01
+    assert 0.0 < nd.isotropy_residual(g, c) < 0.08
+
+
+@pytest.mark.parametrize(("zs", "kappa"), [(2.4432, 3.9071), (2.3745, 3.9110), (2.5110, 3.9110)])
+def test_published_design(published, zs, kappa):
+    assert nd.condition_number(published, nd.Configuration.neutral(3.9828, zs)) == pytest.approx(kappa, abs=5e-5)
+
+
+def test_published_pose_is_not_stationary_in_theta_z(published):
+    """Against eq. (7): turning by 0.05 rad lowers the condition number from 3.9071 to 3.8819."""
+    c = nd.Configuration.neutral(3.9828, 2.4432, [0.0, 0.05])
+    assert_allclose(nd.condition_number(published, c), [3.9071, 3.8819], atol=5e-5)
+
+
+# --- Invariances ------------------------------------------------------------------------------------------------------
+
+
+@given(SEEDS)
+def test_rigid_motion_of_the_base_frame(seed):
+    m, rng = random_robot(seed)
+    turn, shift = model.random_rotations(rng, 1)[0], rng.normal(size=3)
+
+    def carried(x):
+        return x @ turn.T + shift
+
+    other = m._replace(r=carried(m.r), rh=carried(m.rh), p=carried(m.p), s=carried(m.s), Q=turn @ m.Q)
+    assert_allclose(singular_values(other), singular_values(m), rtol=lost(m))
+
+
+@given(SEEDS)
+def test_other_axes_in_the_platform(seed):
+    """The platform frame may be turned about its own origin; moving the origin would change pdot."""
+    m, rng = random_robot(seed)
+    turn = model.random_rotations(rng, 1)[0]
+    other = m._replace(u=m.u @ turn, ut=m.ut @ turn, Q=m.Q @ turn)
+    assert_allclose(singular_values(other), singular_values(m), rtol=lost(m))
+
+
+@given(SEEDS, st.floats(1e-6, 1e6))
+def test_units(seed, unit):
+    m, _ = random_robot(seed)
+    other = model.Robot(*(x if name == "Q" else x * unit for name, x in m._asdict().items()))
+    assert_allclose(singular_values(other, 0.7 * unit), singular_values(m, 0.7), rtol=lost(m, 0.7))
+
+
+@given(SEEDS)
+def test_mirror_image(seed):
+    m, _ = random_robot(seed)
+    mirror = np.diag([1.0, -1.0, 1.0])
+    other = model.Robot(*(mirror @ x @ mirror if name == "Q" else x @ mirror for name, x in m._asdict().items()))
+    assert_allclose(singular_values(other), singular_values(m), rtol=lost(m))
+
+
+@given(*[st.floats(0.1, 5.0)] * 4, st.floats(-3.0, 3.0))
+def test_hexagons_with_sides_exchanged(a1, a2, b1, b2, theta):
+    """a1 <-> a2 with b1 <-> b2 is a mirror image, which turns the twist round."""
+    c, other = nd.Configuration.neutral(3.0, 1.2, theta), nd.Configuration.neutral(3.0, 1.2, -theta)
+    g, mirrored = nd.Geometry.hexagonal(a1, a2, b1, b2), nd.Geometry.hexagonal(a2, a1, b2, b1)
+    sigma = nd.singular_values(g, c)
+    assert_allclose(1.0 / nd.singular_values(mirrored, other), 1.0 / sigma, rtol=0.0, atol=1e-14 / sigma[5])
+
+
+@given(SEEDS, st.floats(-np.pi, np.pi))
+def test_turning_everything_about_z(seed, angle):
+    rng = np.random.default_rng(seed)
+    m = model.random_symmetric_robots(rng, 1).at(0)
+    turn = Rotation.from_euler("z", angle).as_matrix()
+    base = m._replace(r=m.r @ turn.T, rh=m.rh @ turn.T, Q=turn @ m.Q)
+    plates = m._replace(r=m.r @ turn.T, rh=m.rh @ turn.T, u=m.u @ turn.T, ut=m.ut @ turn.T)
+    assert_allclose(singular_values(base), singular_values(m), rtol=lost(m))
+    # Turning both plates in their own frames is the same motion only where Q commutes with it: rotations about z do.
+    assert_allclose(singular_values(plates), singular_values(m), rtol=lost(m))
+
+
+@given(SEEDS)
+def test_relabelled_joints(seed):
+    """External joints in pairs, each internal triple on its own: the legs are the same set."""
+    m, rng = random_robot(seed)
+    legs, upper, lower = (rng.permutation(3) for _ in range(3))
+    other = m._replace(r=m.r[legs], u=m.u[legs], ut=m.ut[upper], rh=m.rh[lower])
+    assert_allclose(singular_values(other), singular_values(m), rtol=lost(m))

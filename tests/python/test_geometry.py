@@ -1,0 +1,232 @@
+"""What is fixed once the robot is built: eqs. (37)-(38), C3 orbits, validation, value semantics."""
+
+import copy
+import math
+import pickle
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+import ninedof as nd
+
+TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
+TRIANGLE = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+SIDES = st.floats(min_value=0.0, max_value=1e6)
+
+
+def printed_joints(s1, s2):
+    """Eqs. (37a), (37b) as exact pairs (x, y / sqrt 3), typed from the paper in rational arithmetic."""
+    s1, s2 = Fraction(s1), Fraction(s2)
+    external = [(s1 / 2, -(s1 + 2 * s2) / 6), (-(s1 + s2) / 2, -(s1 - s2) / 6), (s2 / 2, (2 * s1 + s2) / 6)]
+    internal = [(-s1 / 2, -(s1 + 2 * s2) / 6), (-s2 / 2, (2 * s1 + s2) / 6), ((s1 + s2) / 2, -(s1 - s2) / 6)]
+    return tuple([[float(x), math.sqrt(3.0) * float(y), 0.0] for x, y in rows] for rows in (external, internal))
+
+
+def build(**changes):
+    return nd.Geometry(**(dict.fromkeys(TRIPLES, TRIANGLE) | changes))
+
+
+@given(SIDES, SIDES, SIDES, SIDES)
+def test_hexagonal_is_printed_equations(a1, a2, b1, b2):
+    if min(a1 + a2, b1 + b2) < 1e-100:
+        return
+    g = nd.Geometry.hexagonal(a1=a1, a2=a2, b1=b1, b2=b2)
+    for names, sides in ((TRIPLES[:2], (a1, a2)), (TRIPLES[2:], (b1, b2))):
+        for name, expected in zip(names, printed_joints(*sides), strict=True):
+            assert_allclose(getattr(g, name), expected, rtol=0.0, atol=1e-15 * sum(sides))
+
+
+def test_hexagon_has_the_sides_it_is_named_after():
+    """Geometry instead of formulas: walking round the six joints, sides alternate and all lie on one circle."""
+    g = nd.Geometry.hexagonal(a1=0.7, a2=2.9, b1=1.1, b2=0.2)
+    for external, internal, s1, s2 in (
+        (g.base_external, g.base_internal, 0.7, 2.9),
+        (g.platform_external, g.platform_internal, 1.1, 0.2),
+    ):
+        walk = np.stack([external, internal[[0, 1, 2]]], axis=1).reshape(6, 3)
+        sides = np.linalg.norm(walk - np.roll(walk, -1, axis=0), axis=1)
+        assert_allclose(sides, [s1, s2] * 3, rtol=1e-14)
+        assert_allclose(np.linalg.norm(walk, axis=1), math.sqrt((s1**2 + s1 * s2 + s2**2) / 3.0), rtol=1e-14)
+
+
+def test_positional_arguments_are_in_the_order_of_the_paper():
+    assert nd.Geometry.hexagonal(0.5, 2.0, 1.0, 0.25) == nd.Geometry.hexagonal(a1=0.5, a2=2.0, b1=1.0, b2=0.25)
+    four = [np.array(TRIANGLE) * k for k in (1.0, 2.0, 3.0, 4.0)]
+    for name, given_triple in zip(TRIPLES, four, strict=True):
+        assert_array_equal(getattr(nd.Geometry(*four), name), given_triple)
+
+
+def test_symmetric_orbits_turn_by_minus_120_degrees():
+    orbits = {"base_external": (2.0, 0.0, 0.0), "base_internal": (1.5, 0.4, -0.3), "platform_external": (1.0, 2.0, 0.1)}
+    g = nd.Geometry.symmetric(**orbits, platform_internal=(0.7, -1.0, 0.2))
+    for name, (radius, angle, height) in (orbits | {"platform_internal": (0.7, -1.0, 0.2)}).items():
+        turned = [angle - k * math.radians(120.0) for k in range(3)]
+        expected = [[radius * math.cos(t), radius * math.sin(t), height] for t in turned]
+        assert_allclose(getattr(g, name), expected, rtol=0.0, atol=1e-15 * 4)
+
+
+def test_hexagonal_is_one_case_of_symmetric():
+    h = nd.Geometry.hexagonal(a1=0.3, a2=2.0, b1=1.5, b2=0.2)
+    firsts = {name: getattr(h, name)[0] for name in TRIPLES}
+    g = nd.Geometry.symmetric(**{n: (math.hypot(*v[:2]), math.atan2(v[1], v[0]), v[2]) for n, v in firsts.items()})
+    for name in TRIPLES:
+        assert_allclose(getattr(g, name), getattr(h, name), rtol=0.0, atol=1e-14)
+
+
+# --- Validation: the message names the argument, what came and what was expected --------------------------------------
+
+
+def message(argument):
+    return rf"(?s)^{argument}: got .+, expected .+"
+
+
+BAD_TRIPLES = {
+    "nan": [[math.nan, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    "infinite": [[1.0, 0.0, 0.0], [0.0, math.inf, 0.0], [0.0, 0.0, 1.0]],
+    "two joints": TRIANGLE[:2],
+    "flat": [1.0, 2.0, 3.0],
+    "four columns": np.eye(3, 4),
+    "stack": [TRIANGLE],
+    "scalar": 1.0,
+    "none": None,
+    "text": "abc",
+    "ragged": [[1.0, 2.0], [3.0]],
+    "dictionary": {},
+    "objects": [[object()] * 3] * 3,
+    "coincident": [[1.0, 2.0, 3.0]] * 3,
+    "two coincident": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+    "collinear": [[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [3.0, 3.0, 1.0]],
+    "nearly collinear": [[0.0, 0.0, 0.0], [1.0, 1e-11, 0.0], [2.0, 0.0, 0.0]],
+    "complex": np.array(TRIANGLE) + 1j,
+    "complex with zero imaginary part": np.array(TRIANGLE) + 0j,
+    "numbers as text": [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
+    "masked": np.ma.masked_array(TRIANGLE, mask=np.eye(3)),
+    "dates": np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="M8[s]"),
+    "records": np.array(TRIANGLE).astype([("x", float)]),
+    "huge whole number": [[10**400, 0, 0], [0, 1, 0], [0, 0, 1]],
+}
+
+
+@pytest.mark.filterwarnings("ignore")  # a warning that something was thrown away is not an error: it must be refused
+@pytest.mark.parametrize("bad", BAD_TRIPLES.values(), ids=BAD_TRIPLES.keys())
+def test_bad_triple(bad):
+    for name in TRIPLES:
+        with pytest.raises(ValueError, match=message(name)):
+            build(**{name: bad})
+
+
+@pytest.mark.parametrize("scale", [1e-140, 1e-9, 1e9, 1e140])
+def test_any_scale_of_a_good_triangle_is_good(scale):
+    assert_array_equal(build(base_internal=np.array(TRIANGLE) * scale).base_internal, np.array(TRIANGLE) * scale)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [-1.0, -1e-300, math.nan, math.inf, -math.inf, "1", None, 1j, [1.0], pytest.param(10**400, id="huge whole number")],
+)
+def test_bad_side(bad):
+    good = {"a1": 1.0, "a2": 2.0, "b1": 1.0, "b2": 2.0}
+    for name in good:
+        with pytest.raises(ValueError, match=message(name)):
+            nd.Geometry.hexagonal(**(good | {name: bad}))
+
+
+@pytest.mark.parametrize("plate", ["a", "b"])
+def test_plate_without_size(plate):
+    sides = {"a1": 1.0, "a2": 2.0, "b1": 1.0, "b2": 2.0} | {f"{plate}1": 0.0, f"{plate}2": 0.0}
+    with pytest.raises(ValueError, match=message(f"{plate}1, {plate}2")):
+        nd.Geometry.hexagonal(**sides)
+
+
+BAD_ORBITS = {
+    "zero radius": ("radius", (0.0, 1.0, 0.0)),
+    "negative radius": ("radius", (-1.0, 1.0, 0.0)),
+    "nan radius": ("radius", (math.nan, 1.0, 0.0)),
+    "infinite radius": ("radius", (math.inf, 1.0, 0.0)),
+    "nan angle": ("angle", (1.0, math.nan, 0.0)),
+    "infinite height": ("height", (1.0, 0.0, math.inf)),
+    "two numbers": ("", (1.0, 0.0)),
+    "four numbers": ("", (1.0, 0.0, 0.0, 0.0)),
+    "none": ("", None),
+    "text": ("", "abc"),
+    "numbers as text": ("", ("1", "2", "3")),
+    "complex": ("", (1j, 0.0, 0.0)),
+    "masked": ("", np.ma.masked_array([1.0, 0.0, 0.0], mask=[False, True, False])),
+}
+
+
+@pytest.mark.parametrize(("part", "bad"), BAD_ORBITS.values(), ids=BAD_ORBITS.keys())
+def test_bad_orbit(part, bad):
+    for name in TRIPLES:
+        orbits = dict.fromkeys(TRIPLES, (1.0, 0.0, 0.0)) | {name: bad}
+        with pytest.raises(ValueError, match=message(rf"{name}\.{part}" if part else name)):
+            nd.Geometry.symmetric(**orbits)
+
+
+# --- Value semantics --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "same",
+    [
+        np.array(TRIANGLE, dtype=np.float32),
+        np.eye(3, dtype=int),
+        np.asfortranarray(np.eye(3)),
+        np.repeat(np.eye(3), 2, axis=1)[:, ::2],
+        np.eye(3)[::-1, ::-1],
+        np.eye(3, dtype=">f8"),
+        np.eye(3, dtype=np.longdouble),
+        tuple(map(tuple, TRIANGLE)),
+    ],
+    ids=["float32", "int", "fortran", "strided", "reversed", "big-endian", "long double", "tuples"],
+)
+def test_any_real_array_is_taken(same):
+    g = build(platform_external=same)
+    assert_array_equal(g.platform_external, np.eye(3))
+    assert g == build()
+
+
+def test_immutable(published):
+    before = published.base_external.copy()
+    with pytest.raises(AttributeError):
+        published.base_external = before
+    with pytest.raises(AttributeError):
+        published.color = "red"
+    with pytest.raises(ValueError, match="read-only"):
+        published.base_external[0, 0] = 9.0
+    source = np.eye(3)
+    g = build(base_external=source)
+    source[0, 0] = 7.0
+    assert g.base_external[0, 0] == 1.0
+    assert_array_equal(published.base_external, before)
+
+
+@pytest.mark.parametrize("name", TRIPLES)
+def test_equality_and_hash_go_by_value(name):
+    other = build(**{name: np.diag([1.0, 1.0, 2.0])})
+    assert build() == build()
+    assert hash(build()) == hash(build())
+    assert build() != other
+    assert build() != "geometry"
+    assert len({build(), build(), other}) == 2
+
+
+def test_equal_geometries_hash_alike_with_negative_zeros():
+    negative = np.where(np.eye(3) == 0.0, -0.0, np.eye(3))
+    assert build(base_external=negative) == build()
+    assert hash(build(base_external=negative)) == hash(build())
+
+
+def test_copies_and_pickles(published):
+    for twin in (pickle.loads(pickle.dumps(published)), copy.copy(published), copy.deepcopy(published)):
+        assert twin == published
+        assert hash(twin) == hash(published)
+
+
+def test_repr_builds_the_same_geometry(published):
+    assert eval(repr(published), {"Geometry": nd.Geometry}) == published
+    assert type(published).__module__ == "ninedof"

@@ -1,0 +1,101 @@
+"""The array boundary of the indices: shapes, stacks, `out`, threads, and what is refused.
+
+Oracle: the same function called for one pose at a time.
+"""
+
+import itertools
+
+import numpy as np
+import numpy_model as model
+import pytest
+from numpy.testing import assert_array_equal
+
+import ninedof as nd
+
+INDICES = (nd.condition_number, nd.manipulability, nd.isotropy_residual)
+
+
+@pytest.mark.parametrize("index", INDICES)
+def test_shapes(published, neutral, stack, index):
+    assert np.ndim(index(published, neutral)) == 0
+    assert isinstance(index(published, neutral), float)
+    assert index(published, stack).shape == (5,)
+    assert index(published, stack[:0]).shape == (0,)
+    grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
+    assert_array_equal(index(published, grid), [[index(published, grid[i, k]) for k in range(3)] for i in range(2)])
+    assert nd.singular_values(published, grid).shape == (2, 3, 6)
+
+
+def test_one_characteristic_length_for_each_pose(published, stack):
+    lc = np.array([0.5, 1.0, 2.0, 3.0, 0.1])
+    expected = [nd.condition_number(published, c, x) for c, x in zip(stack, lc, strict=True)]
+    assert_array_equal(nd.condition_number(published, stack, lc), expected)
+    assert_array_equal(nd.condition_number(published, stack, list(lc)), expected)
+    assert_array_equal(nd.condition_number(published, stack, np.repeat(lc, 2)[::2]), expected)
+    assert_array_equal(nd.condition_number(published, stack, [2.0]), nd.condition_number(published, stack, 2.0))
+
+
+@pytest.mark.parametrize("index", [*INDICES, nd.singular_values, nd.characteristic_length])
+def test_missing_and_singular_poses_stay_alone(published, index):
+    c = nd.Configuration.neutral(4.0, [2.0, 1.0, 2.0])
+    p = c.position.copy()
+    p[1, 0] = np.nan
+    result = index(published, nd.Configuration(p, c.rotation, c.internal_point))
+    assert_array_equal(result[[0, 2]], index(published, c)[[0, 2]])
+    assert np.isnan(result[1]).all()
+
+
+@pytest.mark.parametrize("index", INDICES)
+def test_out(published, stack, neutral, index):
+    out = np.full(5, -1.0)
+    assert index(published, stack, out=out) is out
+    assert_array_equal(out, index(published, stack))
+    single = np.zeros(())
+    assert index(published, neutral, out=single) is single
+    assert single == index(published, neutral)
+    read_only = np.zeros(5)
+    read_only.flags.writeable = False
+    bad = [
+        np.zeros(5, np.float32),
+        np.zeros(5, complex),
+        np.zeros(5, ">f8"),
+        np.zeros(4),
+        np.zeros((1, 5)),
+        np.zeros((5, 1)),
+    ]
+    for wrong in [*bad, np.zeros(10)[::2], np.zeros(5)[::-1], [0.0] * 5, read_only, 1.0]:
+        before = np.array(wrong, copy=True)
+        with pytest.raises(ValueError, match=r"^out: got .+, expected .+"):
+            index(published, stack, out=wrong)
+        assert_array_equal(wrong, before)
+
+
+def test_out_in_fortran_order_is_refused(published):
+    grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
+    with pytest.raises(ValueError, match=r"^out: got"):
+        nd.condition_number(published, grid, out=np.zeros((2, 3), order="F"))
+
+
+@pytest.mark.parametrize("norm", ["2", "frobenius"])
+def test_threads_do_not_change_a_bit(published, norm):
+    m = model.random_robots(np.random.default_rng(2), 5000)
+    c, results = m.configuration(), []
+    for threads in (1, 2, 3, None):
+        results.append(nd.condition_number(published, c, norm=norm, threads=threads))
+    for a, b in itertools.pairwise(results):
+        assert_array_equal(a, b)
+    assert_array_equal(
+        results[0][::500], [nd.condition_number(published, c[k], norm=norm) for k in range(0, 5000, 500)]
+    )
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.0, True, "2", [1], 2**40], ids=repr)
+def test_bad_threads(published, stack, threads):
+    with pytest.raises(ValueError, match=r"^threads: got .+, expected .+"):
+        nd.condition_number(published, stack, threads=threads)
+
+
+@pytest.mark.parametrize("norm", ["1", "fro", "", None, 2, np.inf, ["2"]], ids=repr)
+def test_bad_norm(published, stack, norm):
+    with pytest.raises(ValueError, match=r"^norm: got .+, expected .+"):
+        nd.condition_number(published, stack, norm=norm)

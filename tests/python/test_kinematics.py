@@ -1,0 +1,240 @@
+"""Positions and velocities: the Jacobian by its definition.
+
+Convention, written once: a twist (omega, pdot, sdot) in the base frame perturbs a configuration as
+p + h pdot, exp(h omega) Q, s + h sdot. The oracle of this file is that definition, carried out with scipy rotations on
+leg lengths only: it knows no leg direction, no cross product and no matrix of eqs. (30)-(36).
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+EPS = np.finfo(float).eps
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+def moved(c, omega, pdot, sdot, h):
+    turn = Rotation.from_rotvec(h * np.asarray(omega)).as_matrix()
+    return nd.Configuration(
+        c.position + h * np.asarray(pdot), turn @ c.rotation, c.internal_point + h * np.asarray(sdot)
+    )
+
+
+def rates_by_differences(g, c, omega, pdot, sdot, h=2e-3):
+    """Central differences of leg lengths with three steps, Richardson-extrapolated to order h^6."""
+    d1, d2, d3 = (
+        (nd.leg_lengths(g, moved(c, omega, pdot, sdot, k * h)) - nd.leg_lengths(g, moved(c, omega, pdot, sdot, -k * h)))
+        / (2 * k * h)
+        for k in (1, 2, 3)
+    )
+    return 1.5 * d1 - 0.6 * d2 + 0.1 * d3
+
+
+def regime(name, rng):
+    """Configuration by regime: neutral; nudged by 1e-9 from it, where series and closed forms switch over; anywhere."""
+    c = nd.Configuration.neutral(3.9828, 2.3745)
+    if name == "neutral":
+        return c
+    if name == "tiny":
+        return moved(c, *rng.normal(size=(3, 3)), 1e-9)
+    return model.random_robots(rng, 1).at(0).configuration()
+
+
+REGIMES = pytest.mark.parametrize("name", ["neutral", "tiny", "random"])
+
+
+@REGIMES
+@pytest.mark.parametrize("seed", range(5))
+def test_inverse_velocity_is_the_derivative_of_leg_lengths(published, name, seed):
+    rng = np.random.default_rng(seed)
+    c = regime(name, rng)
+    motion = rng.normal(size=(3, 3))
+    assert_allclose(nd.inverse_velocity(published, c, *motion), rates_by_differences(published, c, *motion), atol=2e-11)
+
+
+@REGIMES
+@pytest.mark.parametrize("lc", [1.0, 0.3])
+def test_jacobian_takes_differences_of_leg_lengths_to_the_twist(published, name, lc):
+    rng = np.random.default_rng(7)
+    c = regime(name, rng)
+    J = nd.jacobian(published, c, lc)
+    for _ in range(5):
+        omega, pdot, sdot = rng.normal(size=(3, 3))
+        udot = rates_by_differences(published, c, omega, pdot, sdot)
+        assert_allclose(J @ udot, [*(lc * omega), *pdot], atol=2e-11 * np.abs(J).sum(axis=1).max())
+
+
+@REGIMES
+def test_forward_velocity_inverts_differences_of_leg_lengths(published, name):
+    rng = np.random.default_rng(8)
+    c = regime(name, rng)
+    motion = rng.normal(size=(3, 3))
+    found = nd.forward_velocity(published, c, rates_by_differences(published, c, *motion))
+    assert_allclose(found, motion, atol=1e-9)
+
+
+def random_robot(seed):
+    """One general robot that is not near a singularity; its numpy model."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
+
+
+@given(SEEDS, st.floats(0.1, 10.0))
+def test_matrices_meet_their_equations(seed, lc):
+    """Eqs. (24)-(36) with every vector rebuilt by numpy from the joints, for general triples."""
+    m, rng = random_robot(seed)
+    g, c = m.geometry(), m.configuration()
+    v = nd.velocity_matrices(g, c, lc)
+    for found, expected in zip((v.A, v.B, v.C, v.D), model.matrices(m, lc), strict=True):
+        assert_allclose(found, expected, atol=1e-13 / min(lc, 1.0))
+    assert_array_equal(v.F, np.vstack([v.A, v.E]))
+    assert_allclose(v.G[3:, 6:], v.C @ np.linalg.inv(v.B), rtol=0.0, atol=1e-13 * np.linalg.cond(v.B) ** 2)
+    assert_array_equal(v.G[:, :6], np.diag([1, 1, 1, -1, -1, -1]))
+
+    omega, pdot, sdot = rng.normal(size=(3, 3))
+    t = np.concatenate([lc * omega, pdot])
+    udot = nd.inverse_velocity(g, c, omega, pdot, sdot)
+    scale = np.linalg.cond(v.B) * (1.0 + 1.0 / lc) * 10.0
+    assert_allclose(v.F @ t, v.G @ udot, atol=1e-13 * scale)  # (34)
+    assert_allclose(v.A @ t, udot[:3], atol=1e-14 * scale)  # (27)
+    assert_allclose(v.B @ sdot, udot[6:], atol=1e-14 * scale)  # (28)
+    assert_allclose(-v.C @ (pdot - sdot) - lc * v.D @ omega, udot[3:6], atol=1e-14 * scale)  # (29), lc undone
+    at_o = pdot + np.cross(omega, c.internal_point - c.position)
+    assert_allclose(v.E @ t, v.C @ at_o, atol=1e-14 * scale)  # E t = C v_O
+
+
+@given(SEEDS, st.floats(0.1, 10.0))
+def test_closed_form_jacobian_is_the_general_inverse(seed, lc):
+    m, _ = random_robot(seed)
+    J = nd.jacobian(m.geometry(), m.configuration(), lc)
+    v = nd.velocity_matrices(m.geometry(), m.configuration(), lc)
+    tolerance = 1e-13 * np.linalg.cond(v.F) * np.linalg.cond(v.B) * np.abs(J).max()
+    assert_allclose(J, np.linalg.solve(v.F, v.G), rtol=0.0, atol=tolerance)
+    assert_allclose(J, model.jacobian(m, lc), rtol=0.0, atol=tolerance)
+
+
+@given(SEEDS)
+def test_forward_and_inverse_velocity_undo_each_other(seed):
+    m, rng = random_robot(seed)
+    g, c = m.geometry(), m.configuration()
+    motion = rng.normal(size=(3, 3))
+    rates = nd.inverse_velocity(g, c, *motion)
+    lost = 1e-13 * model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])
+    assert_allclose(nd.forward_velocity(g, c, rates), motion, atol=lost)
+    J = nd.jacobian(g, c)
+    assert_allclose(J @ rates, np.concatenate(motion[:2]), atol=lost)
+
+
+@given(SEEDS)
+def test_moving_the_internal_point_alone_moves_no_platform(seed):
+    """The three-parameter redundancy: ldot = 0, qdot = C sdot, rdot = B sdot is a null motion of J'."""
+    m, rng = random_robot(seed)
+    _, B, C, _ = model.matrices(m)
+    sdot = rng.normal(size=3)
+    rates = np.concatenate([np.zeros(3), C @ sdot, B @ sdot])
+    omega, pdot, found = nd.forward_velocity(m.geometry(), m.configuration(), rates)
+    lost = 1e-13 * model.condition_number(m) * np.linalg.cond(B)
+    assert_allclose([omega, pdot, found], [np.zeros(3), np.zeros(3), sdot], atol=lost)
+    assert_allclose(
+        nd.inverse_velocity(m.geometry(), m.configuration(), np.zeros(3), np.zeros(3), sdot), rates, atol=1e-14
+    )
+
+
+def test_leg_lengths_of_a_robot_that_can_be_checked_by_hand():
+    """3-4-5 and 8-15-17 triangles; legs of different length, so that a swapped order shows."""
+    g = nd.Geometry(
+        base_external=[[3, 0, 0], [0, 8, 0], [-5, 0, 0]],
+        base_internal=[[4, 0, 0], [0, 15, 0], [0, -6, 0]],
+        platform_external=[[0, 0, 4], [0, 0, 15], [0, 1, 12]],
+        platform_internal=[[0, 3, 8], [8, 0, 15], [0, 5, 20]],
+    )
+    c = nd.Configuration([0.0, 0.0, 0.0], np.eye(3), [0.0, 0.0, 8.0])
+    expected = [5, 17, np.sqrt(170), 3, np.hypot(8, 7), 13, np.hypot(4, 8), 17, 10]
+    assert_allclose(nd.leg_lengths(g, c), expected, rtol=1e-15)
+
+
+def test_stack_equals_one_by_one(published, stack):
+    rng = np.random.default_rng(3)
+    rates, motion = rng.normal(size=(5, 9)), rng.normal(size=(3, 5, 3))
+    singles = list(stack)
+    for function in (nd.leg_lengths, nd.jacobian):
+        assert_array_equal(function(published, stack), [function(published, c) for c in singles])
+    for name, part in nd.velocity_matrices(published, stack)._asdict().items():
+        assert_array_equal(part, [getattr(nd.velocity_matrices(published, c), name) for c in singles])
+    forward = [nd.forward_velocity(published, c, r) for c, r in zip(singles, rates, strict=True)]
+    assert_array_equal(np.stack(nd.forward_velocity(published, stack, rates), axis=1), forward)
+    inverse = [nd.inverse_velocity(published, c, *motion[:, k]) for k, c in enumerate(singles)]
+    assert_array_equal(nd.inverse_velocity(published, stack, *motion), inverse)
+
+
+def test_velocities_broadcast_against_the_configuration(published, stack, neutral):
+    omega, pdot, sdot = nd.forward_velocity(published, stack, np.ones((4, 1, 9)))
+    assert omega.shape == pdot.shape == sdot.shape == (4, 5, 3)
+    assert nd.inverse_velocity(published, neutral, np.ones((2, 1, 3)), [0, 0, 1], np.zeros((6, 3))).shape == (2, 6, 9)
+    empty = stack[:0]
+    assert nd.leg_lengths(published, empty).shape == (0, 9)
+    assert nd.jacobian(published, empty).shape == (0, 6, 9)
+    assert nd.velocity_matrices(published, empty).G.shape == (0, 6, 9)
+    assert nd.forward_velocity(published, empty, np.zeros(9))[0].shape == (0, 3)
+
+
+def test_missing_pose_stays_alone(published):
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    results = [
+        nd.leg_lengths(published, c),
+        nd.jacobian(published, c),
+        nd.forward_velocity(published, c, np.ones(9))[0],
+    ]
+    for result in results:
+        assert np.isfinite(result[[0, 2]]).all()
+        assert np.isnan(result[1]).any()
+
+
+def test_singular_configuration_has_no_jacobian(published):
+    """O in the plane of the lower base joints: B is singular, J' does not exist, lengths and inverse rates do."""
+    c = nd.Configuration.neutral(4.0, [0.0, 2.0])
+    J = nd.jacobian(published, c)
+    assert np.isnan(J[0]).all()
+    assert np.isfinite(J[1]).all()
+    assert np.isnan(nd.velocity_matrices(published, c).G[0, 3:, 6:]).all()
+    assert np.isnan(nd.forward_velocity(published, c, np.ones(9))[0][0]).all()
+    assert np.isfinite(nd.leg_lengths(published, c)).all()
+    assert np.isfinite(nd.inverse_velocity(published, c, [1, 0, 0], [0, 1, 0], [0, 0, 1])).all()
+
+
+@pytest.mark.parametrize("bad", [np.ones(8), np.ones((2, 9)), None, "abc", np.ones(9) * 1j, [["1"] * 9]], ids=range(6))
+def test_bad_leg_rates(published, stack, bad):
+    with pytest.raises(ValueError, match="leg_rates"):
+        nd.forward_velocity(published, stack, bad)
+
+
+@pytest.mark.parametrize("name", ["omega", "pdot", "sdot"])
+def test_bad_velocity(published, stack, name):
+    for bad in (np.ones(2), np.ones((2, 3)), None, 1j * np.ones(3)):
+        motion = dict.fromkeys(("omega", "pdot", "sdot"), np.zeros(3)) | {name: bad}
+        with pytest.raises(ValueError, match=name):
+            nd.inverse_velocity(published, stack, **motion)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "metre", None, 1j, [1.0, 2.0], [1, 1, 1, 1, -1]], ids=str)
+@pytest.mark.parametrize("function", [nd.jacobian, nd.velocity_matrices], ids=["jacobian", "velocity_matrices"])
+def test_bad_characteristic_length(published, stack, function, bad):
+    with pytest.raises(ValueError, match=r"(characteristic_length|kind): got"):
+        function(published, stack, bad)
+
+
+@pytest.mark.parametrize("arguments", [(None, None), ("g", "c"), (1, 2)])
+def test_wrong_objects_are_named(published, neutral, arguments):
+    """A swapped or missing argument is the commonest slip: the message must say which one it is."""
+    wrong_geometry, wrong_configuration = arguments
+    with pytest.raises((TypeError, ValueError), match="geometry"):
+        nd.leg_lengths(wrong_geometry, neutral)
+    with pytest.raises((TypeError, ValueError), match="configuration"):
+        nd.leg_lengths(published, wrong_configuration)

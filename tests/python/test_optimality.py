@@ -1,0 +1,97 @@
+"""Checks of optimality that share nothing with the solver.
+
+For each of several studies: what a candidate claims is recomputed by the general path, which the optimizer never calls;
+random feasible neighbours must not be better; no candidate may beat the proved lower bound, whose polynomial is typed
+here. None of these uses a gradient.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+
+TWICE = {"radius_ratio": (None, 2.0)}
+SMALL = dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 3.1623)) | dict.fromkeys(("zp", "zs"), (0.001, 31.623))
+STUDIES = {
+    "paper": nd.Study.paper(),
+    "twist": nd.Study(variables={"theta_z": (-math.pi, math.pi)}, constraints=TWICE),
+    "legs": nd.Study(constraints=TWICE | {"leg_ratio": (None, 1.5)}),
+    "long legs": nd.Study(constraints=TWICE | {"leg_ratio": (4.0, None)}),
+    "small sides": nd.Study(variables=SMALL),
+    "other length": nd.Study(constraints=TWICE, characteristic_length=0.3),
+    "fraction": nd.Study(constraints=TWICE | {"zs_fraction": (0.7, 0.8)}),
+}
+
+
+@pytest.fixture(scope="module", params=STUDIES.values(), ids=STUDIES.keys())
+def result(request):
+    return nd.optimize(request.param)
+
+
+def least_by_height(rho):
+    """kappa*(rho): the least condition number of any C3 design with |s - p| = rho (theory of limits, section 2)."""
+    q = rho * rho
+    k = np.roots(
+        [2, -(87 * q + 47), 264 + 33 * q - 27 * q * q, 144 + 132 * q + 27 * q * q - q**3, q * q * (q + 3)],
+    )
+    return math.sqrt(min(x.real for x in k if abs(x.imag) < 1e-7 * abs(x) and x.real >= 1.0))
+
+
+def test_the_polynomial_is_the_printed_one():
+    printed = {0.25: 2.7790237093, 0.5: 2.2864210951, 1.0: 1.7081835426, 2.0: 1.2793810843, 5.0: 1.0563165572}
+    for rho, value in printed.items():
+        assert least_by_height(rho) == pytest.approx(value, abs=1e-9)
+    assert least_by_height(1.5396) == pytest.approx(1.4118, abs=5e-5)
+
+
+def test_every_candidate_is_what_it_says(result):
+    study, lc = result.study, result.study.characteristic_length
+    assert result.status == "optimal"
+    kappas = [c.condition_number for c in result.candidates]
+    assert kappas == sorted(kappas)
+    for c in result.candidates:
+        assert nd.condition_number(c.geometry, c.configuration, lc) == pytest.approx(c.condition_number, rel=1e-9)
+        v = c.variables
+        assert c.condition_number >= least_by_height((v["zp"] - v["zs"]) / lc)
+        assert 0.0 < v["zs"] < v["zp"]
+        for name, bound in study.variables.items():
+            low, high = bound if isinstance(bound, tuple) else (bound, bound)
+            assert low <= v[name] <= high
+            if name in c.active:
+                assert v[name] == pytest.approx(low, abs=1e-9) or v[name] == pytest.approx(high, rel=1e-9)
+        for name, margin in study.evaluate(v).margins.items():
+            assert margin >= -1e-8, name
+            if name in c.active:
+                assert margin == pytest.approx(0.0, abs=1e-5)
+
+
+def test_no_feasible_neighbour_is_better(result):
+    """2000 random steps of every size from the best design, kept inside bounds and constraints."""
+    rng, study, best = np.random.default_rng(0), result.study, result.best
+    free = [n for n, b in study.variables.items() if isinstance(b, tuple)]
+    tried = 0
+    for size in np.repeat(10.0 ** np.arange(-8.0, 0.0), 250):
+        x = dict(best.variables)
+        for name in free:
+            low, high = study.variables[name]
+            step = size * rng.normal() * (1.0 if name == "theta_z" else best.variables["zp"])
+            x[name] = min(max(x[name] + step, low), high)
+        scale = math.exp(0.5 * max(0.0, -study.evaluate(x).margins.get("radius_ratio", 0.0)))
+        x |= {"a1": x["a1"] / scale, "a2": x["a2"] / scale}
+        x |= {n: min(x[n] * scale, study.variables[n][1]) for n in ("b1", "b2")}
+        point = study.evaluate(x)
+        if x["zs"] >= x["zp"] or min(point.margins.values(), default=0.0) < 0.0:
+            continue
+        tried += 1
+        kappa = nd.condition_number(point.geometry, point.configuration, study.characteristic_length)
+        assert kappa >= best.condition_number * (1.0 - 1e-9)
+    assert tried > 300
+
+
+def test_candidates_are_distinct(result):
+    points = [
+        (round(c.condition_number, 4), *nd.leg_lengths(c.geometry, c.configuration).round(3)) for c in result.candidates
+    ]
+    assert len(set(points)) == len(points)

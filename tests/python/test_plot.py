@@ -1,0 +1,320 @@
+"""Figures: what is on them, that they keep to scale, that files come out whole and the same every time."""
+
+import math
+import subprocess
+import sys
+from collections import Counter
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.plot import style
+from ninedof.plot.plates import distinct, outlines
+
+PUBLISHED = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+STANDING = nd.Configuration.neutral(zp=3.9828, zs=2.3745)
+
+GEOMETRIES = {
+    "coupled": PUBLISHED,
+    "hexagonal": nd.Geometry.hexagonal(a1=2.0, a2=4.0, b1=2.2, b2=1.0),
+    "inner joints": nd.Geometry.symmetric(
+        base_external=(4.0, 0.0, 0.0),
+        base_internal=(1.5, 0.2, 0.0),
+        platform_external=(2.5, 1.0, 0.0),
+        platform_internal=(1.0, 1.0, 0.0),
+    ),
+    "non-planar": nd.Geometry.symmetric(
+        base_external=(5.0, 0.0, 0.0),
+        base_internal=(3.0, 0.6, 0.8),
+        platform_external=(2.5, 0.5, 0.0),
+        platform_internal=(1.2, 1.2, -0.7),
+    ),
+}
+
+TILTED = nd.Configuration(
+    position=[0.6, -0.3, 4.2],
+    rotation=[[0.8, 0.0, 0.6], [0.0, 1.0, 0.0], [-0.6, 0.0, 0.8]],
+    internal_point=[0.3, 0.2, 2.2],
+)
+
+
+def drawn(geometry, configuration, **options):
+    axes = Figure().add_subplot(projection="3d")
+    plot.draw_mechanism(axes, geometry, configuration, **options)
+    axes.figure.draw_without_rendering()
+    return axes
+
+
+def legs(axes):
+    """Colour letter -> end points (3, 2, 3) of the legs found on the axes."""
+    letters = {colour.lower(): letter for letter, colour in style.LEG_COLOURS.items()}
+    found = {"l": [], "q": [], "r": []}
+    for line in axes.lines:
+        colour = to_hex(line.get_color())
+        if colour in letters:
+            found[letters[colour]].append(np.transpose(line.get_data_3d()))
+    return {letter: np.array(ends) for letter, ends in found.items()}
+
+
+def curves(**options):
+    zs, theta = np.linspace(1.5, 3.5, 400), np.radians(np.linspace(-20.0, 20.0, 81))
+    return plot.DesignCurves(
+        "published",
+        zs,
+        nd.condition_number(PUBLISHED, nd.Configuration.neutral(3.9828, zs)),
+        theta,
+        nd.condition_number(PUBLISHED, nd.Configuration.neutral(3.9828, 2.3745, theta)),
+        point=(2.3745, 0.0, 3.9110),
+        **options,
+    )
+
+
+COMPARED = {"slope": -0.52, "level": 3.9110, "crossings": (2.3745, 2.5110), "least": (2.4435, 3.9071)}
+DOWN = [math.inf, 10.0, 4.0, 4.0, 3.0]
+STUCK = [8.0, 5.0, 3.5, 3.5]
+
+FIGURES = {
+    "mechanisms": lambda: plot.mechanisms([plot.Mechanism("published", PUBLISHED, STANDING, 3.9110)]),
+    "condition_curves": lambda: plot.condition_curves([curves(**COMPARED)]),
+    "convergence": lambda: plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0),
+}
+
+
+# --- The mechanism ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("configuration", [STANDING, TILTED], ids=["neutral", "tilted"])
+@pytest.mark.parametrize("geometry", GEOMETRIES.values(), ids=GEOMETRIES)
+def test_nine_legs_of_the_right_length_and_colour(geometry, configuration):
+    found = legs(drawn(geometry, configuration))
+    assert {letter: len(ends) for letter, ends in found.items()} == {"l": 3, "q": 3, "r": 3}
+    lengths = nd.leg_lengths(geometry, configuration)
+    for letter, expected in zip("lqr", np.split(lengths, 3), strict=True):
+        ends = found[letter]
+        assert np.sort(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) == pytest.approx(np.sort(expected))
+
+
+@pytest.mark.parametrize(
+    ("name", "base_corners", "joints"),
+    [("coupled", [3], 6), ("hexagonal", [6], 12), ("inner joints", [3], 12)],
+)
+def test_flat_plates_are_one_polygon_each(name, base_corners, joints):
+    axes = drawn(GEOMETRIES[name], STANDING)
+    base, platform = (c for c in axes.collections if isinstance(c, Poly3DCollection))
+    assert [len(face) for face in outlines(joints_of_base(name))] == base_corners
+    assert to_hex(base.get_facecolor()[0]) == style.BASE.lower()
+    assert to_hex(platform.get_facecolor()[0]) == style.PLATFORM.lower()
+    dots = [line for line in axes.lines if line.get_marker() == "o" and len(line.get_data_3d()[0]) > 1]
+    assert len(dots[0].get_data_3d()[0]) == joints  # coincident joints are drawn once
+
+
+def joints_of_base(name):
+    geometry = GEOMETRIES[name]
+    return np.vstack([geometry.base_external, geometry.base_internal])
+
+
+def test_solid_plate_is_closed():
+    faces = outlines(joints_of_base("non-planar"))
+    edges = Counter()
+    for face in faces:
+        corners = [tuple(np.round(corner, 9) + 0.0) for corner in face]
+        edges.update(frozenset(pair) for pair in zip(corners, [*corners[1:], corners[0]], strict=True))
+    assert set(edges.values()) == {2}  # every edge belongs to two faces
+    assert len(distinct(joints_of_base("non-planar"))) - len(edges) + len(faces) == 2  # Euler
+
+
+def test_outline_of_a_hexagon_runs_around_it():
+    (face,) = outlines(joints_of_base("hexagonal"))
+    angles = np.unwrap(np.arctan2(face[:, 1], face[:, 0]))
+    assert np.all(np.diff(angles) > 0) or np.all(np.diff(angles) < 0)
+    assert abs(angles[-1] - angles[0]) < 2 * np.pi
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES.values(), ids=GEOMETRIES)
+def test_equal_aspect_and_nothing_outside(geometry):
+    axes = drawn(geometry, TILTED)
+    spans = np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()), np.ptp(axes.get_zlim())])
+    scale = axes._box_aspect / spans
+    assert scale == pytest.approx(scale[0])
+    points = np.concatenate([ends.reshape(-1, 3) for ends in legs(axes).values()])
+    low, high = np.transpose([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+    assert np.all(points >= low - 1e-12)
+    assert np.all(points <= high + 1e-12)
+
+
+def test_panels_share_one_scale():
+    small = nd.Geometry.hexagonal(a1=0.0, a2=1.5, b1=0.8, b2=0.0)
+    figure = plot.mechanisms(
+        [
+            plot.Mechanism("before", PUBLISHED, STANDING, 3.9110),
+            plot.Mechanism("after", small, nd.Configuration.neutral(1.2, 0.7), 5.0, note="a note"),
+        ]
+    )
+    left, right = figure.axes
+    assert left.get_position().size == pytest.approx(right.get_position().size)
+    for limits in ("get_xlim", "get_ylim", "get_zlim"):
+        assert getattr(left, limits)() == getattr(right, limits)()
+    assert left._box_aspect == pytest.approx(right._box_aspect)
+    words = [text.get_text() for text in figure.texts]
+    assert {"before", "after", "condition number 3.9110", "condition number 5.0000", "a note"} <= set(words)
+    assert len(figure.legends[0].get_texts()) == 6
+
+
+def test_labels_carry_the_unit():
+    axes = drawn(PUBLISHED, STANDING, title="a title", unit="mm")
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == ("x (mm)", "y (mm)", "a title")
+    assert {"z (mm)", "O"} <= {text.get_text() for text in axes.texts}
+    assert drawn(PUBLISHED, STANDING).get_xlabel() == "x"
+    assert drawn(PUBLISHED, STANDING, legend=False).get_legend() is None
+
+
+def test_bad_input_is_named():
+    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(2,\)"):
+        drawn(PUBLISHED, nd.Configuration.neutral(4.0, [2.0, 2.5]))
+    with pytest.raises(ValueError, match=r"^panels: got none"):
+        plot.mechanisms([])
+    with pytest.raises(ValueError, match=r"^designs: got 0"):
+        plot.condition_curves([])
+    with pytest.raises(ValueError, match=r"^minimax, plain: got no runs"):
+        plot.convergence([], [DOWN], best=3.0)
+
+
+# --- Curves -----------------------------------------------------------------------------------------------------------
+
+
+def test_condition_curves_mark_points_and_crossings():
+    figure = plot.condition_curves([curves(**COMPARED), curves()], unit="m")
+    along_zs, along_theta, magnified = figure.axes
+    assert along_zs.get_xlabel() == "zs, height of O (m)"
+    own = [line for line in along_zs.lines if line.get_marker() == "o"]
+    assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in own] == [(2.3745, 3.9110)] * 2
+    assert list(magnified.get_xticks()) == [2.3745, 2.5110]
+    assert list(magnified.get_yticks()) == [3.9110]
+    assert "least 3.9071 at 2.4435" in [text.get_text() for text in magnified.texts]
+    (tangent,) = [line for line in along_theta.lines if line.get_color() == style.INK]
+    (x0, x1), (y0, y1) = tangent.get_data()
+    assert (y1 - y0) / np.radians(x1 - x0) == pytest.approx(COMPARED["slope"])
+    assert np.interp(0.0, [x0, x1], [y0, y1]) == pytest.approx(3.9110)
+    assert any("not 0 as eq. (7)" in text.get_text() for text in along_theta.texts)
+
+
+def test_condition_curves_without_a_level_have_two_panels():
+    assert len(plot.condition_curves([curves()]).axes) == 2
+
+
+@pytest.mark.parametrize(
+    ("along_zs", "point"), [([math.inf, 4.0, 5.0], 4.0), ([math.inf] * 3, math.inf), ([4.0] * 3, 4.0)]
+)
+def test_singular_parts_leave_a_gap(along_zs, point, tmp_path):
+    design = plot.DesignCurves("d", [1.0, 2.0, 3.0], along_zs, [-0.1, 0.1], [4.5, math.inf], (2.0, 0.0, point))
+    figure = plot.condition_curves([design])
+    assert not np.any(np.isinf(figure.axes[0].lines[0].get_ydata()))
+    assert all(np.all(np.isfinite(axes.get_ylim())) for axes in figure.axes)
+    assert plot.save(figure, tmp_path, "condition")
+
+
+def test_view_keeps_to_where_the_curves_are_low():
+    zs = np.linspace(0.1, 3.9, 200)
+    kappa = nd.condition_number(PUBLISHED, nd.Configuration.neutral(3.9828, zs))
+    theta = np.radians(np.linspace(-59.0, 59.0, 200))
+    along = nd.condition_number(PUBLISHED, nd.Configuration.neutral(3.9828, 2.3745, theta))
+    figure = plot.condition_curves([plot.DesignCurves("d", zs, kappa, theta, along, (2.3745, 0.0, 3.911))])
+    left, right = figure.axes
+    assert left.get_ylim()[1] < 1.5 * kappa.min()
+    assert 1.0 < left.get_xlim()[0] < 2.3745 < left.get_xlim()[1] < 3.6
+    assert -35 < right.get_xlim()[0] < 0 < right.get_xlim()[1] < 45
+
+
+# --- Convergence ------------------------------------------------------------------------------------------------------
+
+
+def test_convergence_shows_who_is_stuck():
+    share, minimax, plain = plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0).axes
+    assert (minimax.get_title(loc="left"), plain.get_title(loc="left")) == (
+        "minimax SQP: 2 of 2 arrive",
+        "plain SQP: 1 of 2 arrive",
+    )
+    there, stuck, median = (c for c in plain.collections if isinstance(c, LineCollection))
+    assert [len(c.get_segments()) for c in (there, stuck, median)] == [1, 1, 1]
+    (line,) = stuck.get_segments()
+    corners = dict.fromkeys(map(tuple, line.tolist()))
+    assert list(corners) == [(1, 5), (2, 5), (2, 2), (3, 2), (3, 0.5), (4, 0.5)]
+    assert to_hex(stuck.get_color()[0]) == style.ALARM.lower()
+    labels = [text.get_text() for text in plain.get_legend().get_texts()]
+    assert labels == ["one start", "median", "stuck above 10⁻⁶"]
+    assert [text.get_text() for text in minimax.get_legend().get_texts()] == ["one start", "median"]
+    assert share.lines[0].get_ydata().tolist() == [0, 0, 0, 0, 1]
+    assert share.lines[1].get_ydata().tolist() == [0, 0, 0, 0, 0.5]
+    assert minimax.get_yscale() == "log"
+
+
+@pytest.mark.parametrize("run", [[math.inf], [math.inf, math.inf], [3.0], [2.9999999]])
+def test_convergence_takes_degenerate_runs(run, tmp_path):
+    assert plot.save(plot.convergence([run], [run], best=3.0), tmp_path, "convergence")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(1e-6, "10⁻⁶"), (100.0, "10²"), (1.0, "10⁰"), (0.003, "0.003"), (0.0, "0"), (math.inf, "inf")]
+)
+def test_powers_of_ten(value, text):
+    assert style.power_of_ten(value) == text
+
+
+# --- Files ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
+def test_files_are_whole_and_reproducible(make, tmp_path):
+    first, second = (plot.save(make(), tmp_path / name, "figure") for name in "ab")
+    assert [path.name for path in first] == ["figure.png", "figure.svg"]
+    assert sorted(path.name for path in (tmp_path / "a").iterdir()) == ["figure.png", "figure.svg"]
+    for one, other in zip(first, second, strict=True):
+        assert one.read_bytes() == other.read_bytes()
+    assert first[0].read_bytes().startswith(b"\x89PNG")
+    assert ElementTree.parse(first[1]).getroot().tag.endswith("svg")
+    assert b"<dc:date>" not in first[1].read_bytes()
+
+
+@pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
+def test_nothing_leaves_the_figure(make):
+    figure = make()
+    figure.draw_without_rendering()
+    low, high = figure.get_tightbbox().get_points()
+    assert np.all(low > 0)
+    assert np.all(high < figure.get_size_inches())
+
+
+def test_failed_save_leaves_nothing(tmp_path):
+    class Broken(Figure):
+        def savefig(self, fname, **options):
+            fname.write_bytes(b"half a fi")
+            raise OSError("no space left on device")
+
+    (tmp_path / "figure.png").write_bytes(b"the old one")
+    with pytest.raises(OSError, match="no space"):
+        plot.save(Broken(), tmp_path, "figure")
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"the old one"]
+
+
+def test_matplotlib_is_left_as_it_was():
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    FIGURES["condition_curves"]()
+    assert dict(matplotlib.rcParams) == before
+
+
+@pytest.mark.parametrize(
+    ("statement", "absent"),
+    [("import ninedof", "matplotlib"), ("from ninedof import plot", "matplotlib.pyplot")],
+)
+def test_imports_stay_light(statement, absent):
+    code = f"import sys; {statement}; sys.exit({absent!r} in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

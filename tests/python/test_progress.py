@@ -1,0 +1,195 @@
+"""A long run from outside: what it reports, how it is stopped, from which threads it may be called."""
+
+import itertools
+import math
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import ninedof as nd
+
+LEAST = 3.762659078596047
+HUGE = 10**6  # starts: minutes of work
+
+
+def test_reports_rise_to_the_total():
+    seen = []
+    result = nd.optimize(nd.Study.paper(), starts=4000, progress=lambda *arguments: seen.append(arguments))
+    assert result.status == "optimal"
+    assert len(seen) > 1
+    done, total, best = zip(*seen, strict=True)
+    assert set(total) == {4000}
+    assert all(a < b for a, b in itertools.pairwise(done))
+    assert done[-1] == 4000
+    assert all(a >= b for a, b in itertools.pairwise(best))
+    assert best[-1] == pytest.approx(result.condition_number, rel=1e-9)
+    assert min(best) >= LEAST * (1.0 - 1e-9)  # an end that uses up the tolerance of a constraint is no record
+    assert all(type(x) is int for x in (*done, *total))
+
+
+def test_short_run_reports_its_end():
+    seen = []
+    nd.optimize(nd.Study.paper(), starts=1, progress=lambda *arguments: seen.append(arguments))
+    assert seen == [(1, 1, pytest.approx(LEAST, rel=1e-9))]
+
+
+def test_unbounded_study_reports_all_its_rounds():
+    seen = []
+    study = nd.Study(
+        variables=dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, math.inf))
+        | dict.fromkeys(("zp", "zs"), (0.05, math.inf))
+    )
+    result = nd.optimize(study, starts=200, progress=lambda *arguments: seen.append(arguments))
+    assert seen[-1][0] == seen[-1][1] == result.starts_done
+    assert result.starts_done in range(400, 2001, 200)
+
+
+def test_fixed_study_reports_a_total_it_reaches():
+    seen = []
+    fixed = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745}
+    nd.optimize(nd.Study(variables=fixed), progress=lambda *arguments: seen.append(arguments))
+    assert all(done == total for done, total, _ in seen[-1:])
+
+
+@pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3), GeneratorExit()], ids=repr)
+def test_exception_of_the_callback_stops_the_run_and_arrives(error):
+    calls = []
+
+    def report(*arguments):
+        calls.append(arguments)
+        raise error
+
+    with pytest.raises(type(error)) as caught:
+        nd.optimize(nd.Study.paper(), starts=HUGE, progress=report)
+    assert caught.value is error
+    assert len(calls) == 1
+    assert calls[0][0] < HUGE
+
+
+def test_callback_with_the_wrong_signature_is_an_error():
+    with pytest.raises(TypeError, match="positional argument"):
+        nd.optimize(nd.Study.paper(), starts=HUGE, progress=lambda done: None)
+
+
+def test_keyboard_interrupt_of_the_callback_returns_what_there_is():
+    def report(done, total, best):
+        raise KeyboardInterrupt
+
+    result = nd.optimize(nd.Study.paper(), starts=HUGE, progress=report)
+    assert result.status is nd.Status.STOPPED
+    assert 0 < result.starts_done < HUGE
+    assert result.condition_number == pytest.approx(LEAST, rel=1e-9)
+    assert "interrupted" in result.reason
+
+
+def test_callback_may_call_the_library():
+    inner = []
+    nd.optimize(
+        nd.Study.paper(), starts=3000, progress=lambda *a: inner.append(nd.optimize(nd.Study.paper(), starts=2))
+    )
+    assert inner
+    assert all(r.condition_number == pytest.approx(LEAST, rel=1e-9) for r in inner)
+
+
+def test_from_other_threads():
+    alone = nd.optimize(nd.Study.paper(), starts=200)
+    results = {}
+
+    def work(key):
+        results[key] = nd.optimize(nd.Study.paper(), starts=200, threads=1 + key % 2)
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert len(results) == 4
+    for r in results.values():
+        assert [c.variables for c in r.candidates] == [c.variables for c in alone.candidates]
+        assert r.evaluations == alone.evaluations
+
+
+def test_other_threads_run_meanwhile():
+    """The GIL is released: a counter in another thread moves on during one call."""
+    count, stop = [0], threading.Event()
+
+    def counter():
+        while not stop.is_set():
+            count[0] += 1
+            time.sleep(1e-4)
+
+    thread = threading.Thread(target=counter)
+    thread.start()
+    before = count[0]
+    nd.optimize(nd.Study.paper(), starts=3000, threads=1)
+    during = count[0] - before
+    stop.set()
+    thread.join()
+    assert during > 20
+
+
+# A job in the background ignores SIGINT, and so would its children: the child asks for Python's own handler.
+CHILD = """
+import signal
+import ninedof as nd
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+def report(done, total, best):
+    if not said:
+        said.append(1)
+        print("running", flush=True)
+
+said = []
+{setup}
+result = nd.optimize({study}, starts={starts}, progress=report, threads={threads})
+print("returned", flush=True)
+print(result.status, result.starts_done, result.condition_number, len(result.candidates), flush=True)
+"""
+UNBOUNDED = "nd.Study(variables=dict.fromkeys(['a1', 'a2', 'b1', 'b2', 'zp', 'zs'], (1e-3, float('inf'))))"
+
+
+def interrupt(starts=HUGE, study="nd.Study.paper()", threads="None", setup=""):
+    """Run a child, send SIGINT once it works; seconds until the call returned, and the words after."""
+    code = CHILD.format(study=study, starts=starts, threads=threads, setup=setup)
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as child:
+        watchdog = threading.Timer(60.0, child.kill)
+        watchdog.start()
+        try:
+            assert child.stdout.readline() == "running\n"
+            begin = time.perf_counter()
+            child.send_signal(signal.SIGINT)
+            assert child.stdout.readline() == "returned\n"
+            seconds = time.perf_counter() - begin
+            words = child.stdout.readline().split()
+            assert child.wait(timeout=60) == 0
+        finally:
+            child.kill()
+            watchdog.cancel()
+    return seconds, words
+
+
+@pytest.mark.parametrize("study", ["nd.Study.paper()", UNBOUNDED], ids=["paper", "unbounded"])
+def test_interrupt_returns_the_best_so_far(study):
+    _, (status, done, kappa, candidates) = interrupt(study=study)
+    assert status == "stopped"
+    assert 0 < int(done) < HUGE
+    assert 2.5 < float(kappa) < LEAST * (1.0 + 1e-9)
+    assert int(candidates) >= 1
+
+
+@pytest.mark.timing
+@pytest.mark.parametrize("threads", [1, 2])
+def test_interrupt_within_half_a_second(threads):
+    """The aim is 0.2 s; the rest is room for a busy machine."""
+    assert min(interrupt(threads=threads)[0] for _ in range(2)) < 0.5
+
+
+def test_own_signal_handler_is_called_and_decides():
+    """A program with a SIGINT handler of its own, which raises nothing, is not stopped behind its back."""
+    setup = "signal.signal(signal.SIGINT, lambda *a: None)"
+    _, (status, done, *_) = interrupt(starts=3000, setup=setup)
+    assert (status, int(done)) == ("optimal", 3000)

@@ -1,0 +1,158 @@
+"""The closed form on the symmetry axis against everything that does not know it.
+
+Three independent ways to the same six numbers: the package's triangular blocks (axis_singular_values), the package's
+general path (singular_values, which never sees the symmetry), numpy's SVD of an assembled J'; and, typed here, the
+trace and determinant form of the theory note, which shares with the package's version only the group theory.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+import ninedof as nd
+
+EPS = np.finfo(float).eps
+COUNT = 10_000
+
+
+@pytest.fixture(scope="module")
+def robots():
+    return model.random_symmetric_robots(np.random.default_rng(2024), COUNT)
+
+
+@pytest.fixture(scope="module")
+def closed_form(robots):
+    singles = [robots.at(k) for k in range(COUNT)]
+    return np.array([nd.axis_singular_values(m.geometry(), m.configuration()) for m in singles])
+
+
+def theory_note(m, lc=1.0):
+    """Section 2 of the conditioning note: singular values of J' from T0, D0, T1, D1, largest first."""
+    x, y, z, u, ut = (v[..., 0, :] for v in model.legs(m))
+    e, et, eh = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (x, y, z))
+    mm, n = np.cross(u, e) / lc, np.cross(ut, et) / lc
+
+    def c(w):
+        return w[..., 0] + 1j * w[..., 1]
+
+    def square(w):
+        return np.abs(w) ** 2
+
+    c0 = square(et[..., 2] / eh[..., 2])
+    c1 = square(c(et)) / square(c(eh))
+    t0 = 3.0 * (square(mm[..., 2]) + square(e[..., 2]) + (square(n[..., 2]) + square(et[..., 2])) / (1.0 + c0))
+    d0 = 3.0 * np.abs(mm[..., 2] * et[..., 2] - e[..., 2] * n[..., 2]) / np.sqrt(1.0 + c0)
+    t1 = 1.5 * (square(c(mm)) + square(c(e)) + (square(c(n)) + square(c(et))) / (1.0 + c1))
+    d1 = 1.5 * np.abs(c(mm) * c(et) - c(e) * c(n)) / np.sqrt(1.0 + c1)
+    values = []
+    for t, d, times in ((t0, d0, 1), (t1, d1, 2)):
+        large = 0.5 * (t + np.sqrt(np.maximum(t * t - 4.0 * d * d, 0.0)))
+        values += [np.sqrt(large), d / np.sqrt(large)] * times
+    return -np.sort(-1.0 / np.stack(values, axis=-1))
+
+
+def test_the_sample_is_worth_its_name(robots, closed_form):
+    kappa = closed_form[:, 0] / closed_form[:, 5]
+    assert np.median(kappa) < 100.0
+    assert kappa.max() > 1e5
+    planar = np.abs(robots.u[..., 2]).max(axis=-1) == 0.0
+    assert 0.2 * COUNT < planar.sum() < 0.4 * COUNT
+
+
+def test_against_numpy(robots, closed_form):
+    expected = model.singular_values(robots)
+    kappa = expected[:, :1] / expected[:, 5:]
+    assert (np.abs(closed_form / expected - 1.0) <= 100 * EPS * kappa).all()
+
+
+def test_against_the_general_path(robots, closed_form):
+    found = np.array([nd.singular_values(robots.at(k).geometry(), robots.at(k).configuration()) for k in range(COUNT)])
+    kappa = found[:, :1] / found[:, 5:]
+    assert (np.abs(closed_form / found - 1.0) <= 20 * EPS * kappa).all()
+
+
+def test_against_the_theory_note(robots, closed_form):
+    expected = theory_note(robots)
+    kappa = expected[:, 0] / expected[:, 5]
+    # T^2 - 4 D^2 cancels where the two roots of a block meet: square root of rounding there, rounding elsewhere.
+    assert_allclose(closed_form, expected, rtol=1e-7)
+    error = np.abs(closed_form[:, 0] / closed_form[:, 5] / kappa - 1.0)
+    assert np.quantile(error, 0.95) < 1e-11
+
+
+def test_transverse_values_come_in_pairs(closed_form):
+    """C3 symmetry: two simple and two double singular values."""
+    for sigma in closed_form[:100]:
+        assert len(np.unique(sigma)) <= 4
+
+
+def test_characteristic_length_scales_the_angular_rows(robots):
+    for k in range(0, COUNT, 500):
+        m = robots.at(k)
+        for lc in (0.2, 3.0):
+            expected = model.singular_values(m, lc)
+            found = nd.axis_singular_values(m.geometry(), m.configuration(), lc)
+            assert_allclose(found, expected, rtol=100 * EPS * expected[0] / expected[5])
+
+
+def test_stacks(published, stack, neutral):
+    assert_array_equal(
+        nd.axis_singular_values(published, stack), [nd.axis_singular_values(published, c) for c in stack]
+    )
+    assert nd.axis_singular_values(published, stack[:0]).shape == (0, 6)
+    assert nd.axis_singular_values(published, neutral).shape == (6,)
+
+
+def test_singular_poses_are_infinite():
+    similar = nd.Geometry.hexagonal(1.0, 2.0, 0.5, 1.0)
+    for c in (
+        nd.Configuration.neutral(3.0, 1.0),
+        nd.Configuration.neutral(3.0, 0.0),
+        nd.Configuration.neutral(3.0, 3.0),
+    ):
+        assert nd.axis_singular_values(similar, c)[0] == np.inf
+
+
+def test_internal_point_over_its_base_joints():
+    """|e^_c| -> 0 makes c1 of the note infinite; the package's form must pass through it."""
+    for radius in (1e-3, 1e-6, 1e-9):
+        g = nd.Geometry.symmetric((2.0, 0.0, 0.0), (radius, 1.0, 0.0), (1.0, 0.7, 0.0), (1.0, 2.0, 0.0))
+        c = nd.Configuration.neutral(3.0, 1.4)
+        m = model.robot(g, c)
+        expected = model.singular_values(m)
+        assert_allclose(nd.axis_singular_values(g, c), expected, rtol=1e3 * EPS / radius)
+
+
+def test_missing_pose_stays_alone(published):
+    c = nd.Configuration([[0, 0, 4], [0, 0, np.nan], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    result = nd.axis_singular_values(published, c)
+    assert np.isfinite(result[[0, 2]]).all()
+    assert np.isnan(result[1]).all()
+
+
+TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
+
+
+@pytest.mark.parametrize("name", TRIPLES)
+def test_triple_off_its_orbit_is_named(published, neutral, name):
+    triples = {n: np.array(getattr(published, n)) for n in TRIPLES}
+    triples[name][1, 2] += 1e-3
+    with pytest.raises(ValueError, match=rf"^{name}: got .+, expected .+"):
+        nd.axis_singular_values(nd.Geometry(**triples), neutral)
+
+
+@pytest.mark.parametrize("name", ["position", "internal_point", "rotation"])
+def test_pose_off_the_axis_is_named(published, neutral, name):
+    parts = {n: np.array(getattr(neutral, n)) for n in ("position", "rotation", "internal_point")}
+    parts[name] = np.diag([1.0, -1.0, -1.0]) if name == "rotation" else parts[name] + [1e-3, 0.0, 0.0]
+    with pytest.raises(ValueError, match=rf"^{name}: got .+, expected .+"):
+        nd.axis_singular_values(published, nd.Configuration(**parts))
+
+
+def test_orbits_that_turn_the_other_way_are_refused(neutral):
+    """Joints numbered anticlockwise pair the external legs otherwise: another machine, not one of this closed form."""
+    g = nd.Geometry.hexagonal(0.3, 2.0, 1.5, 0.2)
+    reversed_base = nd.Geometry(g.base_external[[0, 2, 1]], g.base_internal, g.platform_external, g.platform_internal)
+    with pytest.raises(ValueError, match=r"^base_external: got"):
+        nd.axis_singular_values(reversed_base, neutral)

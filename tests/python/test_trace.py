@@ -1,0 +1,94 @@
+"""Single runs from chosen starts: the minimax form reaches the optimum from everywhere, the plain one jams on kinks.
+
+Oracle: the proved least value. The shares (100 % and about three quarters) are those of the conditioning note.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+
+LEAST = 3.762659078596047
+STUDY = nd.Study.paper()
+START = {"a1": 1.0, "a2": 2.0, "b1": 3.0, "b2": 1.0, "zp": 3.0, "zs": 1.0}
+
+
+@pytest.fixture(scope="module")
+def starts():
+    rng = np.random.default_rng(42)
+    zp = rng.uniform(0.05, 80.0, size=200)
+    sides = rng.uniform(0.0, 60.0, size=(4, 200))
+    rows = zip(*sides, zp, rng.uniform(0.05, zp), strict=True)
+    return [dict(zip(START, map(float, row), strict=True)) for row in rows]
+
+
+def test_minimax_reaches_the_optimum_from_200_of_200_starts(starts):
+    ends = [nd.trace(STUDY, start).end for start in starts]
+    assert np.abs([c.condition_number - LEAST for c in ends]).max() < 1e-6
+    assert max(c.constraint_violation for c in ends) <= 1e-8
+    assert max(c.optimality_residual for c in ends) <= 1e-6
+
+
+def test_plain_reaches_it_less_often_and_later(starts):
+    traces = [nd.trace(STUDY, start, "plain") for start in starts]
+    reached = sum(abs(t.end.condition_number - LEAST) < 1e-6 for t in traces)
+    assert 100 <= reached < 200
+    assert all(t.end.condition_number >= LEAST - 1e-7 for t in traces)
+    smooth = [nd.trace(STUDY, start) for start in starts[:50]]
+    assert np.mean([len(t.best) for t in smooth]) < 0.5 * np.mean([len(t.best) for t in traces[:50]])
+
+
+@pytest.mark.parametrize("formulation", ["minimax", "plain"])
+def test_best_so_far_never_rises(starts, formulation):
+    for start in starts[:20]:
+        t = nd.trace(STUDY, start, formulation)
+        assert t.best
+        assert all(b <= a for a, b in itertools.pairwise(t.best))
+        assert t.best[-1] == pytest.approx(t.end.condition_number, rel=1e-6)
+
+
+def test_the_first_design_is_the_start():
+    t = nd.trace(STUDY, START | {"a2": 4.0})
+    assert t.best[0] == pytest.approx(STUDY.evaluate(START | {"a2": 4.0}).condition_number, rel=1e-12)
+
+
+def test_start_that_breaks_a_constraint_counts_as_infinite():
+    t = nd.trace(STUDY, START | {"a2": 50.0})
+    assert t.best[0] == math.inf
+    assert t.end.condition_number == pytest.approx(LEAST, rel=1e-9)
+
+
+def test_two_traces_are_the_same_bits():
+    assert nd.trace(STUDY, START).best == nd.trace(STUDY, START).best
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"a1": -5.0, "a2": 1e9},
+        {"zs": 10.0},
+        {"a1": 0.0, "a2": 0.0},
+        {"a1": 1.0, "a2": 2.0, "b1": 1.0, "b2": 2.0},
+        {"zp": 1.0, "zs": 1.0},
+    ],
+    ids=["outside", "zs above zp", "no base", "singular", "O in the platform"],
+)
+def test_awkward_starts(changes):
+    assert nd.trace(STUDY, START | changes).end.condition_number == pytest.approx(LEAST, rel=1e-9)
+
+
+def test_bad_arguments():
+    for formulation in ("", "SQP", None):
+        with pytest.raises(ValueError, match=r"^formulation: got .+, expected .+"):
+            nd.trace(STUDY, START, formulation)
+    with pytest.raises(ValueError, match="zs: got no value"):
+        nd.trace(STUDY, {name: x for name, x in START.items() if name != "zs"})
+    with pytest.raises(ValueError, match=r"^a1: got nan"):
+        nd.trace(STUDY, START | {"a1": math.nan})
+    with pytest.raises(ValueError, match=r"^variables: got the entry 'c1'"):
+        nd.trace(STUDY, START | {"c1": 1.0})
+    with pytest.raises(ValueError, match=r"^study: got .+, expected .+"):
+        nd.trace("paper", START)
