@@ -26,9 +26,9 @@ Mat3 null_space_part(const Triple& c, const Triple& b) {
   for (Eigen::Index k = 0; k < 3; ++k) {
     Vec6 v = a.col(k);
     v.head(k).setZero();
-    const double norm = v.norm();
-    if (norm == 0.0) continue;
-    v[k] += std::copysign(norm, v[k]);
+    const double squared = v.squaredNorm();
+    if (squared < 1e-290) continue;  // nothing left to reflect, and the square of a trace of it would underflow
+    v[k] += std::copysign(std::sqrt(squared), v[k]);
     const double scale = 2.0 / v.squaredNorm();
     for (Eigen::Index j = k + 1; j < 3; ++j) a.col(j) -= (scale * v.dot(a.col(j))) * v;
     reflectors.col(k) = v;

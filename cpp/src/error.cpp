@@ -46,11 +46,11 @@ std::string format_interval(double low, double high) {
   return text;
 }
 
-void require_finite(const std::string& argument, double value) {
+void require_finite(const char* argument, double value) {
   if (!std::isfinite(value)) throw InvalidArgument(argument, format_number(value), "a finite number");
 }
 
-void require_positive(const std::string& argument, double value) {
+void require_positive(const char* argument, double value) {
   if (!std::isfinite(value) || value <= 0.0)
     throw InvalidArgument(argument, format_number(value), "a finite number > 0");
 }

@@ -51,9 +51,9 @@ Hexagon hexagon(double s1, double s2) {
 }
 
 Triple orbit_of(const std::string& name, const Orbit& o) {
-  require_positive(name + ".radius", o.radius);
-  require_finite(name + ".angle", o.angle);
-  require_finite(name + ".height", o.height);
+  require_positive((name + ".radius").c_str(), o.radius);
+  require_finite((name + ".angle").c_str(), o.angle);
+  require_finite((name + ".height").c_str(), o.height);
   return orbit_of(Vec3(o.radius * std::cos(o.angle), o.radius * std::sin(o.angle), o.height));
 }
 

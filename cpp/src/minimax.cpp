@@ -132,11 +132,12 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     return true;
   };
 
+  Eigen::VectorXd from = y;
   for (int attempt = 0; attempt <= restarts && !stop.stop_requested(); ++attempt) {
     Eigen::VectorXd full(nlp.variables);
-    full.head(n) = y;
+    full.head(n) = from;
     if (minimax) {
-      look(p, y, l);
+      look(p, from, l);
       full[n] = l.log_max();
       full[n + 1] = l.log_min();
     }
@@ -144,7 +145,10 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     better |= take(seen);
     if (!minimax) return run;
     if (run.end.feasible() && run.end.optimality_residual < 1e-2) take(polish(p, y));
-    if (settled() || !better) break;
+    if (settled()) break;
+    // SLSQP sometimes gives up where it stands: once in a thousand starts. A little way towards another start it goes on;
+    // bounds and the order of zs and zp are linear here, so they hold on that way.
+    from = better ? y : Eigen::VectorXd(0.9 * y + 0.1 * p.coordinates.start(attempt, 0));
   }
   return run;
 }

@@ -21,7 +21,9 @@ void look(const Prepared& p, const Eigen::VectorXd& y, Look& out) {
 }
 
 double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
-  double worst = std::max(0.0, -p.coordinates.order_margin(y));
+  // zs < zp is strict: what is beyond it by any rounding is no design, whatever the tolerance for other limits.
+  const double order = p.coordinates.order_margin(y);
+  double worst = order < 0.0 ? 1e-6 - order : 0.0;
   for (const Margin& m : p.margins) worst = std::max(worst, -m.value(l.point));
   return worst;
 }

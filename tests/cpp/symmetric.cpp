@@ -1,5 +1,5 @@
-/// symmetric.hpp against the general path of conditioning.hpp (which forms M from nine legs and knows no symmetry), against
-/// the complex-step oracle where all singular values nearly meet, and its exact gradients against differences.
+/// symmetric.hpp against the general path of conditioning.hpp (which forms M from nine legs and knows no symmetry), and
+/// against the complex-step oracle where all singular values nearly meet. Gradients: symmetric_gradient.cpp.
 
 #include "ninedof/symmetric.hpp"
 
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "axis.hpp"
 #include "ninedof/conditioning.hpp"
 #include "ninedof/legs.hpp"
 #include "oracle.hpp"
@@ -15,31 +16,9 @@
 
 using namespace ninedof;
 using namespace support;
+using namespace axis;
 
 namespace {
-
-constexpr int coordinates = 14;
-using Flat = std::array<double, coordinates>;
-
-template <class T>
-AxisDesign<T> design_of(const std::array<T, coordinates>& x) {
-  return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10], x[11]}, x[12], x[13]};
-}
-
-template <class T>
-std::array<T, 7> values(const AxisSpectrum<T>& s) {
-  return {s.axial_max, s.axial_min, s.transverse_max, s.transverse_min, s.l, s.q, s.r};
-}
-
-Flat flat(const AxisDesign<double>& d) {
-  Flat x{};
-  std::size_t k = 0;
-  for (const auto* p : {&d.base_external, &d.base_internal, &d.platform_external, &d.platform_internal})
-    for (const double value : {p->x, p->y, p->z}) x[k++] = value;
-  x[12] = d.zp;
-  x[13] = d.zs;
-  return x;
-}
 
 /// The six singular values of M on the axis, the transverse pair twice, descending.
 Vec6 six(const AxisSpectrum<double>& s) {
@@ -51,43 +30,6 @@ Vec6 six(const AxisSpectrum<double>& s) {
 
 double condition_number_of(const AxisSpectrum<double>& s) {
   return std::max(s.axial_max, s.transverse_max) / std::min(s.axial_min, s.transverse_min);
-}
-
-/// Gradients of all seven quantities against fourth-order differences of the same formula over plain doubles: they share the
-/// formula (held against other ways elsewhere in this file), not one rule of differentiation.
-void check_gradients(const Flat& x, double lc, double tolerance) {
-  using D = Dual<coordinates>;
-  std::array<D, coordinates> variables;
-  double size = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    variables[k] = D::variable(x[k], static_cast<int>(k));
-    size = std::max(size, std::abs(x[k]));
-  }
-  const auto exact = values(axis_spectrum(design_of(variables), lc));
-  const auto plain = values(axis_spectrum(design_of(x), lc));
-  for (std::size_t v = 0; v < exact.size(); ++v) CHECK(relative_error(exact[v].value, plain[v]) <= 16.0 * eps);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double h = 2e-4 * size;
-    const auto at = [&](int steps) {
-      Flat y = x;
-      y[k] += steps * h;
-      return values(axis_spectrum(design_of(y), lc));
-    };
-    const auto a = at(-2), b = at(-1), c = at(1), d = at(2);
-    for (std::size_t v = 0; v < exact.size(); ++v) {
-      const double expected = (8.0 * (c[v] - b[v]) - (d[v] - a[v])) / (12.0 * h);
-      CAPTURE(k);
-      CAPTURE(v);
-      CHECK(std::abs(exact[v].gradient[k] - expected) * size <=
-            tolerance * std::max(plain[v], std::abs(expected) * size));
-    }
-  }
-}
-
-/// Neither next to a kink (a singular value of zero, two that meet within a pair) nor next to a singularity.
-bool smooth(const AxisSpectrum<double>& s) {
-  return s.axial_min > 0.05 * s.axial_max && s.axial_min < 0.95 * s.axial_max &&
-         s.transverse_min > 0.05 * s.transverse_max && s.transverse_min < 0.95 * s.transverse_max;
 }
 
 /// kappa = 1.0143, O far above the platform: found by a random search.
@@ -163,65 +105,6 @@ TEST_SUITE("symmetric") {
       const double got = condition_number_of(axis_spectrum(axis_design(g, c), 1.0));
       CHECK(relative_error(got, expected) <= 32.0 * eps * expected);
     }
-  }
-
-  TEST_CASE("exact gradients: random designs") {
-    Random random(105);
-    int checked = 0;
-    while (checked < 100) {
-      const auto [g, c] = random_symmetric_robot(random);
-      const AxisDesign<double> d = axis_design(g, c);
-      if (!smooth(axis_spectrum(d, 1.0))) continue;
-      check_gradients(flat(d), 1.0, 1e-7);
-      ++checked;
-    }
-  }
-
-  TEST_CASE("exact gradients: hexagons at the neutral configuration, coupled joints included") {
-    Random random(106);
-    int checked = 0;
-    while (checked < 50) {
-      const double a1 = checked % 2 == 0 ? 0.0 : random.uniform(0.0, 1.0),
-                   b2 = checked % 3 == 0 ? 0.0 : random.uniform(0.0, 1.0);
-      const Geometry g = Geometry::hexagonal(a1, random.uniform(2.0, 6.0), random.uniform(1.0, 3.0), b2);
-      const AxisDesign<double> d = axis_design(g, neutral(random.uniform(2.5, 5.0), random.uniform(0.5, 2.0)));
-      if (!smooth(axis_spectrum(d, 1.0))) continue;
-      check_gradients(flat(d), 1.0, 1e-7);
-      ++checked;
-    }
-  }
-
-  TEST_CASE("exact gradients: tiny and huge robots") {
-    Random random(107);
-    for (const double scale : {1e-9, 1e-3, 1e3, 1e9})
-      for (int checked = 0; checked < 10;) {
-        const auto [g, c] = scaled(random_symmetric_robot(random), scale);
-        const AxisDesign<double> d = axis_design(g, c);
-        if (!smooth(axis_spectrum(d, scale))) continue;
-        check_gradients(flat(d), scale, 1e-7);
-        ++checked;
-      }
-  }
-
-  TEST_CASE("singular designs: the least singular value is zero or rounding, values and gradients stay finite") {
-    using D = Dual<coordinates>;
-    const auto least = [](const Geometry& g, const Configuration& c) {
-      const Flat x = flat(axis_design(g, c));
-      std::array<D, coordinates> variables;
-      for (std::size_t k = 0; k < x.size(); ++k) variables[k] = D::variable(x[k], static_cast<int>(k));
-      double smallest = infinity;
-      for (const D& v : values(axis_spectrum(design_of(variables), 1.0))) {
-        CHECK(std::isfinite(v.value));
-        for (const double slope : v.gradient) CHECK(std::isfinite(slope));
-        smallest = std::min(smallest, v.value);
-      }
-      return smallest;
-    };
-    const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5);
-    CHECK(least(g, neutral(2, 0)) == 0.0);  // det B
-    CHECK(least(g, neutral(2, 2)) == 0.0);  // det C
-    CHECK(least(Geometry::hexagonal(1, 2, 0.5, 1), neutral(2, 1)) <= 4.0 * eps);  // det M: similar hexagons
-    CHECK(least(Geometry::hexagonal(0, 3, 0, 2), neutral(3, 1)) <= 4.0 * eps);
   }
 
   TEST_CASE("axis_design takes joints as they stand in the base frame, and refuses by name what is not symmetric") {

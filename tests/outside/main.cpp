@@ -1,12 +1,11 @@
 /// The published design through the installed headers and library: exit status 0 if its condition number is right.
 
+#include <cmath>
+#include <cstdio>
 #include <ninedof/conditioning.hpp>
 #include <ninedof/configuration.hpp>
 #include <ninedof/geometry.hpp>
 #include <ninedof/optimize.hpp>
-
-#include <cmath>
-#include <cstdio>
 
 int main() {
   // Base triangle of side 5.8124, platform triangle of half that side, O at the best height between them.

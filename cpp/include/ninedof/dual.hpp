@@ -97,6 +97,10 @@ Dual<N> operator*(double a, const Dual<N>& b) {
   return b * a;
 }
 template <int N>
+Dual<N> operator/(const Dual<N>& a, double b) {
+  return {a.value / b, 1.0 / b, a};
+}
+template <int N>
 Dual<N> operator/(double a, const Dual<N>& b) {
   const double quotient = a / b.value;
   return {quotient, -quotient / b.value, b};

@@ -30,9 +30,9 @@ std::string format_number(double value);
 std::string format_interval(double low, double high);
 
 /// Throws InvalidArgument unless `value` is finite and greater than zero.
-void require_positive(const std::string& argument, double value);
+void require_positive(const char* argument, double value);
 
 /// Throws InvalidArgument unless `value` is finite.
-void require_finite(const std::string& argument, double value);
+void require_finite(const char* argument, double value);
 
 }  // namespace ninedof

@@ -1,0 +1,47 @@
+#pragma once
+/// Many starts at once, and which of their ends count.
+
+#include <mutex>
+#include <optional>
+
+#include "minimax.hpp"
+
+namespace ninedof {
+
+/// Runs of one round by start, empty where it was not begun, and what they cost.
+struct Round {
+  std::vector<std::optional<Run>> runs;
+  long evaluations = 0;
+  int done = 0;
+};
+
+/// Counts finished starts over all rounds and passes on what is new, one caller at a time.
+class Progress {
+ public:
+  Progress(const Control& control, int total) : control_(control), total_(total) {}
+  void finished(const Candidate& c) {
+    const std::lock_guard lock(guard_);
+    ++done_;
+    if (c.feasible()) best_ = std::min(best_, c.condition_number);
+    if (control_.progress) control_.progress(done_, total_, best_);
+  }
+
+ private:
+  const Control& control_;
+  std::mutex guard_;
+  int total_, done_ = 0;
+  double best_ = std::numeric_limits<double>::infinity();
+};
+
+/// Starts of one round: a design without free variables is looked at once.
+int start_count(const Prepared& p, const Settings& s);
+
+Round run_round(const Prepared& p, const Settings& s, const Control& control, Progress& progress);
+
+/// Distinct acceptable ends, best first: within the limits, stationary, regular, and on no cut of ours.
+std::vector<Candidate> distinct(const Prepared& p, const Round& round);
+
+/// The best end that is within the limits and regular, checked for nothing more: what there is when none is acceptable.
+std::optional<Candidate> best_allowed(const Round& round);
+
+}  // namespace ninedof
