@@ -32,6 +32,9 @@ void bind_conditioning(py::module_& m) {
   bind_index(m, "condition_number_frobenius", [](const Geometry& g, const Configuration& c, double lc) {
     return condition_number(g, c, lc, Norm::frobenius);
   });
+  bind_index(m, "reciprocal_condition_number", [](const Geometry& g, const Configuration& c, double lc) {
+    return reciprocal_condition_number(g, c, lc);
+  });
   bind_index(m, "manipulability", &manipulability);
   bind_index(m, "isotropy_residual", &isotropy_residual);
 
@@ -56,7 +59,7 @@ void bind_conditioning(py::module_& m) {
             const AxisSpectrum<double> a = axis_spectrum(axis_design(g, pose), lc[i]);
             sigma << a.axial_max, a.axial_min, a.transverse_max, a.transverse_max, a.transverse_min, a.transverse_min;
             sigma = sigma.cwiseInverse().eval();
-            std::sort(sigma.begin(), sigma.end(), std::greater<>());
+            if (!sigma.hasNaN()) std::sort(sigma.begin(), sigma.end(), std::greater<>());
             Eigen::Map<Vec6>{out} = sigma;
           });
         });

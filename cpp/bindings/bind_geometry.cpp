@@ -17,6 +17,7 @@ Orbit orbit_from(const std::string& name, const py::object& value) {
 /// Every rotation proper and every number finite; in a stack NaN marks a pose without data and passes.
 void check_configurations(const Array& position, const Array& rotation, const Array& internal_point, bool is_stack) {
   const ConfigurationStack stack(position, rotation, internal_point);
+  const py::gil_scoped_release nogil;
   for (long i = 0; i < stack.count(); ++i) {
     const Configuration c = stack[i];
     const bool missing = c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN();
@@ -41,7 +42,13 @@ struct Filling {
   Array position, rotation, internal_point;
 };
 
+void require_size(const std::string& name, const Array& a, py::ssize_t size) {
+  if (a.size() != size) throw InvalidArgument(name, std::to_string(a.size()) + " numbers", std::to_string(size));
+}
+
 py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, bool is_stack) {
+  require_size("zs", zs, zp.size());
+  require_size("theta_z", theta_z, zp.size());
   Filling out(zp.size());
   for (py::ssize_t i = 0; i < zp.size(); ++i) {
     const double p = zp.data()[i], s = zs.data()[i], angle = theta_z.data()[i];
@@ -54,6 +61,7 @@ py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, 
 
 py::tuple moved_stack(const Array& position, const Array& rotation, const Array& internal_point, const Array& tangent) {
   const ConfigurationStack stack(position, rotation, internal_point);
+  require_size("tangent", tangent, 9 * stack.count());
   Filling out(stack.count());
   for (long i = 0; i < stack.count(); ++i) out.set(i, plus(stack[i], Eigen::Map<const Vec9>(tangent.data() + 9 * i)));
   return out.result();

@@ -17,6 +17,12 @@ double* write(const Eigen::MatrixBase<Derived>& m, double* to) {
   return to + m.size();
 }
 
+/// Nine numbers for each configuration.
+void require_rows(const std::string& name, const Array& a, long count) {
+  if (a.size() != 9 * count)
+    throw InvalidArgument(name, std::to_string(a.size()) + " numbers", std::to_string(9 * count));
+}
+
 /// A..G of every configuration, one after the other: 18 + 9 + 9 + 9 + 18 + 36 + 54 doubles.
 constexpr py::ssize_t matrices_size = 153;
 
@@ -53,6 +59,7 @@ void bind_kinematics(py::module_& m) {
   m.def("forward_velocity",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& rates, int threads) {
           const ConfigurationStack c(p, q, s);
+          require_rows("leg_rates", rates, c.count());
           const double* r = rates.data();
           return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
             const Velocity v = forward_velocity(g, c[i], Eigen::Map<const Vec9>(r + 9 * i));

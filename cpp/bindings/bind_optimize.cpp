@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -86,6 +85,13 @@ Formulation formulation_from(const std::string& word) {
 }  // namespace
 
 void bind_optimize(py::module_& m) {
+  py::dict built_with;
+  built_with["nlopt"] = solver_version();
+  built_with["eigen"] = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION);
+  built_with["compiler"] = __VERSION__;
+  m.attr("built_with") = built_with;
+
   py::class_<Candidate>(m, "Candidate")
       .def_property_readonly("variables", [](const Candidate& c) { return array_from(c.variables); })
       .def_readonly("condition_number", &Candidate::condition_number)

@@ -64,7 +64,9 @@ std::vector<std::string> conflict(const Prepared& p, const Look& l, const Eigen:
     columns.emplace_back(l.gradient.transpose() * m.governing(l.point).coefficients);
     labels.push_back(m.name);
   }
-  if (p.coordinates.order_margin(y) <= -worst + limit_contact) {
+  // As `violation` measures it.
+  const bool out_of_order = p.coordinates.order_margin(y) < 0.0;
+  if (out_of_order && std::max(1e-6, l.point.value[log_zs] - l.point.value[log_zp]) >= worst - limit_contact) {
     columns.emplace_back(p.coordinates.order().gradient);
     labels.emplace_back("zp > zs");
   }

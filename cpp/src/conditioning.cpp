@@ -88,6 +88,10 @@ double condition_number(const Geometry& g, const Configuration& c, double charac
   return norm == Norm::two ? sigma[0] / sigma[5] : sigma.norm() * sigma.cwiseInverse().norm();
 }
 
+double reciprocal_condition_number(const Geometry& g, const Configuration& c, double characteristic_length, Norm norm) {
+  return 1.0 / condition_number(g, c, characteristic_length, norm);
+}
+
 double manipulability(const Geometry& g, const Configuration& c, double characteristic_length) {
   return singular_values(g, c, characteristic_length).prod();
 }

@@ -65,7 +65,7 @@ Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_f
     const Bounds& b = problem.variables[i];
     const bool angle = info[i].is_angle, free = b.low < b.high;
     const bool cap_low = angle && free && !std::isfinite(b.low);
-    const bool cap_high = free && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high));
+    const bool cap_high = free && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high) && cap < b.high);
     x_low_[k] = !cap_low ? b.low : cap_high ? -turn : b.high - 2.0 * turn;
     x_high_[k] = !cap_high ? b.high : angle ? x_low_[k] + 2.0 * turn : cap;
     fixed_[k] = x_low_[k];

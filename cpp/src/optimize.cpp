@@ -11,7 +11,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   problem.validate();
   settings.validate();
   Result result;
-  if (judge_flat(problem, result)) return result;
+  if (judge_order(problem, result)) return result;
   const std::vector<double> sizes = caps(problem);
   const int starts_a_round = start_count(Prepared(problem, sizes.front()), settings);
   Progress progress(control, starts_a_round * static_cast<int>(sizes.size()));

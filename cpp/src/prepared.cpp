@@ -23,7 +23,7 @@ void look(const Prepared& p, const Eigen::VectorXd& y, Look& out) {
 double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
   // zs < zp is strict: what is beyond it by any rounding is no design, whatever the tolerance for other limits.
   const double order = p.coordinates.order_margin(y);
-  double worst = order < 0.0 ? 1e-6 - order : 0.0;
+  double worst = order < 0.0 ? std::max(1e-6, l.point.value[log_zs] - l.point.value[log_zp]) : 0.0;
   for (const Margin& m : p.margins) worst = std::max(worst, -m.value(l.point));
   return worst;
 }

@@ -2,11 +2,21 @@
 
 #include <nlopt.h>
 
+#include <exception>
 #include <memory>
 #include <new>
-#include <stdexcept>
+#include <string>
+
+#include "ninedof/optimize.hpp"
 
 namespace ninedof {
+
+std::string solver_version() {
+  int major = 0, minor = 0, bugfix = 0;
+  ::nlopt_version(&major, &minor, &bugfix);
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(bugfix);
+}
+
 namespace {
 
 /// NLopt asks for objective and constraints one after the other at the same point; we compute both at once.
@@ -15,12 +25,19 @@ struct Session {
   nlopt_opt opt;
   Eigen::VectorXd at;
   Nlp::Values values;
+  std::exception_ptr failure;
 
-  void update(const double* y) {
-    const Eigen::Map<const Eigen::VectorXd> point(y, nlp.variables);
-    if (at.size() == point.size() && at == point) return;
-    at = point;
-    if (!nlp.evaluate(at, values)) nlopt_force_stop(opt);
+  /// Nothing may be thrown through NLopt's C frames: an exception waits here until it has returned.
+  void update(const double* y) noexcept {
+    try {
+      const Eigen::Map<const Eigen::VectorXd> point(y, nlp.variables);
+      if (at.size() == point.size() && at == point) return;
+      at = point;
+      if (!nlp.evaluate(at, values)) nlopt_force_stop(opt);
+    } catch (...) {
+      failure = std::current_exception();
+      nlopt_force_stop(opt);
+    }
   }
 };
 
@@ -44,7 +61,7 @@ Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpS
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> opt(
       nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(nlp.variables)), &nlopt_destroy);
   if (!opt) throw std::bad_alloc();
-  Session session{nlp, opt.get(), {}, {}};
+  Session session{nlp, opt.get(), {}, {}, {}};
   session.values.f_gradient.setZero(nlp.variables);
   session.values.c.setZero(nlp.constraints);
   session.values.c_gradient.setZero(nlp.constraints, nlp.variables);
@@ -63,6 +80,7 @@ Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpS
   Eigen::VectorXd y = inside;
   double f = 0.0;
   nlopt_optimize(opt.get(), y.data(), &f);
+  if (session.failure) std::rethrow_exception(session.failure);
   return y.allFinite() ? y : inside;
 }
 

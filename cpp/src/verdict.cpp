@@ -58,7 +58,7 @@ std::string unbounded_reason(const std::vector<Leader>& leaders, const std::vect
     if (l.cap > leaders.front().cap) text += ", ";
     text += format_number(std::round(l.best.condition_number * 1e6) / 1e6) + " at size " + format_number(l.cap);
   }
-  return text + ")";
+  return text + "); a bound of a million characteristic lengths or more counts as none";
 }
 
 }  // namespace
@@ -86,22 +86,32 @@ Leader leader(const Prepared& p, double cap, const Candidate& best) {
 }
 
 void judge_unbounded(const Problem& problem, const std::vector<Leader>& leaders, Result& result) {
+  if (leaders.back().at_cap && !keeps_improving(leaders)) {
+    result.status = Status::stopped;
+    result.reason = "the best design found stands at size " + format_number(leaders.back().cap) +
+                    ", where a search without bounds was cut off, and does not keep improving: bound the variables";
+  }
   if (!keeps_improving(leaders)) return;
   result.status = Status::unbounded;
   result.causes = growing(problem, leaders);
   result.reason = unbounded_reason(leaders, result.causes);
 }
 
-bool judge_flat(const Problem& problem, Result& result) {
+bool judge_order(const Problem& problem, Result& result) {
   const auto& info = design_family(problem.family).variables();
   for (std::size_t k = 0; k < info.size(); ++k) {
     if ((info[k].name != "zp" && info[k].name != "zs") || problem.variables[k].high > 0.0) continue;
-    result.status = Status::infeasible;
-    result.causes = {info[k].name};
+    result.causes = {info[k].name, "zp > zs"};
     result.reason = "0 < zs < zp (eq. 9b) leaves no design: " + info[k].name + " is 0";
-    return true;
   }
-  return false;
+  for (const Limit& limit : problem.limits) {
+    if (limit.name != "zs_fraction" || limit.low < 1.0) continue;
+    result.causes = {limit.name, "zp > zs"};
+    result.reason = "0 < zs < zp (eq. 9b) leaves no design: zs_fraction must be at least " + format_number(limit.low) +
+                    " against zp > zs";
+  }
+  if (!result.causes.empty()) result.status = Status::infeasible;
+  return !result.causes.empty();
 }
 
 void explain_failure(const Prepared& p, const Round& round, const Settings& s, const Control& control, Result& result) {
@@ -125,9 +135,9 @@ void explain_failure(const Prepared& p, const Round& round, const Settings& s, c
     return;
   }
   result.causes = least->causes;
-  result.reason = "no design satisfies all limits: these are in conflict, by at least " +
-                  format_number(least->end.constraint_violation) +
-                  " in the logarithm of a ratio: " + join(least->causes);
+  const double amount = std::round(least->end.constraint_violation * 1e4) / 1e4;
+  result.reason = "no design found satisfies all limits; at the least violation, " + format_number(amount) +
+                  " in the logarithm of a ratio, these are in conflict: " + join(least->causes);
 }
 
 }  // namespace ninedof

@@ -13,6 +13,7 @@ from ninedof.conditioning import (
     condition_number,
     isotropy_residual,
     manipulability,
+    reciprocal_condition_number,
     singular_values,
 )
 from ninedof.configuration import Configuration
@@ -51,6 +52,7 @@ __all__ = [
     "leg_lengths",
     "manipulability",
     "optimize",
+    "reciprocal_condition_number",
     "singular_values",
     "trace",
     "velocity_matrices",

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 _Floats = NDArray[float64]
 
 version: str
+built_with: dict[str, str]
 
 class Geometry:
     def __init__(
@@ -66,6 +67,9 @@ def condition_number_two(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
 ) -> _Floats: ...
 def condition_number_frobenius(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+) -> _Floats: ...
+def reciprocal_condition_number(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
 ) -> _Floats: ...
 def manipulability(

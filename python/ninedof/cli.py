@@ -52,7 +52,7 @@ def optimize(
 
 @app.command(
     epilog="[bold]Examples[/bold]\n\n"
-    "  ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432\n\n"
+    "  ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435\n\n"
     "  ninedof evaluate design.toml --lc optimal\n\n"
     "  ninedof evaluate runs/20260101-120000    the best design of a run"
 )
@@ -111,7 +111,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; bad input ends in one line on standard error and status 2."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     asks_about_itself = bool(given) and given[0] in ("-h", "--help", "--version")
-    if not given or (given[0].startswith("-") and not asks_about_itself):
+    if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not asks_about_itself):
         given.insert(0, "optimize")
     try:
         app(given, prog_name="ninedof")
@@ -121,6 +121,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BrokenPipeError:  # the reader went away, `ninedof paper | head`
         sys.stderr.close()
         raise SystemExit(0) from None
+    except OSError as error:
+        typer.echo(f"ninedof: {error}", err=True)
+        raise SystemExit(1) from None
     except KeyboardInterrupt:
         typer.echo("ninedof: interrupted", err=True)
         raise SystemExit(130) from None

@@ -14,7 +14,9 @@ from rich.table import Table
 
 from ninedof import job
 from ninedof import paper as the_paper
+from ninedof.arrays import thread_argument
 from ninedof.designs import Design, hexagonal_design, indices, load_design
+from ninedof.lengths import KINDS
 from ninedof.optimize import Result, Status
 from ninedof.optimize import optimize as solve
 from ninedof.records import describe_result, to_json
@@ -48,6 +50,10 @@ class Screen:
         if self.json:
             print(to_json(value))
 
+    def say(self, doing: str) -> None:
+        """Say what is being done besides solving."""
+        self.progress_console.print(f"  {doing}", style="dim", highlight=False)
+
     @contextmanager
     def progress(self, title: str) -> Iterator[_Bar]:
         """Show a bar of starts while solving, then what else is done."""
@@ -71,10 +77,6 @@ class _Bar:
         """Take the progress of an optimization."""
         self._shown.update(self._task, completed=done, total=total, best=f"best {best:.6f}")
 
-    def say(self, doing: str) -> None:
-        """Say what is being done besides."""
-        self._shown.console.print(f"  {doing}", style="dim", highlight=False)
-
 
 def optimize(
     study: Path | None,
@@ -87,14 +89,22 @@ def optimize(
 ) -> int:
     """Solve a study, or the paper's beside the published optimum; print, record, return the exit status."""
     screen = Screen(json)
-    if study is not None:
-        return _optimize_study(Study.load(study), out, starts, seed, threads, figures, screen)
-    job.check_out(out)
+    thread_argument(threads)
+    chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
+    directory = job.new_directory(out)
+    if study is None:
+        return _optimize_paper(chosen, directory, threads, figures, screen)
+    return _optimize_study(chosen, study.name, directory, threads, figures, screen)
+
+
+def _optimize_paper(study: Study, directory: Path, threads: int | None, figures: bool, screen: Screen) -> int:
     with screen.progress("the paper's problem") as bar:
-        comparison = the_paper.compare(starts, seed, threads, bar.starts)
-        record = job.record_comparison(comparison, job.new_directory(out), figures, bar.say)
+        comparison = the_paper.compare(study.starts, study.seed, threads, bar.starts)
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
+    if comparison.result.interrupted:
+        screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
+    record = job.record_comparison(comparison, directory, figures, screen.say)
     _say_where(screen, record)
     screen.data(
         {
@@ -108,21 +118,17 @@ def optimize(
 
 
 def _optimize_study(
-    study: Study,
-    out: Path | None,
-    starts: int | None,
-    seed: int | None,
-    threads: int | None,
-    figures: bool,
-    screen: Screen,
+    study: Study, name: str, directory: Path, threads: int | None, figures: bool, screen: Screen
 ) -> int:
-    job.check_out(out)
-    with screen.progress(study.family) as bar:
-        result = solve(study, starts=starts, seed=seed, threads=threads, progress=bar.starts)
-        record = job.record_result(result, job.new_directory(out), figures, bar.say)
+    for variable in study.defaulted:
+        low, high = study.variables[variable]  # type: ignore[misc]  # a free one
+        screen.print(f"{variable} is not given: [{low:g}, {high:g}] assumed")
+    with screen.progress(name) as bar:
+        result = solve(study, threads=threads, progress=bar.starts)
     screen.print(f"[bold]{result.status}[/bold]: {result.reason}")
     if result.candidates:
         screen.print(result_table(result))
+    record = job.record_result(result, directory, figures, screen.say)
     _say_where(screen, record)
     screen.data({"optimization": describe_result(result), "record": str(record)})
     return exit_status(result)
@@ -137,16 +143,16 @@ def _say_where(screen: Screen, record: Path) -> None:
 def comparison_table(c: the_paper.Comparison) -> Table:
     """Lay the published optimum and ours side by side: one design a column."""
     table = Table(title="The paper's design problem, lengths in units of l_c", title_justify="left", title_style="bold")
-    table.add_column("")
-    table.add_column("published\nas printed", justify="right")
+    table.add_column("", overflow="fold")
+    table.add_column("published\nas printed", justify="right", overflow="fold")
     shown = [
         ("published\nreproduced", c.reproduced),
         ("same base\nand height", c.same_base_and_height),
-        ("same class\nbase <= 2 x", c.same_class),
+        ("base at most\n2 x platform", c.same_class),
     ]
     rows = [(title, row) for title, row in shown if row is not None]
     for title, _ in rows:
-        table.add_column(title, justify="right")
+        table.add_column(title, justify="right", overflow="fold")
 
     def line(label: str, printed: str, *values: str, **style: Any) -> None:
         table.add_row(label, printed, *values, **style)
@@ -160,8 +166,8 @@ def comparison_table(c: the_paper.Comparison) -> Table:
     for k, label in enumerate(("external legs l", "upper internal q", "lower internal r")):
         line(label, "-", *(f"{r.legs[k]:.4f}" for _, r in rows), end_section=k == 2)
     line("condition number", f"{the_paper.KAPPA:.4f}", *(f"{r.condition_number:.6f}" for _, r in rows), style="bold")
-    line("below 3.9110 by", "-", *(f"{abs(r.gain) if abs(r.gain) < 0.005 else r.gain:.2f} %" for _, r in rows))
-    line("binding", "-", *("\n".join(_binding(r.variables, r.active)) for _, r in rows))
+    line("below 3.9110 by", "-", *("-" if abs(r.gain) < 0.005 else f"{r.gain:.2f} %" for _, r in rows))
+    line("limits reached", "-", *("\n".join(_binding(r.variables, r.active)) for _, r in rows))
     return table
 
 
@@ -189,14 +195,14 @@ def result_table(result: Result) -> Table:
     """Lay the candidates of a study side by side, best first."""
     shown = result.candidates[:4]
     table = Table(title=f"{_count(len(result.candidates))}, {result.starts_done} starts", title_justify="left")
-    table.add_column("")
+    table.add_column("", overflow="fold")
     for k in range(len(shown)):
-        table.add_column("best" if k == 0 else f"no. {k + 1}", justify="right")
+        table.add_column("best" if k == 0 else f"no. {k + 1}", justify="right", overflow="fold")
     table.add_row("condition number", *(f"{c.condition_number:.6f}" for c in shown), style="bold", end_section=True)
     for name in result.study.variables:
-        table.add_row(name, *(_short(c.variables[name]) for c in shown))
+        table.add_row(name + " (rad)" * (name == "theta_z"), *(_short(c.variables[name]) for c in shown))
     table.add_section()
-    table.add_row("binding", *(", ".join(c.active) or "nothing" for c in shown))
+    table.add_row("limits reached", *(", ".join(c.active) or "nothing" for c in shown))
     table.add_row("starts that ended here", *(str(c.reached) for c in shown))
     table.add_row("stationarity", *(f"{c.optimality_residual:.1e}" for c in shown))
     table.add_row("violation", *(f"{c.constraint_violation:.1e}" for c in shown))
@@ -229,10 +235,14 @@ def evaluate(
         table.add_row(f"legs {kind}1 {kind}2 {kind}3", "  ".join(f"{v:.6f}" for v in lengths))
     table.add_row("longest / shortest leg", f"{values['leg_ratio']:.6f}", end_section=True)
     for kind, found in values["characteristic_lengths"].items():
-        table.add_row(f"at the {kind} length {found['length']:.6f}", f"k = {found['condition_number']:.6f}")
+        if math.isfinite(found["length"]):
+            table.add_row(f"at the {kind} length {found['length']:.6f}", f"k = {found['condition_number']:.6f}")
     screen.print(table)
     if values["singular"]:
         screen.print("This configuration is singular: with all legs locked, the platform or O can still move.")
+    p, o = given.configuration.position[2], given.configuration.internal_point[2]
+    if not 0.0 < o < p:
+        screen.print("O is not between base and platform: studies keep 0 < zs < zp.")
     screen.data(values)
     return DONE
 
@@ -242,7 +252,7 @@ def _design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg:
     if design is not None:
         if named or theta_z_deg is not None:
             raise ValueError(
-                f"evaluate: got a design file and {', '.join(named) or 'theta_z_deg'}, expected one of the two"
+                f"evaluate: got a design file and {', '.join(named) or '--theta-z-deg'}, expected one of the two"
             )
         return load_design(design)
     missing = [f"--{name}" for name, value in sides.items() if value is None]
@@ -255,6 +265,8 @@ def _length(text: str) -> float | str:
     try:
         return float(text)
     except ValueError:
+        if text not in KINDS:
+            raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
         return text
 
 

@@ -19,6 +19,7 @@ __all__ = [
     "condition_number",
     "isotropy_residual",
     "manipulability",
+    "reciprocal_condition_number",
     "singular_values",
 ]
 
@@ -123,6 +124,20 @@ def condition_number(
     if not isinstance(norm, str) or norm not in functions:
         raise ValueError(f'norm: got {norm!r}, expected "2" or "frobenius"')
     return _index(functions[norm], geometry, configuration, characteristic_length, threads, out)
+
+
+def reciprocal_condition_number(
+    geometry: Geometry,
+    configuration: Configuration,
+    characteristic_length: ArrayLike | str = 1.0,
+    threads: int | None = None,
+    out: Floats | None = None,
+) -> Any:
+    """Return sigma_min / sigma_max of J': 1 at isotropy, 0 at a singular configuration.
+
+    Parameters as in `condition_number`.
+    """
+    return _index(_core.reciprocal_condition_number, geometry, configuration, characteristic_length, threads, out)
 
 
 def manipulability(

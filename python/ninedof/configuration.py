@@ -38,7 +38,7 @@ class Configuration:
     Examples
     --------
     >>> import ninedof as nd
-    >>> nd.Configuration.neutral(zp=3.9828, zs=[2.3745, 2.4432]).shape
+    >>> nd.Configuration.neutral(zp=3.9828, zs=[2.3745, 2.4435]).shape
     (2,)
 
     """

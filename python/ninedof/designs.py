@@ -69,19 +69,28 @@ def load_design(path: str | os.PathLike[str]) -> Design:
 
 def _from_record(file: Path) -> Design:
     record = load_record(file)
-    candidates = record.results["optimization"]["candidates"]
+    try:
+        candidates = record.results["optimization"]["candidates"]
+    except (KeyError, TypeError):
+        raise ValueError("the record holds no optimization") from None
     if not candidates:
         raise ValueError("the record holds no design: the run found none")
     return hexagonal_design(candidates[0]["variables"], record.study.characteristic_length)
 
 
 def _from_tables(data: Mapping[str, Any]) -> Design:
+    if "design" in data or "variables" in data:
+        raise ValueError(
+            "design: got a study, expected a design with [geometry] and [configuration]; see `ninedof optimize`"
+        )
     _only("design", data, ("geometry", "configuration", "characteristic_length"))
     geometry, configuration = (_table(data, name) for name in ("geometry", "configuration"))
     if "zp" in configuration or "zs" in configuration:
         _only("configuration", configuration, ("zp", "zs", "theta_z"))
         _all("configuration", configuration, ("zp", "zs"))
         c = Configuration.neutral(configuration["zp"], configuration["zs"], configuration.get("theta_z", 0.0))
+        if c.shape:
+            raise ValueError("configuration: got lists, expected one number for each of zp, zs and theta_z")
     else:
         _only("configuration", configuration, ("position", "rotation", "internal_point"))
         _all("configuration", configuration, ("position", "internal_point"))
@@ -96,7 +105,10 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         g = Geometry.hexagonal(**geometry)
     else:
         g = Geometry(**geometry)
-    return Design(g, c, data.get("characteristic_length", 1.0))
+    length = data.get("characteristic_length", 1.0)
+    if isinstance(length, bool) or not isinstance(length, int | float | str):
+        raise ValueError(f"characteristic_length: got {length!r}, expected a number or a kind")
+    return Design(g, c, length)
 
 
 def _table(data: Mapping[str, Any], name: str) -> Mapping[str, Any]:

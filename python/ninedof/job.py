@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
@@ -20,7 +21,7 @@ from ninedof.records import Record, describe_result, write_record
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
 
-__all__ = ["check_out", "new_directory", "record_comparison", "record_result"]
+__all__ = ["new_directory", "record_comparison", "record_result"]
 
 Say = Callable[[str], object]
 """Told what is being done, a few words at a time."""
@@ -31,31 +32,34 @@ Named = tuple[str, Geometry, Configuration, float]
 TRACED_STARTS = 200  # runs shown in the convergence figure
 
 
-def check_out(out: Path | None) -> None:
-    """Refuse a run folder that exists and is not empty, before any work is done: a run never overwrites another."""
-    if out is not None and out.exists() and (not out.is_dir() or any(out.iterdir())):
-        raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
-
-
 def new_directory(out: Path | None) -> Path:
-    """Create the run folder: `out`, or runs/<time> here."""
+    """Create the run folder before any work is done: `out`, or runs/<time> here.
+
+    An existing folder must be empty: a run never overwrites another.
+    """
     if out is not None:
-        return _created(out)
+        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+            raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
+        _create(out, exist_ok=True)
+        return out
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
-    path, attempt = Path("runs") / stamp, 1
-    while path.exists():
-        path, attempt = Path("runs") / f"{stamp}-{attempt}", attempt + 1
-    return _created(path)
+    for attempt in itertools.count():
+        path = Path("runs") / (f"{stamp}-{attempt}" if attempt else stamp)
+        if _create(path, exist_ok=False):
+            return path
+    raise AssertionError("unreachable")
 
 
-def _created(path: Path) -> Path:
+def _create(path: Path, exist_ok: bool) -> bool:
+    """Create a folder; return whether it is ours."""
     try:
-        path.mkdir(parents=True, exist_ok=True)
+        path.mkdir(parents=True, exist_ok=exist_ok)
+    except FileExistsError:
+        return False
     except OSError as error:
-        raise ValueError(
-            f"out: got {path}, which cannot be created ({error.strerror}), expected a writeable place"
-        ) from None
-    return path
+        reason = error.strerror
+        raise ValueError(f"out: got {path}, which cannot be created ({reason}), expected a writeable place") from None
+    return True
 
 
 def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: Say) -> Path:
@@ -67,7 +71,7 @@ def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: 
         "designs": [describe_row(row) for row in c.rows()],
         "optimization": describe_result(c.result),
     }
-    designs = [("published", c.best_zs), ("optimum", c.same_class)] if c.same_class is not None else []
+    designs = [("published, best zs", c.best_zs), ("optimum", c.same_class)] if c.same_class is not None else []
     named = [(name, row.geometry, row.configuration, row.condition_number) for name, row in designs if row is not None]
     compared = {"level": paper.KAPPA, "crossings": c.crossings}
     return _record(c.result, results, named if figures else [], directory, say, **compared)
@@ -75,7 +79,9 @@ def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: 
 
 def record_result(result: Result, directory: Path, figures: bool, say: Say) -> Path:
     """Write the run folder of a study; return the path of the record."""
-    named = [("optimum", c.geometry, c.configuration, c.condition_number) for c in result.candidates[:1]]
+    # Without a least value there is no design to draw.
+    shown = result.candidates[:1] if result.status != "unbounded" else ()
+    named = [("optimum", c.geometry, c.configuration, c.condition_number) for c in shown]
     return _record(result, {"optimization": describe_result(result)}, named if figures else [], directory, say)
 
 
@@ -85,7 +91,7 @@ def _record(
     """Write the record, then the figures, then the record again with their names: an interruption loses no result."""
     record = Record(result.study, results)
     path = write_record(record, directory)
-    if designs:
+    if designs and not result.interrupted:
         files = _figures(designs, result, directory, say, **compared)
         write_record(replace(record, files=tuple(f.name for f in files)), directory)
     return path
@@ -109,19 +115,18 @@ def _figures(
     result: Result,
     directory: Path,
     say: Say,
-    level: float | None = None,
-    crossings: tuple[float, ...] = (),
+    **compared: Any,
 ) -> list[Path]:
     """Draw the designs in space, their condition number along zs and theta_z, and the convergence."""
     say("drawing the mechanisms")
     from ninedof import plot
 
     panels = [plot.Mechanism(name, g, c, kappa, _heights(c)) for name, g, c, kappa in designs]
-    unit = "l_c" if result.study.characteristic_length == 1.0 else ""
+    unit = "l_c" if compared else ""  # the paper's unit; a study keeps its own
+    lc = result.study.characteristic_length
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     say("drawing the condition number along zs and theta_z")
-    first = [_curves(*designs[0], level, crossings)]
-    curves = first + [_curves(*design) for design in designs[1:]]
+    curves = [_curves(*designs[0], lc, **compared), *(_curves(*design, lc) for design in designs[1:])]
     files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
     say("drawing the convergence")
     runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
@@ -141,6 +146,7 @@ def _curves(
     g: Geometry,
     c: Configuration,
     kappa: float,
+    lc: float,
     level: float | None = None,
     crossings: tuple[float, ...] = (),
 ) -> DesignCurves:
@@ -150,14 +156,14 @@ def _curves(
     theta_z = float(np.arctan2(c.rotation[1, 0], c.rotation[0, 0]))
     heights = np.linspace(0.02, 0.98, 385) * zp
     twists = theta_z + np.radians(np.linspace(-60.0, 60.0, 361))
-    around = np.asarray(condition_number(g, Configuration.neutral(zp, zs, theta_z + np.array([-1e-6, 1e-6]))))
+    around = np.asarray(condition_number(g, Configuration.neutral(zp, zs, theta_z + np.array([-1e-6, 1e-6])), lc))
     compared = level is not None
     return DesignCurves(
         name=name,
         zs=heights,
-        along_zs=condition_number(g, Configuration.neutral(zp, heights, theta_z)),
+        along_zs=condition_number(g, Configuration.neutral(zp, heights, theta_z), lc),
         theta_z=twists,
-        along_theta_z=condition_number(g, Configuration.neutral(zp, zs, twists)),
+        along_theta_z=condition_number(g, Configuration.neutral(zp, zs, twists), lc),
         point=(zs, theta_z, kappa),
         slope=float(np.diff(around)[0] / 2e-6) if compared else None,
         level=level,

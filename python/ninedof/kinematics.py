@@ -145,7 +145,7 @@ def forward_velocity(
         Velocity of the platform origin, length/time.
     sdot : numpy.ndarray, shape (..., 3)
         Velocity of the internal point, length/time.
-        All NaN where the configuration is singular.
+        NaN in whatever the leg rates do not determine at a singular configuration.
 
     """
     rates = as_floats("leg_rates", leg_rates, (9,))

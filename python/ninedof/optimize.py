@@ -45,8 +45,8 @@ class Candidate:
     active: tuple[str, ...]
     """Variables on a bound and constraints on their limit."""
     optimality_residual: float
-    """Norm of the least combination of active gradients of log(condition number), lengths on a logarithmic scale: 0
-    where no direction improves to first order."""
+    """Norm of the least combination of active gradients of log(condition number), 0 where no direction improves to
+    first order. Lengths are taken on an asinh scale: linear near 0, logarithmic beyond."""
     constraint_violation: float
     """Largest negative margin; 0 if none."""
     reached: int
@@ -159,15 +159,7 @@ def optimize(
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
-    if starts is not None or seed is not None:
-        study = Study(
-            family=study.family,
-            variables=study.variables,
-            constraints=study.constraints,
-            characteristic_length=study.characteristic_length,
-            starts=study.starts if starts is None else starts,
-            seed=study.seed if seed is None else seed,
-        )
+    study = study.with_solver(starts, seed)
     problem = study.problem()
     begin = perf_counter()
     core = _core.optimize(problem, study.starts, study.seed, thread_argument(threads), MAX_EVALUATIONS, progress)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof import __version__
+from ninedof import __version__, _core
 from ninedof.optimize import Candidate, Result
 from ninedof.study import Study
 
@@ -44,6 +44,7 @@ def versions() -> dict[str, str]:
         "python": platform.python_version(),
         "numpy": np.__version__,
         "machine": platform.machine(),
+        **_core.built_with,
     }
 
 
@@ -84,8 +85,11 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
     path = Path(directory) / FILE
     data = {"format": FORMAT, **asdict(record), "study": record.study.to_dict()}
     temporary = path.with_name(f".{FILE}.{os.getpid()}")
-    temporary.write_text(to_json(data) + "\n", encoding="utf-8")
-    temporary.replace(path)
+    try:
+        temporary.write_text(to_json(data) + "\n", encoding="utf-8")
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
     return path
 
 
@@ -109,8 +113,13 @@ def load_record(path: str | os.PathLike[str]) -> Record:
         raise ValueError(f"{file}: not a JSON file: {error}") from None
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise ValueError(f"{file}: got no {FORMAT!r} mark, expected a record written by ninedof")
-    study = _numbers(data["study"])
-    return Record(Study.from_dict(study), data["results"], data["versions"], data["created"], tuple(data["files"]))
+    try:
+        study = Study.from_dict(_numbers(data["study"]))
+        return Record(study, data["results"], data["versions"], data["created"], tuple(data["files"]))
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"{file}: got a record without {error}, expected a whole one") from None
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None
 
 
 def _plain(value: Any) -> Any:

@@ -7,7 +7,7 @@ import math
 import os
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +60,8 @@ class Study:
         Name to (low, high), None for an open side. "radius_ratio": base / platform circumradius; "leg_ratio": longest /
         shortest leg; "zs_fraction": zs / zp. 0 < zs < zp (eq. 9b) always holds.
     characteristic_length : float
-        l_c of eqs. (30)-(33), in the same unit.
+        l_c of eqs. (30)-(33), in the same unit. A number: the kinds of `ninedof.characteristic_length` are not for
+        studies yet. An upper bound of a million characteristic lengths or more counts as none.
     starts, seed : int
         Number of low-discrepancy starts and the shift of their sequence.
 
@@ -84,12 +85,21 @@ class Study:
     characteristic_length: float = 1.0
     starts: int = 64
     seed: int = 0
+    defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
+    """Free variables that were not given and took the family's default bounds."""
+
+    __hash__ = None  # type: ignore[assignment]  # mappings inside
 
     def __post_init__(self) -> None:
         """Complete the variables, normalise numbers, and let the core check the whole."""
         if not isinstance(self.family, str):
             raise ValueError(f"family: got {self.family!r}, expected one of {_core.design_family_names()}")
         known = _core.family_variables(self.family)
+        if isinstance(self.characteristic_length, str):
+            raise ValueError(
+                f"characteristic_length: got {self.characteristic_length!r}, expected a number: in a study the kinds "
+                "are not available yet"
+            )
         length = _number("characteristic_length", self.characteristic_length)
         _known_keys("variables", self.variables, [name for name, *_ in known])
         _known_keys("constraints", self.constraints, _core.constraint_names())
@@ -104,6 +114,7 @@ class Study:
             "constraints": constraints,
             "characteristic_length": length,
             "starts": _whole("starts", self.starts, 1, 2**31 - 1),
+            "defaulted": tuple(n for n, b in variables.items() if n not in self.variables and isinstance(b, tuple)),
             "seed": _whole("seed", self.seed, 0, 2**63 - 1),
         }.items():
             object.__setattr__(self, name, value)
@@ -140,6 +151,10 @@ class Study:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:
         """Make a study from the tables of a study file."""
+        if isinstance(data, Mapping) and "geometry" in data:
+            raise ValueError(
+                "study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`"
+            )
         _known_keys("study", data, ["design", "variables", "constraints", "objective", "solver"])
         tables = {name: _table(name, data.get(name, {})) for name in ("design", "objective", "solver", "variables")}
         _known_keys("design", tables["design"], ["family", "characteristic_length"])
@@ -153,6 +168,10 @@ class Study:
             _known_keys(f"constraints.{name}", _table(f"constraints.{name}", limit), ["min", "max"])
             constraints[name] = (limit.get("min"), limit.get("max"))
         return cls(variables=tables["variables"], constraints=constraints, **tables["design"], **tables["solver"])
+
+    def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
+        """Return the same study with another number of starts or another seed."""
+        return replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tables of a study file; `Study.from_dict` reads them back."""

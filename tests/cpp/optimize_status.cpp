@@ -121,6 +121,18 @@ TEST_SUITE("optimize_status") {
     check_infeasible(p, {"radius_ratio"});
   }
 
+  TEST_CASE("zs closely below zp is allowed: the order asks for no distance") {
+    for (const double gap : {1e-3, 1e-6, 1e-9}) {
+      CAPTURE(gap);
+      const Problem p = fixed_study({0.0, 6.0, 3.0, 0.0, 5.0, 5.0 - gap, 0.0});
+      const Result r = optimize(p);
+      CHECK(r.status == Status::optimal);
+      REQUIRE(!r.candidates.empty());
+      const double kappa = studies::condition_number(p, r.candidates.front().variables);
+      CHECK(relative_error(r.candidates.front().condition_number, kappa) <= 64.0 * eps * kappa);
+    }
+  }
+
   TEST_CASE("a singular design is never called optimal, and its condition number is no number") {
     Problem flat = open_study(10.0, 10.0);
     flat.variables[5] = {0.0, 0.0};

@@ -49,7 +49,7 @@ TEST_SUITE("trace") {
   }
 
   TEST_CASE("from robots down to a thousandth of their final size, too") {
-    CHECK(tally(Formulation::minimax, 0.005, 172).reached >= 198);
+    CHECK(tally(Formulation::minimax, 0.005, 172).reached == 200);
   }
 
   TEST_CASE("the record of a run never rises, ends where the run ends, and comes out the same again") {

@@ -51,7 +51,17 @@ PYTHON_LAYERS = (
     {"cli"},
     {"__main__"},
 )
-CORE_USERS = {"__init__", "geometry", "configuration", "lengths", "conditioning", "kinematics", "study", "optimize"}
+CORE_USERS = {
+    "__init__",
+    "records",
+    "geometry",
+    "configuration",
+    "lengths",
+    "conditioning",
+    "kinematics",
+    "study",
+    "optimize",
+}
 
 # Figures are drawn from records and never compute.
 PYTHON_FORBIDDEN = {"plot": {"_core", "conditioning", "kinematics", "optimize", "sweep", "pareto", "workspace"}}

@@ -96,7 +96,7 @@ BAD = {
     "negative side": ("evaluate --a1 -1 --a2 1 --b1 1 --b2 1 --zp 2 --zs 1", "a1: got -1"),
     "no plate": ("evaluate --a1 0 --a2 0 --b1 1 --b2 1 --zp 2 --zs 1", "a1, a2"),
     "nan height": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp nan --zs 1", "zp: got nan"),
-    "length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc shortest", "kind: got"),
+    "length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc shortest", "--lc: got"),
     "zero length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc 0", "characteristic_length: got 0"),
     "unknown command": ("optimise", "optimise"),
     "unknown option": ("optimize --start 3", "--start"),

@@ -34,7 +34,7 @@ def test_rows_agree_with_the_general_path(comparison):
 
 
 def test_why_says_it_in_two_sentences(comparison):
-    assert comparison.why.count(". ") == 1
+    assert comparison.why.count(". ") == 1, comparison.why
     assert "-0.305" in comparison.why
     assert "3.7866" in comparison.why
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ninedof/design.hpp"
+#include "ninedof/error.hpp"
 #include "ninedof/symmetric.hpp"
 
 namespace ninedof {
@@ -15,6 +16,8 @@ class AxisFamily : public DesignFamily {
  public:
   void evaluate(std::span<const double> x, double characteristic_length, DesignPoint& out) const override {
     using T = Dual<N>;
+    require_positive("characteristic_length", characteristic_length);
+    if (x.size() != N) throw InvalidArgument("x", std::to_string(x.size()) + " values", std::to_string(N));
     const AxisDesign<T> d = static_cast<const Derived&>(*this).axis_design(T::variables(x.first<N>()));
     const AxisSpectrum<T> s = axis_spectrum(d, characteristic_length);
     const T base = larger(radius(d.base_external), radius(d.base_internal));

@@ -14,6 +14,9 @@
 
 namespace ninedof {
 
+/// All functions here take lengths in one unit, throw InvalidArgument unless the characteristic length is finite and positive,
+/// and give NaN for a configuration that has NaN.
+
 /// The matrix M, 6x6, columns (l_c omega, pdot).
 Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);
 
@@ -29,6 +32,10 @@ Vec6 singular_values(const Geometry& g, const Configuration& c, double character
 /// Condition number of J'; infinite at a singularity.
 double condition_number(const Geometry& g, const Configuration& c, double characteristic_length = 1.0,
                         Norm norm = Norm::two);
+
+/// 1 / condition number: the bounded form, 1 at isotropy and 0 at a singularity.
+double reciprocal_condition_number(const Geometry& g, const Configuration& c, double characteristic_length = 1.0,
+                                   Norm norm = Norm::two);
 
 /// sqrt(det(J' J'^T)), the product of the singular values; infinite at a singularity (some twist needs no leg rate).
 double manipulability(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);

@@ -4,7 +4,6 @@
 /// A family answers with `quantities`, all an optimizer asks of a design, and their exact gradients. Lengths and singular
 /// values are given as logarithms: ratios become differences, and every scale looks alike.
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

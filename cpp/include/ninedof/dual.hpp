@@ -10,6 +10,7 @@
 
 namespace ninedof {
 
+/// A number that carries its gradient with respect to N variables through a formula.
 template <int N>
 struct Dual {
   /// The gradient is filled up with zeros to whole 16-byte vectors: loops over it have no remainder to do one by one.

@@ -41,7 +41,7 @@ struct Settings {
   int starts = 64;         ///< low-discrepancy starts
   std::uint64_t seed = 0;  ///< shifts the sequence
   int threads = 0;         ///< 0: one a processor; the answer does not depend on it
-  int max_evaluations = 500;  ///< of one start
+  int max_evaluations = 500;  ///< of one SLSQP call; a start that does not settle makes up to four
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
@@ -58,7 +58,7 @@ struct Control {
 struct Candidate {
   Eigen::VectorXd variables;
   double condition_number = std::numeric_limits<double>::infinity();
-  double optimality_residual = std::numeric_limits<double>::infinity();  ///< see stationarity.hpp in src
+  double optimality_residual = std::numeric_limits<double>::infinity();  ///< see active_set.hpp in src
   double constraint_violation = std::numeric_limits<double>::infinity();  ///< largest negative margin; 0 if none
   std::vector<std::string> active;  ///< variables on a bound and constraints on their limit
   int reached = 0;                  ///< starts that ended here
@@ -67,18 +67,22 @@ struct Candidate {
   bool stationary() const { return optimality_residual <= 1e-6; }
 };
 
+/// What an optimization found.
 struct Result {
   Status status = Status::stopped;
   std::string reason;                ///< one sentence for a person
   std::vector<std::string> causes;   ///< variables or constraints behind `unbounded` or `infeasible`
   std::vector<Candidate> candidates; ///< distinct local optima, best first; empty if nothing acceptable was found
-  long evaluations = 0;              ///< of the design's quantities, over all starts
+  long evaluations = 0;              ///< designs SLSQP looked at, over all starts and rounds
   int starts_done = 0;
   bool interrupted = false;          ///< by Control::stop
 };
 
 /// Multi-start minimax optimization. Same problem, settings: same bits, whatever the thread count.
 Result optimize(const Problem& problem, const Settings& settings = {}, const Control& control = {});
+
+/// Version of the NLopt library in use, "2.7.1".
+std::string solver_version();
 
 /// Which objective a single run follows.
 enum class Formulation {

@@ -17,6 +17,7 @@
 
 namespace ninedof {
 
+/// A point, over the number type.
 template <class T>
 struct Point {
   T x, y, z;
@@ -38,6 +39,12 @@ struct AxisSpectrum {
 };
 
 namespace detail {
+
+/// A leg of zero length has no direction: zero, so that the design is singular, as in legs.hpp.
+template <class T>
+T inverse_or_zero(const T& length) {
+  return value_of(length) == 0.0 ? T(0.0) : 1.0 / length;
+}
 
 template <class T>
 struct Pair {
@@ -64,7 +71,7 @@ T shared(const T& a, const T& q, const T& b, const T& r) {
 
 }  // namespace detail
 
-/// The closed form (theory of conditioning, section 2, in triangular form).
+/// The closed form. Lengths in one unit; the characteristic length must be positive and is not checked here.
 template <class T>
 AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_length) {
   using detail::shared;
@@ -77,7 +84,7 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_leng
   const T px = -d.base_external.x, py = -d.base_external.y, pz = d.zp - d.base_external.z;
   const T x = px + u.x, y = py + u.y, z = pz + u.z;
   const T l = sqrt(square(x) + square(y) + square(z));
-  const T inverse_l = 1.0 / l;
+  const T inverse_l = detail::inverse_or_zero(l);
   const T ex = x * inverse_l, ey = y * inverse_l, ez = z * inverse_l;
   const T lever = inverse_lc * inverse_l;
   const T mx = (u.y * pz - u.z * py) * lever;

@@ -33,7 +33,7 @@ struct Velocity {
   Vec3 omega, pdot, sdot;
 };
 
-/// Leg rates -> velocity. NaN where the configuration is singular.
+/// Leg rates -> velocity. NaN in whatever the leg rates do not determine at a singular configuration.
 Velocity forward_velocity(const Geometry& g, const Configuration& c, const Vec9& leg_rates);
 
 /// Velocity -> leg rates, eqs. (24)-(26). Always defined, but for a leg of zero length (its rate is given as 0).
