@@ -215,3 +215,27 @@ def test_plate_without_size():
 def test_sides_that_may_both_vanish_are_no_error():
     result = solve({"a1": (0.0, 1e-3), "a2": (0.0, 1e-3)})
     assert result.status in ("optimal", "stopped")
+
+
+# --- Bounds always hold -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("high", [1e6, 2e6, 1e7])
+def test_no_candidate_leaves_a_bound_however_large(high):
+    """Bounds too large to stop a flight are still bounds of the study."""
+    for variables in (OPEN | {"a2": (0.0, high)}, dict.fromkeys(OPEN, (0.0, 9e5)) | {"a2": (0.0, high)}):
+        result = solve(variables)
+        for c in result.candidates:
+            for name, (low, top) in variables.items():
+                assert low <= c.variables[name] <= top
+
+
+def test_zs_fraction_of_one_is_infeasible():
+    result = solve({}, {"zs_fraction": (1.0, None)})
+    assert result.status == "infeasible"
+    assert set(result.causes) == {"zs_fraction", "zp > zs"}
+
+
+def test_conflict_is_told_as_the_ratio_it_is():
+    """zp at most 1 and zs at least 2: off by a factor of two, ln 2 = 0.6931."""
+    assert "0.6931" in solve({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}).reason
