@@ -71,9 +71,10 @@ void fill_plain(const Prepared& p, const Look& l, const Eigen::VectorXd& y, Nlp:
   write_constraints(p, l, y, 0, out);
 }
 
-/// Whether `next` is the better point to stand on: allowed before not allowed, then the lower condition number, then, of two
-/// equal ones, the more nearly stationary.
+/// Whether `next` is the better point to stand on: a regular design before a singular one, allowed before not allowed, then
+/// the lower condition number, then, of two equal ones, the more nearly stationary.
 bool improves(const Candidate& next, const Candidate& now) {
+  if (next.regular() != now.regular()) return next.regular();
   if (next.feasible() != now.feasible()) return next.feasible();
   if (!next.feasible()) return next.constraint_violation < now.constraint_violation;
   if (std::abs(next.condition_number - now.condition_number) > 1e-10 * now.condition_number)

@@ -8,9 +8,6 @@
 namespace ninedof {
 namespace {
 
-/// A condition number beyond this is rounding away from a singular design.
-constexpr double worst_regular = 1e14;
-
 /// Equal machines up to reflection and to variables that do not matter: same quantities.
 bool same_design(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).cwiseAbs().maxCoeff() < 1e-4;
@@ -39,7 +36,7 @@ bool at_cut_angle(const Prepared& p, const Candidate& c) {
 }
 
 bool acceptable(const Prepared& p, const Candidate& c) {
-  return c.feasible() && c.stationary() && c.condition_number < worst_regular && !at_cut_angle(p, c);
+  return c.feasible() && c.stationary() && c.regular() && !at_cut_angle(p, c);
 }
 
 }  // namespace
@@ -97,7 +94,7 @@ std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
 std::optional<Candidate> best_allowed(const Round& round) {
   std::optional<Candidate> best;
   for (const auto& run : round.runs) {
-    if (!run || !run->end.feasible() || !(run->end.condition_number < worst_regular)) continue;
+    if (!run || !run->end.feasible() || !run->end.regular()) continue;
     if (!best || run->end.condition_number < best->condition_number) best = run->end;
   }
   if (best) best->reached = 1;

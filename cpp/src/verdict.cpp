@@ -7,9 +7,11 @@
 namespace ninedof {
 namespace {
 
-/// Variables without a serious upper bound are let run to these sizes, one round each: far beyond all that is bounded, and
-/// not so far that rounding in zp - zs blurs the index.
-constexpr std::array<double, 3> stretches{1.0, 10.0, 100.0};
+/// Variables without a serious upper bound are let run to these sizes, one round each: far beyond all that is bounded. The
+/// last, wide step tells a flight from an optimum far out; beyond `largest` characteristic lengths it is left away, where
+/// rounding in zp - zs blurs the index.
+constexpr std::array<double, 4> stretches{1.0, 10.0, 100.0, 1e4};
+constexpr double largest = 1e7;
 /// Relative gain over the caps that counts as still improving, and a loss that is rounding.
 constexpr double still_improving = 1e-7, rounding = 1e-8;
 
@@ -29,7 +31,7 @@ bool runs_to_cap(const Prepared& p, const Candidate& best) {
 /// Unbounded: the best design runs to every cap, none is worse than the one before, and together they improve the index.
 /// (A variable of no use to the index may run to a cap by chance.)
 bool keeps_improving(const std::vector<Leader>& leaders) {
-  if (leaders.size() < stretches.size()) return false;
+  if (leaders.size() < 3) return false;
   for (std::size_t k = 0; k < leaders.size(); ++k) {
     if (!leaders[k].at_cap) return false;
     if (k > 0 && leaders[k].best.condition_number > leaders[k - 1].best.condition_number * (1.0 + rounding))
@@ -76,7 +78,8 @@ std::vector<double> caps(const Problem& p) {
   }
   std::vector<double> out;
   const double first = std::max(10.0 * size, 100.0 * p.characteristic_length);
-  for (const double stretch : stretches) out.push_back(stretch * first);
+  for (const double stretch : stretches)
+    if (stretch * first <= largest * p.characteristic_length || out.size() < 3) out.push_back(stretch * first);
   if (!open) out.resize(1);
   return out;
 }

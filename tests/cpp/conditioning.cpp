@@ -105,6 +105,7 @@ TEST_SUITE("conditioning") {
       const double tolerance = 64.0 * eps * kappa({g, c}, 1.3);
       CHECK(relative_error(condition_number(g, c, 1.3, Norm::frobenius),
                            static_cast<double>(j.norm() * inverse.norm())) <= tolerance);
+      CHECK(reciprocal_condition_number(g, c, 1.3) == 1.0 / kappa({g, c}, 1.3));
       CHECK(relative_error(manipulability(g, c, 1.3), static_cast<double>(std::sqrt(square.determinant()))) <=
             tolerance);
       CHECK(relative_error(isotropy_residual(g, c, 1.3), static_cast<double>(off.norm() / (mean * std::sqrt(6.0L)))) <=
@@ -184,6 +185,7 @@ TEST_SUITE("conditioning") {
                                    Configuration{Vec3(0, 0, 2), Mat3::Identity(), g.base_internal()[0]}}) {
       CHECK(condition_number(g, c) == infinity);
       CHECK(condition_number(g, c, 1.0, Norm::frobenius) == infinity);
+      CHECK(reciprocal_condition_number(g, c) == 0.0);
       CHECK(manipulability(g, c) == infinity);
       CHECK(isotropy_residual(g, c) == infinity);
       CHECK(singular_values(g, c)[0] == infinity);
@@ -210,6 +212,7 @@ TEST_SUITE("conditioning") {
       CAPTURE(k);
       CHECK(std::isnan(condition_number(g, c)));
       CHECK(std::isnan(condition_number(g, c, 1.0, Norm::frobenius)));
+      CHECK(std::isnan(reciprocal_condition_number(g, c)));
       CHECK(std::isnan(manipulability(g, c)));
       CHECK(std::isnan(isotropy_residual(g, c)));
       CHECK(singular_values(g, c).array().isNaN().all());

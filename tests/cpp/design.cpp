@@ -135,6 +135,16 @@ TEST_SUITE("design") {
       }
   }
 
+  TEST_CASE("evaluate refuses a characteristic length that is none, and too few or too many variables") {
+    DesignPoint out;
+    for (const double bad : {0.0, -1.0, no_number, infinity})
+      CHECK(refuses("characteristic_length", [&] { evaluate({0.0, 6.0, 3.0, 0.0, 5.0, 3.0, 0.0}, bad); }));
+    for (const std::size_t count : {0, 6, 8}) {
+      const std::vector<double> x(count, 1.0);
+      CHECK(refuses("x", [&] { hexagonal().evaluate(x, 1.0, out); }));
+    }
+  }
+
   TEST_CASE("families by name") {
     CHECK(design_family_names() == std::vector<std::string>{"hexagonal"});
     CHECK(hexagonal().name() == "hexagonal");

@@ -106,8 +106,9 @@ TEST_SUITE("symmetric_gradient") {
       }
       return smallest;
     };
-    const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5);
+    const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5), alike = Geometry::hexagonal(0.5, 3, 0.5, 3);
     CHECK(least(g, neutral(2, 0)) == 0.0);  // det B
+    CHECK(least(alike, neutral(0, 1)) == 0.0);  // external legs of no length
     CHECK(least(g, neutral(2, 2)) == 0.0);  // det C
     CHECK(least(Geometry::hexagonal(1, 2, 0.5, 1), neutral(2, 1)) <= 4.0 * eps);  // det M: similar hexagons
     CHECK(least(Geometry::hexagonal(0, 3, 0, 2), neutral(3, 1)) <= 4.0 * eps);

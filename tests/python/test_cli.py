@@ -183,15 +183,23 @@ def test_version(capsys):
 def test_interrupted_run_keeps_what_it_has(tmp_path):
     """Ctrl-C on a run of a million starts: status 130, the best so far printed and recorded."""
     arguments = ["--starts", "1000000", "--no-figures", "--out", "run"]
-    script = f"import ninedof.commands, ninedof.cli; print('ready', flush=True); ninedof.cli.main({arguments})"
+    script = f"""
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
+sys.path[:] = {sys.path}
+import ninedof.commands, ninedof.cli
+print("ready", flush=True)
+ninedof.cli.main({arguments})
+"""
     command = [sys.executable, "-c", script]
-    child = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert child.stdout.readline() == "ready\n"
-    time.sleep(1.5)  # past the small studies, into the large one
-    child.send_signal(signal.SIGINT)
-    out, err = child.communicate(timeout=30)
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "ready\n"
+        time.sleep(1.5)  # past the small studies, into the large one
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate(timeout=30)
     assert child.returncode == 130, err
     assert "Traceback" not in err
     assert "3.762659" in out
+    assert "interrupted after" in out
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["results"]["optimization"]["interrupted"] is True

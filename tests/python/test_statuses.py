@@ -239,3 +239,11 @@ def test_zs_fraction_of_one_is_infeasible():
 def test_conflict_is_told_as_the_ratio_it_is():
     """zp at most 1 and zs at least 2: off by a factor of two, ln 2 = 0.6931."""
     assert "0.6931" in solve({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}).reason
+
+
+def test_an_optimum_far_out_is_no_flight():
+    """Legs of at most 1000 to 1 stop the flight at a base of 17 466: beyond the first cuts, not beyond all."""
+    result = solve(OPEN, {"leg_ratio": (None, 1000.0)})
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(2.539702, abs=5e-6)
+    assert result.active.count("leg_ratio") == 1

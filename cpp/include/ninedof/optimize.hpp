@@ -64,6 +64,8 @@ struct Candidate {
   int reached = 0;                  ///< starts that ended here
 
   bool feasible() const { return constraint_violation <= 1e-8; }
+  /// Beyond 1e14 a condition number is rounding away from a singular design.
+  bool regular() const { return condition_number < 1e14; }
   bool stationary() const { return optimality_residual <= 1e-6; }
 };
 
