@@ -89,15 +89,15 @@ Leader leader(const Prepared& p, double cap, const Candidate& best) {
 }
 
 void judge_unbounded(const Problem& problem, const std::vector<Leader>& leaders, Result& result) {
-  if (leaders.back().at_cap && !keeps_improving(leaders)) {
+  if (keeps_improving(leaders)) {
+    result.status = Status::unbounded;
+    result.causes = growing(problem, leaders);
+    result.reason = unbounded_reason(leaders, result.causes);
+  } else if (leaders.back().at_cap) {
     result.status = Status::stopped;
     result.reason = "the best design found stands at size " + format_number(leaders.back().cap) +
                     ", where a search without bounds was cut off, and does not keep improving: bound the variables";
   }
-  if (!keeps_improving(leaders)) return;
-  result.status = Status::unbounded;
-  result.causes = growing(problem, leaders);
-  result.reason = unbounded_reason(leaders, result.causes);
 }
 
 bool judge_order(const Problem& problem, Result& result) {

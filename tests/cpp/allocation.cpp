@@ -33,10 +33,10 @@ namespace {
 std::atomic<long> allocations = 0;
 }
 extern "C" {
-void* __libc_malloc(std::size_t);  // NOLINT: glibc's names
-void* __libc_calloc(std::size_t, std::size_t);  // NOLINT
-void* __libc_realloc(void*, std::size_t);  // NOLINT
-void* __libc_memalign(std::size_t, std::size_t);  // NOLINT
+void* __libc_malloc(std::size_t);  // glibc's own names
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
 [[gnu::visibility("default")]] void* malloc(std::size_t size) noexcept {
   ++allocations;
   return __libc_malloc(size);
