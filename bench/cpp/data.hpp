@@ -72,7 +72,6 @@ inline ninedof::Problem paper_study() {
   problem.family = "hexagonal";
   problem.variables = {{0.0, 60.0}, {0.0, 60.0}, {0.0, 60.0}, {0.0, 60.0}, {0.05, 80.0}, {0.05, 80.0}, {0.0, 0.0}};
   problem.limits = {{"radius_ratio", 0.0, 2.0}};
-  problem.characteristic_length = 1.0;
   return problem;
 }
 

@@ -32,6 +32,7 @@ struct Figure {
   std::function<void(std::size_t piece)> ours, baseline;
   Target target = {};
   bool as_cost = false;  ///< ours does more than the baseline: the ratio is shown as what that costs
+  int most_rounds = 1'000'000;  ///< fewer rounds for what takes seconds
 };
 
 /// A figure that is no time: how many of `total` did what was asked. The claim, where one is made, is all of them.
@@ -50,8 +51,10 @@ struct Figures {
 Figures legs();
 Figures velocity();
 Figures conditioning();
+Figures sensitivity();
 Figures symmetric();
 Figures optimization();
+Figures studies();
 
 /// A benchmark of wrong results is worthless: throws, and main aborts, unless `ours` and `baseline` agree.
 inline void require_close(const std::string& what, double ours, double baseline, double tolerance) {

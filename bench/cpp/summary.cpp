@@ -33,14 +33,15 @@ std::string time_text(double ns) {
     return std::string(text);
   };
   if (ns < 1e3) return print(ns, "ns");
-  return ns < 1e6 ? print(ns / 1e3, "us") : print(ns / 1e6, "ms");
+  if (ns < 1e6) return print(ns / 1e3, "us");
+  return ns < 1e9 ? print(ns / 1e6, "ms") : print(ns / 1e9, "s");
 }
 
 }  // namespace
 
 Times paired_times(const Figure& f, int rounds) {
   std::vector<double> ours, baseline, ratio;
-  for (int round = -1; round < rounds; ++round)
+  for (int round = -1; round < std::min(rounds, f.most_rounds); ++round)
     for (std::size_t piece = 0; piece < f.pieces; ++piece) {
       const bool ours_first =
           (static_cast<std::size_t>(round + 1) + piece) % 2 == 0;  // neither always runs on a warm cache
@@ -72,7 +73,8 @@ void print_summary(const Figures& figures, int rounds) {
                 : c.good == c.total ? "met"
                                     : "missed");
   std::printf(
-      "\nMedians an item over %d rounds. p99: of blocks of 256 items, of single runs for optimizations.\n"
+      "\nMedians an item over %d rounds, fewer of what takes seconds. p99: of blocks of 256 items, of single runs for "
+      "optimizations.\n"
       "Compiler %s; Eigen %d.%d.%d.\n",
       rounds, compiler, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
 }

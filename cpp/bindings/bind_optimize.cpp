@@ -94,10 +94,14 @@ void bind_optimize(py::module_& m) {
 
   py::class_<Candidate>(m, "Candidate")
       .def_property_readonly("variables", [](const Candidate& c) { return array_from(c.variables); })
+      .def_readonly("objective", &Candidate::objective)
       .def_readonly("condition_number", &Candidate::condition_number)
+      .def_readonly("conditions", &Candidate::conditions)
+      .def_readonly("characteristic_length", &Candidate::characteristic_length)
       .def_readonly("optimality_residual", &Candidate::optimality_residual)
       .def_readonly("constraint_violation", &Candidate::constraint_violation)
       .def_readonly("active", &Candidate::active)
+      .def_readonly("prices", &Candidate::prices)
       .def_readonly("reached", &Candidate::reached);
   py::class_<Result>(m, "Result")
       .def_property_readonly("status", [](const Result& r) { return to_string(r.status); })
@@ -106,13 +110,20 @@ void bind_optimize(py::module_& m) {
       .def_readonly("candidates", &Result::candidates)
       .def_readonly("evaluations", &Result::evaluations)
       .def_readonly("starts_done", &Result::starts_done)
+      .def_readonly("stopped_early", &Result::stopped_early)
       .def_readonly("interrupted", &Result::interrupted);
   m.def(
       "optimize",
       [](const Problem& problem, int starts, std::uint64_t seed, int threads, int max_evaluations,
-         const py::object& progress) { return run(problem, {starts, seed, threads, max_evaluations}, progress); },
+         const py::object& progress, const py::object& warm) {
+        Settings settings{starts, seed, threads, max_evaluations, {}};
+        if (!warm.is_none())
+          for (const auto& x : warm.cast<std::vector<std::vector<double>>>())
+            settings.warm.emplace_back(Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())));
+        return run(problem, settings, progress);
+      },
       py::arg("problem"), py::arg("starts"), py::arg("seed"), py::arg("threads"), py::arg("max_evaluations"),
-      py::arg("progress"));
+      py::arg("progress"), py::arg("warm") = py::none());
   m.def(
       "trace",
       [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {

@@ -1,13 +1,15 @@
 #pragma once
 /// What binds at a point, and whether the point is stationary: the nonsmooth first-order test, made without the solver.
 
+#include <map>
+
 #include "prepared.hpp"
 
 namespace ninedof {
 
-/// Singular values that tie for largest or smallest, margins at zero, coordinates on a bound.
+/// Objective rows that rule their level, margins at zero, coordinates on a bound.
 struct ActiveSet {
-  std::vector<int> maxima, minima;   ///< rows of DesignPoint
+  std::vector<int> uses;             ///< indices into Prepared::uses
   std::vector<int> margins;          ///< indices into Prepared::margins
   std::vector<int> at_low, at_high;  ///< free coordinates
   bool order = false;                ///< zs has run up to zp
@@ -18,12 +20,15 @@ ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y)
 /// Names of the variables and constraints in an active set, each once.
 std::vector<std::string> names(const Prepared& p, const ActiveSet& a);
 
-/// The least Euclidean norm of  sum w1 grad(maxima) - sum w2 grad(minima) - sum w3 grad(constraints)  over weights w >= 0
-/// with sum w1 = sum w2 = 1, in solver coordinates. Zero exactly where no direction lowers log kappa to first order and
-/// keeps the constraints. Weights come in the order maxima, minima, margins, at_low, at_high, order.
+/// The least Euclidean norm of  sum w1 grad(objective rows) - sum w2 grad(constraints)  over weights w >= 0, those of each
+/// level summing to the objective's slope in that level, in solver coordinates. Zero exactly where no direction lowers the
+/// objective to first order and keeps the constraints.
+///
+/// Where singular values of a displaced pose coincide, the derivatives of single ones depend on the choice of their vectors:
+/// there every direction of the cluster counts as a row, and the ones that matter are found one by one.
 struct Stationarity {
   double residual = 0.0;
-  Eigen::VectorXd weights;
+  std::map<std::string, double> prices;  ///< see Candidate::prices
 };
 Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a);
 

@@ -7,40 +7,17 @@
 #include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/svd6.hpp"
+#include "null_space.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Nq, the part that acts on [C; .], of an orthonormal basis [Nq Nr] of the left null space of the 6x3 matrix [C; B]:
-/// the last three columns of its full Householder Q, upper half, transposed.
-Mat3 null_space_part(const Triple& c, const Triple& b) {
-  Eigen::Matrix<double, 6, 3> a;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    a.row(i) = c[static_cast<std::size_t>(i)];
-    a.row(i + 3) = b[static_cast<std::size_t>(i)];
-  }
-  Eigen::Matrix<double, 6, 3> reflectors = Eigen::Matrix<double, 6, 3>::Zero();
-  Vec3 beta = Vec3::Zero();
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    Vec6 v = a.col(k);
-    v.head(k).setZero();
-    const double squared = v.squaredNorm();
-    if (squared < 1e-290) continue;  // nothing left to reflect, and the square of a trace of it would underflow
-    v[k] += std::copysign(std::sqrt(squared), v[k]);
-    const double scale = 2.0 / v.squaredNorm();
-    for (Eigen::Index j = k + 1; j < 3; ++j) a.col(j) -= (scale * v.dot(a.col(j))) * v;
-    reflectors.col(k) = v;
-    beta[k] = scale;
-  }
-  Mat3 nq;
-  for (Eigen::Index j = 0; j < 3; ++j) {
-    Vec6 column = Vec6::Unit(3 + j);
-    for (Eigen::Index k = 2; k >= 0; --k) column -= (beta[k] * reflectors.col(k).dot(column)) * reflectors.col(k);
-    nq.row(j) = column.head<3>();
-  }
-  return nq;
+Mat3 rows(const Triple& t) {
+  Mat3 m;
+  m << t[0].transpose(), t[1].transpose(), t[2].transpose();
+  return m;
 }
 
 }  // namespace
@@ -57,7 +34,7 @@ Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double chara
   }
   Mat6 m;
   m.topRows<3>() = e.topRows<3>();
-  m.bottomRows<3>().noalias() = null_space_part(k.e_tilde, k.e_hat).lazyProduct(e.bottomRows<3>());
+  m.bottomRows<3>().noalias() = null_space_part(rows(k.e_tilde), rows(k.e_hat)).lazyProduct(e.bottomRows<3>());
   return m;
 }
 

@@ -17,11 +17,12 @@ constexpr double turn = 1.25 * std::numbers::pi;
 constexpr double snap = 1e-13;
 
 /// The unit of the coordinates: bounds of small robots must not all fall into the linear part.
-double unit_of(const Problem& problem, const std::vector<VariableInfo>& info) {
-  double unit = problem.characteristic_length;
-  for (std::size_t k = 0; k < info.size(); ++k) {
-    const Bounds& b = problem.variables[k];
-    if (!info[k].is_angle && b.low < b.high) unit = std::min(unit, 0.2 * b.high);
+double unit_of(const Problem& problem, const std::vector<Variable>& all) {
+  double unit = problem.unit();
+  for (const Variable& v : all) {
+    const bool sized = v.kind == VariableKind::length || v.kind == VariableKind::coordinate;
+    if (sized && !v.ours && v.bounds.low < v.bounds.high)
+      unit = std::min(unit, 0.2 * std::max(v.bounds.high, -v.bounds.low));
   }
   return unit;
 }
@@ -41,38 +42,37 @@ double shift(std::uint64_t seed, int dimension) {
   return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
 }
 
-int find(const std::vector<VariableInfo>& variables, const std::string& name) {
-  for (std::size_t k = 0; k < variables.size(); ++k)
-    if (variables[k].name == name) return static_cast<int>(k);
-  return -1;
-}
-
 }  // namespace
 
-bool serious_bound(const Problem& problem, double high) {
-  return high < 1e6 * problem.characteristic_length;
+bool serious_bound(const Problem& problem, double bound) {
+  return std::abs(bound) < 1e6 * problem.unit();
 }
 
-Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_family(problem.family)) {
-  const auto& info = family_->variables();
-  unit_ = unit_of(problem, info);
-  const auto n = static_cast<Eigen::Index>(info.size());
+Coordinates::Coordinates(const Problem& problem, double cap, int helpers) : all_(full_variables(problem)) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < helpers; ++k) all_.push_back({"", VariableKind::fraction, {-infinity, infinity}, true});
+  unit_ = unit_of(problem, all_);
+  const auto n = static_cast<Eigen::Index>(all_.size());
   fixed_.resize(n);
   x_low_.resize(n);
   x_high_.resize(n);
-  for (std::size_t i = 0; i < info.size(); ++i) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const Bounds& b = problem.variables[i];
-    const bool angle = info[i].is_angle, free = b.low < b.high;
-    const bool cap_low = angle && free && !std::isfinite(b.low);
-    const bool cap_high = free && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high) && cap < b.high);
-    x_low_[k] = !cap_low ? b.low : cap_high ? -turn : b.high - 2.0 * turn;
-    x_high_[k] = !cap_high ? b.high : angle ? x_low_[k] + 2.0 * turn : cap;
+    const Bounds& b = all_[i].bounds;
+    const bool angle = all_[i].kind == VariableKind::angle, free = b.low < b.high;
+    const bool signed_length = all_[i].kind == VariableKind::coordinate;
+    const bool cut_low =
+        free && (angle ? !std::isfinite(b.low) : signed_length && !serious_bound(problem, b.low) && -cap > b.low);
+    const bool fraction = all_[i].kind == VariableKind::fraction;
+    const bool cut_high =
+        free && !fraction && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high) && cap < b.high);
+    x_low_[k] = !cut_low ? b.low : !angle ? -cap : cut_high ? -turn : b.high - 2.0 * turn;
+    x_high_[k] = !cut_high ? b.high : angle ? x_low_[k] + 2.0 * turn : cap;
     fixed_[k] = x_low_[k];
     if (!free) continue;
     free_.push_back(static_cast<int>(i));
-    capped_low_.push_back(cap_low);
-    capped_high_.push_back(cap_high);
+    capped_low_.push_back(cut_low || all_[i].ours);
+    capped_high_.push_back(cut_high || all_[i].ours);
   }
   low_.resize(size());
   high_.resize(size());
@@ -80,15 +80,13 @@ Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_f
     low_[k] = to_y(variable(k), x_low_[variable(k)]);
     high_[k] = to_y(variable(k), x_high_[variable(k)]);
   }
-  const int zp = find(info, "zp"), zs = find(info, "zs");
-  const auto position = [&](int v) {
-    const auto at = std::find(free_.begin(), free_.end(), v);
-    return at == free_.end() ? -1 : static_cast<int>(at - free_.begin());
-  };
-  zp_ = position(zp);
-  zs_ = position(zs);
-  y_zp_ = to_y(zp, fixed_[zp]);
-  y_zs_ = to_y(zs, fixed_[zs]);
+  zp_variable_ = design_family(problem.family).index("zp");
+  length_variable_ = ninedof::length_variable(problem);
+  const int zs_variable = design_family(problem.family).index("zs");
+  zp_ = coordinate(zp_variable_);
+  zs_ = coordinate(zs_variable);
+  y_zp_ = to_y(zp_variable_, fixed_[zp_variable_]);
+  y_zs_ = to_y(zs_variable, fixed_[zs_variable]);
   order_ = {Eigen::VectorXd::Zero(size()), -order_gap};
   if (zp_ >= 0) order_.gradient[zp_] = 1.0;
   else order_.constant += y_zp_;
@@ -96,12 +94,38 @@ Coordinates::Coordinates(const Problem& problem, double cap) : family_(&design_f
   else order_.constant -= y_zs_;
 }
 
+int Coordinates::coordinate(int variable) const {
+  const auto at = std::find(free_.begin(), free_.end(), variable);
+  return at == free_.end() ? -1 : static_cast<int>(at - free_.begin());
+}
+
+Coordinates Coordinates::plain(const Problem& problem) {
+  Coordinates c;
+  c.plain_ = true;
+  c.all_ = full_variables(problem);
+  c.unit_ = problem.unit();
+  c.length_variable_ = ninedof::length_variable(problem);
+  const auto n = static_cast<Eigen::Index>(c.all_.size());
+  for (int k = 0; k < n; ++k) c.free_.push_back(k);
+  c.fixed_.setZero(n);
+  c.low_.setConstant(n, -std::numeric_limits<double>::infinity());
+  c.high_.setConstant(n, std::numeric_limits<double>::infinity());
+  c.x_low_ = c.low_;
+  c.x_high_ = c.high_;
+  return c;
+}
+
+bool Coordinates::scaled(int variable) const {
+  const VariableKind kind = all_[static_cast<std::size_t>(variable)].kind;
+  return !plain_ && (kind == VariableKind::length || kind == VariableKind::coordinate);
+}
+
 double Coordinates::to_y(int variable, double x) const {
-  return family_->variables()[static_cast<std::size_t>(variable)].is_angle ? x : std::asinh(x / unit_);
+  return scaled(variable) ? std::asinh(x / unit_) : x;
 }
 
 double Coordinates::to_x(int variable, double y) const {
-  return family_->variables()[static_cast<std::size_t>(variable)].is_angle ? y : unit_ * std::sinh(y);
+  return scaled(variable) ? unit_ * std::sinh(y) : y;
 }
 
 Eigen::VectorXd Coordinates::variables(const Eigen::VectorXd& y) const {
@@ -118,15 +142,16 @@ Eigen::VectorXd Coordinates::variables(const Eigen::VectorXd& y) const {
 
 Eigen::VectorXd Coordinates::coordinates(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y(size());
-  for (int k = 0; k < size(); ++k) y[k] = std::clamp(to_y(variable(k), x[variable(k)]), low_[k], high_[k]);
+  for (int k = 0; k < size(); ++k) {
+    const double value = variable(k) < x.size() ? x[variable(k)] : 0.0;
+    y[k] = std::clamp(to_y(variable(k), value), low_[k], high_[k]);
+  }
   return y;
 }
 
 Eigen::VectorXd Coordinates::slopes(const Eigen::VectorXd& x) const {
   Eigen::VectorXd out(size());
-  for (int k = 0; k < size(); ++k)
-    out[k] =
-        family_->variables()[static_cast<std::size_t>(variable(k))].is_angle ? 1.0 : std::hypot(unit_, x[variable(k)]);
+  for (int k = 0; k < size(); ++k) out[k] = scaled(variable(k)) ? std::hypot(unit_, x[variable(k)]) : 1.0;
   return out;
 }
 
@@ -150,6 +175,13 @@ Eigen::VectorXd Coordinates::start(int index, std::uint64_t seed) const {
     const double zp = zp_ >= 0 ? y[zp_] : y_zp_;
     const double high = std::clamp(zp - order_gap, low_[zs_], high_[zs_]);
     y[zs_] = low_[zs_] + u[zs_] * (high - low_[zs_]);
+  }
+  // What the study leaves to us starts where it makes sense: s at its stated place, the length at half the height.
+  const double zp = to_x(zp_variable_, zp_ >= 0 ? y[zp_] : y_zp_);
+  for (int k = 0; k < size(); ++k) {
+    if (!info(k).ours) continue;
+    const double value = info(k).kind == VariableKind::fraction ? 0.0 : 0.5 * zp;
+    y[k] = std::clamp(to_y(variable(k), value), low_[k], high_[k]);
   }
   return y;
 }

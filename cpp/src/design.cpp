@@ -1,31 +1,57 @@
 #include "ninedof/design.hpp"
 
 #include "ninedof/error.hpp"
+#include "ninedof/general_family.hpp"
 #include "ninedof/hexagonal_family.hpp"
+#include "ninedof/symmetric_family.hpp"
 
 namespace ninedof {
 namespace {
 
 std::vector<const DesignFamily*> all_families() {
   static const HexagonalFamily hexagonal;
-  return {&hexagonal};
+  static const SymmetricFamily<9> symmetric;
+  static const SymmetricFamily<13> symmetric_nonplanar;
+  static const GeneralFamily general;
+  return {&hexagonal, &symmetric, &symmetric_nonplanar, &general};
 }
 
 }  // namespace
 
-Extremes DesignPoint::extremes() const {
-  return {value[log_transverse_max] > value[log_axial_max] ? log_transverse_max : log_axial_max,
-          value[log_transverse_min] < value[log_axial_min] ? log_transverse_min : log_axial_min};
+const char* to_string(VariableKind kind) {
+  switch (kind) {
+    case VariableKind::length: return "length";
+    case VariableKind::coordinate: return "coordinate";
+    case VariableKind::angle: return "angle";
+    case VariableKind::fraction: return "fraction";
+  }
+  return "";
 }
 
-double DesignPoint::log_condition_number() const {
-  const Extremes k = extremes();
-  return value[k.max] - value[k.min];
+void DesignFamily::axis(std::span<const double>, double, const AxisShift&, Machine, AxisPoint&) const {
+  throw InvalidArgument("family", "\"" + name() + "\"", "a family of designs symmetric about z");
 }
 
-Eigen::VectorXd DesignPoint::log_condition_number_gradient() const {
-  const Extremes k = extremes();
-  return gradient.row(k.max) - gradient.row(k.min);
+Geometry DesignFamily::geometry(std::span<const double> x) const {
+  Blueprint b;
+  blueprint(x, b);
+  const auto triple = [&](std::size_t first) -> Triple {
+    return {b.joint[first], b.joint[first + 1], b.joint[first + 2]};
+  };
+  return {triple(point_r), triple(point_r_hat), triple(point_u), triple(point_u_tilde)};
+}
+
+Configuration DesignFamily::configuration(std::span<const double> x) const {
+  Blueprint b;
+  blueprint(x, b);
+  return neutral(b.zp, b.zs, b.theta_z);
+}
+
+int DesignFamily::index(const std::string& variable) const {
+  const auto& all = variables();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].name == variable) return static_cast<int>(k);
+  throw InvalidArgument("variable", "\"" + variable + "\"", "a variable of the family " + name());
 }
 
 std::vector<std::string> design_family_names() {

@@ -6,27 +6,51 @@
 #include "verdict.hpp"
 
 namespace ninedof {
+namespace {
+
+double next_size(const std::vector<double>& sizes, double cap) {
+  return *std::upper_bound(sizes.begin(), sizes.end(), cap);
+}
+
+/// The leader with what stands on the cap moved to the next one.
+Eigen::VectorXd stretched(const Prepared& p, const Leader& l, double next) {
+  Eigen::VectorXd x = l.best.variables;
+  for (int k = 0; k < p.coordinates.size(); ++k) {
+    double& value = x[p.coordinates.variable(k)];
+    const bool sized = p.coordinates.info(k).kind != VariableKind::angle && !p.coordinates.info(k).ours;
+    if (sized && std::abs(std::abs(value) - l.cap) <= 1e-3 * l.cap) value *= next / l.cap;
+  }
+  return x;
+}
+
+}  // namespace
 
 Result optimize(const Problem& problem, const Settings& settings, const Control& control) {
   problem.validate();
   settings.validate();
+  for (const Eigen::VectorXd& x : settings.warm) require_full("warm", problem, x);
   Result result;
   if (judge_order(problem, result)) return result;
   const std::vector<double> sizes = caps(problem);
   const int starts_a_round = start_count(Prepared(problem, sizes.front()), settings);
   Progress progress(control, starts_a_round * static_cast<int>(sizes.size()));
   std::vector<Leader> leaders;
+  std::vector<Eigen::VectorXd> further;
   for (const double cap : sizes) {
     const Prepared p(problem, cap);
-    const Round round = run_round(p, settings, control, progress);
+    const Round round = run_round(p, cap, further, settings, control, progress);
     result.evaluations += round.evaluations;
     result.starts_done += round.done;
+    result.stopped_early += round.stopped_early;
     std::vector<Candidate> candidates = distinct(p, round);
     if (!candidates.empty()) {
       leaders.push_back(leader(p, cap, candidates.front()));
-      const bool better = result.candidates.empty() ||
-                          candidates.front().condition_number <= result.candidates.front().condition_number;
+      const bool better =
+          result.candidates.empty() || candidates.front().objective <= result.candidates.front().objective;
       if (better) result.candidates = std::move(candidates);
+      // A larger size must not do worse for want of luck: the best so far starts there too, as it is and stretched.
+      further = {leaders.back().best.variables};
+      if (cap < sizes.back()) further.push_back(stretched(p, leaders.back(), next_size(sizes, cap)));
     }
     if (control.stop.stop_requested()) {
       result.interrupted = true;
@@ -49,16 +73,15 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
   problem.validate();
   settings.validate();
   const Prepared p(problem, caps(problem).back());
-  if (start.size() != static_cast<Eigen::Index>(problem.variables.size()) || !start.allFinite())
-    throw InvalidArgument("start", std::to_string(start.size()) + " values",
-                          std::to_string(problem.variables.size()) + " finite ones, one for each variable");
+  require_full("start", problem, start);
   Trace out;
-  const auto observe = [&](const DesignPoint& point, double violation) {
+  const auto observe = [&](double log_objective, double violation) {
     const double last = out.best.empty() ? std::numeric_limits<double>::infinity() : out.best.back();
-    const double now = violation <= clearly_allowed ? std::exp(point.log_condition_number()) : last;
+    const double now = violation <= clearly_allowed ? std::exp(log_objective) : last;
     out.best.push_back(std::min(last, now));
   };
-  out.end = minimise(p, p.coordinates.coordinates(start), formulation, settings.max_evaluations, {}, observe).end;
+  out.end =
+      minimise(p, p.coordinates.coordinates(start), formulation, Effort{settings.max_evaluations}, {}, observe).end;
   return out;
 }
 
@@ -66,7 +89,7 @@ Eigen::MatrixXd starts(const Problem& problem, const Settings& settings) {
   problem.validate();
   settings.validate();
   const Prepared p(problem, caps(problem).back());
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(problem.variables.size()), settings.starts);
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(problem.names().size()), settings.starts);
   for (int k = 0; k < settings.starts; ++k) out.col(k) = p.coordinates.variables(p.coordinates.start(k, settings.seed));
   return out;
 }

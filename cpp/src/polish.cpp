@@ -3,45 +3,40 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "active_set.hpp"
+#include "equations.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr int newton_steps = 4;
+constexpr int newton_steps = 6;
+/// Soft singular values that matter in the limit are within this many smoothings of the extreme one.
+constexpr double held_together = 7.0;
 constexpr double difference_step = 1e-6;  // of solver coordinates, which are of order one
 
-/// The active equations as combinations of quantities: ties of maxima with the first of them, of minima, margins = 0.
-struct Equations {
-  Eigen::MatrixXd coefficients;  // one row an equation
-  Eigen::VectorXd constants;
-};
-
-Equations equations(const Prepared& p, const Look& l, const ActiveSet& a) {
-  const auto count = static_cast<Eigen::Index>(a.maxima.size() - 1 + a.minima.size() - 1 + a.margins.size());
-  Equations e{Eigen::MatrixXd::Zero(count, quantity_count), Eigen::VectorXd::Zero(count)};
-  Eigen::Index row = 0;
-  for (const auto* ties : {&a.maxima, &a.minima})
-    for (std::size_t k = 1; k < ties->size(); ++k, ++row) {
-      e.coefficients(row, ties->front()) = -1.0;
-      e.coefficients(row, (*ties)[k]) = 1.0;
-    }
-  for (const int k : a.margins) {
-    const Margin::Form& f = p.margins[static_cast<std::size_t>(k)].governing(l.point);
-    e.coefficients.row(row) = f.coefficients;
-    e.constants[row++] = f.constant;
+/// Curvature of the objective in its levels, by differences of its slopes.
+Eigen::MatrixXd level_curvature(const Prepared& p, const Eigen::VectorXd& levels) {
+  Eigen::MatrixXd out(p.levels, p.levels);
+  Eigen::VectorXd slopes, ahead;
+  p.objective(levels, &slopes);
+  for (Eigen::Index k = 0; k < p.levels; ++k) {
+    Eigen::VectorXd near = levels;
+    near[k] += difference_step;
+    p.objective(near, &ahead);
+    out.col(k) = (ahead - slopes) / difference_step;
   }
-  return e;
+  return 0.5 * (out + out.transpose());
 }
 
 }  // namespace
 
-Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start) {
+Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double smoothing) {
   const int n = p.coordinates.size();
   Eigen::VectorXd y = start;
   Look l, ahead;
+  l.smoothing = smoothing;
   look(p, y, l);
   const ActiveSet active = active_set(p, l, y);
+  l.smoothing = 0.0;
   std::vector<bool> held(static_cast<std::size_t>(n), false);
   for (const int k : active.at_low) {
     held[static_cast<std::size_t>(k)] = true;
@@ -56,39 +51,51 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start) {
   for (int k = 0; k < n; ++k)
     if (!held[static_cast<std::size_t>(k)]) moving.push_back(k);
   const auto m = static_cast<Eigen::Index>(moving.size());
+  const ActiveEquations equations(p, l, active, held_together * smoothing);
+  const Eigen::Index levels = p.levels, unknowns = m + levels;
+  Eigen::VectorXd t = l.levels;
 
   for (int step = 0; step < newton_steps && m > 0; ++step) {
-    const Equations e = equations(p, l, active);
-    const Eigen::Index rows = e.constants.size();
-    // Objective: log of the first maximum minus log of the first minimum; the ties carry the others.
-    Eigen::RowVectorXd objective = Eigen::RowVectorXd::Zero(quantity_count);
-    objective[active.maxima.front()] = 1.0;
-    objective[active.minima.front()] = -1.0;
-    const Eigen::MatrixXd g = l.gradient(Eigen::all, moving);
-    const Eigen::VectorXd slope = (objective * g).transpose();
-    const Eigen::MatrixXd jacobian = e.coefficients * g;
-    Eigen::VectorXd multipliers(rows);
-    if (rows > 0) multipliers = jacobian.transpose().completeOrthogonalDecomposition().solve(-slope);
-    const Eigen::RowVectorXd lagrangian = objective + multipliers.transpose() * e.coefficients;
+    // Unknowns (y, t); equations value = t of their level, or 0.
+    const Equations e = equations.at(l);
+    const Eigen::Index rows = e.value.size();
+    const Eigen::MatrixXd g = e.gradient(Eigen::all, moving);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, unknowns);
+    jacobian.leftCols(m) = g;
+    Eigen::VectorXd miss = e.value;
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      const int level = e.level[static_cast<std::size_t>(k)];
+      if (level < 0) continue;
+      jacobian(k, m + level) = -1.0;
+      miss[k] -= t[level];
+    }
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(unknowns), slopes;
+    p.objective(t, &slopes);
+    slope.tail(levels) = slopes;
+    const Eigen::VectorXd multipliers = jacobian.transpose().completeOrthogonalDecomposition().solve(-slope);
 
-    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(m + rows, m + rows);
+    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(unknowns + rows, unknowns + rows);
     for (Eigen::Index k = 0; k < m; ++k) {
       Eigen::VectorXd near = y;
       near[moving[static_cast<std::size_t>(k)]] += difference_step;
       look(p, near, ahead);
-      kkt.col(k).head(m) = (lagrangian * (ahead.gradient(Eigen::all, moving) - g)).transpose() / difference_step;
+      kkt.col(k).head(m) =
+          (equations.at(ahead).gradient(Eigen::all, moving) - g).transpose() * multipliers / difference_step;
     }
     kkt.topLeftCorner(m, m) = (0.5 * (kkt.topLeftCorner(m, m) + kkt.topLeftCorner(m, m).transpose())).eval();
-    kkt.topRightCorner(m, rows) = jacobian.transpose();
-    kkt.bottomLeftCorner(rows, m) = jacobian;
-    Eigen::VectorXd right(m + rows);
-    right << -(lagrangian * g).transpose(), -(e.coefficients * l.point.value + e.constants);
-    const Eigen::VectorXd move = kkt.completeOrthogonalDecomposition().solve(right).head(m);
-    if (!move.allFinite() || move.norm() > 0.1) break;  // not near an optimum after all
+    kkt.block(m, m, levels, levels) = level_curvature(p, t);
+    kkt.topRightCorner(unknowns, rows) = jacobian.transpose();
+    kkt.bottomLeftCorner(rows, unknowns) = jacobian;
+    Eigen::VectorXd right(unknowns + rows);
+    right << -(slope + jacobian.transpose() * multipliers), -miss;
+    if (!kkt.allFinite() || !right.allFinite()) break;
+    const Eigen::VectorXd move = kkt.completeOrthogonalDecomposition().solve(right).head(unknowns);
+    if (!move.allFinite() || move.head(m).norm() > 0.1) break;  // not near an optimum after all
     for (Eigen::Index k = 0; k < m; ++k) y[moving[static_cast<std::size_t>(k)]] += move[k];
     y = y.cwiseMax(p.coordinates.low()).cwiseMin(p.coordinates.high());
+    t += move.tail(levels);
     look(p, y, l);
-    if (move.norm() < 1e-12) break;
+    if (move.head(m).norm() < 1e-12) break;
   }
   return y;
 }

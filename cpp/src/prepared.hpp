@@ -1,35 +1,94 @@
 #pragma once
 /// A problem made ready to be solved, and one look at a design in solver coordinates.
+///
+/// What the solver sees: levels t, one for each number the objective is made of; objective rows f(y), each to stay below a
+/// level; margins m(y) >= 0. The objective is a smooth, increasing function of the levels, so that at a solution each is the
+/// largest of its rows.
 
-#include "coordinates.hpp"
+#include <memory>
+#include <vector>
+
+#include "constraints/constraint.hpp"
+#include "pose_index.hpp"
 
 namespace ninedof {
 
-/// Coordinates and margins worked out once, shared by all starts.
+/// An objective row and the level it stays below.
+struct Use {
+  int row, level;
+};
+
+/// A margin: a row of a constraint, or the limit on the condition number of a pose (constraint -1, row of its pairs).
+struct MarginRow {
+  int constraint, row;
+};
+
+struct Look;
+
+/// Coordinates, rows and places worked out once, shared by all starts.
 struct Prepared {
   /// `cap`: largest size looked at where a variable has no serious upper bound.
   Prepared(const Problem& problem, double cap);
+  /// To look at single designs: all variables as they are, all margins kept.
+  explicit Prepared(const Problem& problem);
 
   Problem problem;
   const DesignFamily* family;
-  std::vector<Margin> margins;
   Coordinates coordinates;
+  std::vector<Place> places;  ///< the neutral one, those of the objective, those between
+  int looked = 0;             ///< poses of the objective
+  std::vector<bool> closed;   ///< of each pose looked at: through the closed form
+  std::vector<std::unique_ptr<Constraint>> constraints;
+  std::vector<MarginRow> margins;
+  std::vector<Use> uses;
+  int rows = 0, levels = 1;
+  int helpers = 0;
+
+  const std::string& margin_name(int k) const;
+  double margin_price(int k) const;
+  /// `y` with the helping variables of constraints at their best.
+  Eigen::VectorXd helped(const Eigen::VectorXd& y) const;
+  /// A full set of variables without the helping ones.
+  Eigen::VectorXd without_helpers(const Eigen::VectorXd& x) const { return x.head(x.size() - helpers); }
+  /// Whether singular values that meet have a kink: off the axis, and not in the Frobenius norm.
+  bool kinked() const;
+  /// Rows of the objective that belong to a pose looked at.
+  int first_row(int pose) const { return first_row_[static_cast<std::size_t>(pose)]; }
+
+  /// The objective, as a logarithm, and its derivatives with respect to the levels.
+  double objective(const Eigen::VectorXd& levels, Eigen::VectorXd* slopes = nullptr) const;
+
+ private:
+  void place_poses();
+  void count_rows(Purpose purpose);
+  void drop_repeated_margins();
+
+  std::vector<int> first_row_;
 };
 
-/// A design and the gradients of its quantities with respect to the free coordinates.
+/// A design and the derivatives of its rows with respect to the free coordinates.
 struct Look {
-  Eigen::VectorXd x;
-  DesignPoint point;
-  Eigen::Matrix<double, quantity_count, Eigen::Dynamic> gradient;
-
-  double log_max() const { return std::max(point.value[log_axial_max], point.value[log_transverse_max]); }
-  double log_min() const { return std::min(point.value[log_axial_min], point.value[log_transverse_min]); }
+  View view;
+  std::vector<PoseSpectrum> spectra;  ///< of the poses looked at
+  Eigen::VectorXd f, m;
+  Rows f_gradient, m_gradient;
+  Eigen::VectorXd levels;             ///< each the largest of its rows
+  double log_objective = 0.0;
+  /// Set before looking: where it is positive, poses off the axis have soft singular values, see fill_soft_index.
+  double smoothing = 0.0;
 };
 
-/// Evaluates the design at `y` into `out`.
-void look(const Prepared& p, const Eigen::VectorXd& y, Look& out);
+/// Evaluates the design at `y` into `out`; derivatives of `margins` only, where they are given.
+void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const std::vector<int>* margins = nullptr);
 
 /// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
 double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
+
+/// How far zs is beyond zp, as a violation; 0 where it is below.
+double order_violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
+
+/// 2-norm condition number of the nine-legged robot at the neutral configuration, and at each pose looked at.
+double neutral_condition(const Prepared& p, const Look& l);
+std::vector<double> conditions(const Prepared& p, const Look& l);
 
 }  // namespace ninedof

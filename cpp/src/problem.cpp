@@ -1,28 +1,58 @@
 #include <algorithm>
+#include <cmath>
 
+#include "full_variables.hpp"
 #include "ninedof/optimize.hpp"
 
 namespace ninedof {
+namespace {
+
+void require_bounds(const std::string& name, VariableKind kind, const Bounds& b) {
+  const std::string text = format_interval(b.low, b.high);
+  if (!(b.low <= b.high)) throw InvalidArgument(name, text, "low <= high, both numbers");
+  if (b.low == b.high) require_finite(name.c_str(), b.low);
+  if (kind == VariableKind::length && b.low < 0.0) throw InvalidArgument(name, text, "a length, low >= 0");
+}
+
+}  // namespace
+
+double Problem::unit() const {
+  return characteristic_length.choice == StudyLength::Choice::number ? characteristic_length.value : 1.0;
+}
+
+std::vector<std::string> Problem::names() const {
+  std::vector<std::string> out;
+  for (const Variable& v : full_variables(*this)) out.push_back(v.name);
+  return out;
+}
 
 void Problem::validate() const {
-  const auto& info = design_family(family).variables();
-  require_positive("characteristic_length", characteristic_length);
+  const DesignFamily& f = design_family(family);
+  const auto& info = f.variables();
+  using Choice = StudyLength::Choice;
+  if (characteristic_length.choice == Choice::number)
+    require_positive("characteristic_length", characteristic_length.value);
+  if (characteristic_length.choice == Choice::free) {
+    const Bounds& b = characteristic_length.bounds;
+    require_bounds("characteristic_length", VariableKind::length, b);
+    if (!(b.low > 0.0) || !std::isfinite(b.high))
+      throw InvalidArgument("characteristic_length", format_interval(b.low, b.high), "0 < low <= high, both finite");
+  }
   if (variables.size() != info.size())
     throw InvalidArgument("variables", std::to_string(variables.size()) + " bounds",
                           std::to_string(info.size()) + ", one for each variable of " + family);
-  for (std::size_t k = 0; k < info.size(); ++k) {
-    const Bounds& b = variables[k];
-    const std::string text = format_interval(b.low, b.high);
-    if (!(b.low <= b.high)) throw InvalidArgument(info[k].name, text, "low <= high, both numbers");
-    if (b.low == b.high) require_finite(info[k].name.c_str(), b.low);
-    if (!info[k].is_angle && b.low < 0.0) throw InvalidArgument(info[k].name, text, "a length, low >= 0");
-  }
-  margins(limits);
+  for (std::size_t k = 0; k < info.size(); ++k) require_bounds(info[k].name, info[k].kind, variables[k]);
+  for (const Limit& limit : limits) limit.validate();
+  objective.validate();
+  if (objective.index == Index::six_legged && !f.symmetric())
+    throw InvalidArgument("objective.index", "\"six_legged\"", "a family symmetric about z with it, not " + family);
   // A design of ordinary size within the bounds must be a robot: says so where both sides of a plate are held at zero.
   std::vector<double> ordinary;
-  for (std::size_t k = 0; k < info.size(); ++k)
-    ordinary.push_back(std::clamp(info[k].is_angle ? 0.0 : characteristic_length, variables[k].low, variables[k].high));
-  design_family(family).geometry(ordinary);
+  for (std::size_t k = 0; k < info.size(); ++k) {
+    const double size = info[k].kind == VariableKind::length ? unit() : 0.0;
+    ordinary.push_back(std::clamp(size, variables[k].low, variables[k].high));
+  }
+  if (f.symmetric()) f.geometry(ordinary);
 }
 
 void Settings::validate() const {

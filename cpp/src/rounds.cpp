@@ -2,103 +2,178 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "ninedof/parallel.hpp"
 
 namespace ninedof {
 namespace {
 
-/// Equal machines up to reflection and to variables that do not matter: same quantities.
-bool same_design(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return (a - b).cwiseAbs().maxCoeff() < 1e-4;
+/// Share of the runs that must agree on the best objective for it to need no second look.
+constexpr double agreement = 0.5;
+constexpr double agreed = 1e-6;  // relative difference of objectives
+
+/// Where starts are expensive: how many are followed to their end at least, and how far the others get.
+constexpr int followed_at_least = 8;
+constexpr int scouting_evaluations = 40, and_for_each_variable = 4;
+
+/// A number in [0, 1) from three (splitmix64).
+double hash(std::uint64_t seed, int a, int b) {
+  std::uint64_t z = seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(a) * 0xD1B54A32D192ED03ULL +
+                    static_cast<std::uint64_t>(b) * 0x8CB92BA72F3D8DD7ULL + 0x2545F4914F6CDD1DULL;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
 }
 
-/// Whether `a` is the one to show of two ends that are the same design: not worse, and first in the order of variables
-/// (which of two mirror images is shown must not hang on rounding), or the same image and more nearly stationary.
-bool stands_for(const Candidate& a, const Candidate& b) {
-  if (a.condition_number > b.condition_number * (1.0 + 1e-9)) return false;
-  for (Eigen::Index k = 0; k < a.variables.size(); ++k) {
-    const double tolerance = 1e-4 * std::max(std::abs(a.variables[k]), std::abs(b.variables[k]));
-    if (std::abs(a.variables[k] - b.variables[k]) > tolerance) return a.variables[k] < b.variables[k];
+/// Allowed before not allowed, then the lower objective or violation.
+bool better(const Candidate& a, const Candidate& b) {
+  if (a.feasible() != b.feasible()) return a.feasible();
+  return a.feasible() ? a.objective < b.objective : a.constraint_violation < b.constraint_violation;
+}
+
+/// Indices of the runs there are, best first.
+std::vector<std::size_t> ranked(const Round& round) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < round.runs.size(); ++k)
+    if (round.runs[k]) out.push_back(k);
+  std::ranges::stable_sort(
+      out, [&](std::size_t a, std::size_t b) { return better(round.runs[a]->end, round.runs[b]->end); });
+  return out;
+}
+
+/// Where a start costs much: many poses, or singular values with kinks to be smoothed.
+bool expensive(const Prepared& p) {
+  return p.looked > 1 || p.kinked();
+}
+
+/// The same problem with s at its stated places: fewer variables, and near enough to tell good starts from bad ones.
+Problem without_placing(Problem problem) {
+  for (Pose& pose : problem.objective.poses) pose.best_internal = false;
+  return problem;
+}
+
+/// Full variables of the problem from those of the one without placing.
+Eigen::VectorXd with_places(const Prepared& p, const Eigen::VectorXd& x) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.problem.names().size()));
+  out.head(x.size()) = x;
+  return p.coordinates.coordinates(out);
+}
+
+/// Runs `count` starts, made when they are needed; each end gets its own place.
+void run_all(const Prepared& p, int count, const std::function<Eigen::VectorXd(int)>& start, const Effort& effort,
+             const Settings& s, const Control& control, Progress* progress, Round& round) {
+  const std::size_t before = round.runs.size();
+  round.runs.resize(before + static_cast<std::size_t>(count));
+  parallel_for(count, 1, s.threads, [&](long first, long) {
+    if (control.stop.stop_requested()) return;
+    Run run = minimise(p, start(static_cast<int>(first)), Formulation::minimax, effort, control.stop);
+    if (progress != nullptr) progress->finished(run.end);
+    round.runs[before + static_cast<std::size_t>(first)] = std::move(run);
+  });
+}
+
+/// The same from a list.
+void run_all(const Prepared& p, const std::vector<Eigen::VectorXd>& starts, const Effort& effort, const Settings& s,
+             const Control& control, Round& round) {
+  const auto at = [&](int k) { return starts[static_cast<std::size_t>(k)]; };
+  run_all(p, static_cast<int>(starts.size()), at, effort, s, control, nullptr, round);
+}
+
+/// Follows the most promising starts only: which they are shows after a short run each.
+std::vector<Eigen::VectorXd> scouted(const Prepared& p, double cap, const Settings& s, const Control& control,
+                                     Progress& progress, Round& round) {
+  const Prepared scout(without_placing(p.problem), cap);
+  const auto start = [&](int k) {
+    const Eigen::VectorXd x = p.coordinates.variables(start_at(p, s, k));
+    return scout.coordinates.coordinates(x.head(static_cast<Eigen::Index>(scout.problem.names().size())));
+  };
+  Round short_runs;
+  run_all(scout, start_count(p, s), start, {scouting_evaluations + and_for_each_variable * scout.coordinates.size(), 0, false}, s, control, &progress, short_runs);
+  std::vector<Eigen::VectorXd> out;
+  const auto followed = std::max<std::size_t>(followed_at_least, short_runs.runs.size() / 8);
+  for (const std::size_t k : ranked(short_runs)) {
+    round.evaluations += short_runs.runs[k]->evaluations;
+    ++round.done;
+    if (out.size() < followed) out.push_back(with_places(p, short_runs.runs[k]->end.variables));
   }
-  return a.optimality_residual < b.optimality_residual;
+  round.stopped_early = round.done - static_cast<int>(out.size());
+  return out;
 }
 
-/// Whether a run has ended where we cut an angle without bounds: no optimum of the study.
-bool at_cut_angle(const Prepared& p, const Candidate& c) {
-  const Eigen::VectorXd y = p.coordinates.coordinates(c.variables);
-  for (int k = 0; k < p.coordinates.size(); ++k) {
-    if (!p.family->variables()[static_cast<std::size_t>(p.coordinates.variable(k))].is_angle) continue;
-    if (p.coordinates.capped_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
-    if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
+/// Starts made of the best ends: some coordinates of one, the others of a fresh start. Local optima differ by a few choices (a
+/// height up or down, a triple inside or outside), and a good design has most of them right.
+std::vector<Eigen::VectorXd> recombined(const Prepared& p, const Settings& s, const Round& round, int count) {
+  constexpr std::size_t parents = 8;
+  std::vector<Eigen::VectorXd> bases;
+  double last = 0.0;
+  for (const std::size_t k : ranked(round)) {
+    const Candidate& end = round.runs[k]->end;
+    if (!end.feasible() || !end.regular()) break;
+    if (!bases.empty() && end.objective <= last * (1.0 + agreed)) continue;
+    last = end.objective;
+    bases.push_back(p.coordinates.coordinates(end.variables));
+    if (bases.size() == parents) break;
   }
-  return false;
+  std::vector<Eigen::VectorXd> out;
+  for (int k = 0; k < count && !bases.empty(); ++k) {
+    // The better a design, the more often: 0, 0 1, 0 1 2, ...
+    const auto which =
+        static_cast<std::size_t>(hash(s.seed, k, -1) * hash(s.seed, k, -2) * static_cast<double>(bases.size()));
+    Eigen::VectorXd y = bases[which];
+    const Eigen::VectorXd fresh = p.coordinates.start(s.starts + k, s.seed);
+    for (int v = 0; v < p.coordinates.size(); ++v)
+      if (hash(s.seed, k, v) < 0.3) y[v] = fresh[v];
+    out.push_back(std::move(y));
+  }
+  return out;
 }
 
-bool acceptable(const Prepared& p, const Candidate& c) {
-  return c.feasible() && c.stationary() && c.regular() && !at_cut_angle(p, c);
+/// Whether enough runs ended at the best objective.
+bool agree(const Round& round) {
+  const std::vector<std::size_t> order = ranked(round);
+  if (order.empty()) return true;
+  const Candidate& best = round.runs[order.front()]->end;
+  if (!best.feasible()) return true;  // recombining what is not allowed does not help
+  const auto same = std::ranges::count_if(order, [&](std::size_t k) {
+    const Candidate& c = round.runs[k]->end;
+    return c.feasible() && c.objective <= best.objective * (1.0 + agreed);
+  });
+  return static_cast<double>(same) >= agreement * static_cast<double>(order.size());
 }
 
 }  // namespace
 
 int start_count(const Prepared& p, const Settings& s) {
-  return p.coordinates.size() == 0 ? 1 : s.starts;
+  return p.coordinates.size() == 0 ? 1 : s.starts + static_cast<int>(s.warm.size());
 }
 
-Round run_round(const Prepared& p, const Settings& s, const Control& control, Progress& progress) {
-  const int count = start_count(p, s);
+Eigen::VectorXd start_at(const Prepared& p, const Settings& s, int index) {
+  const auto warm = static_cast<int>(s.warm.size());
+  return index < warm && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[static_cast<std::size_t>(index)])
+                                                  : p.coordinates.start(index - warm, s.seed);
+}
+
+Round run_round(const Prepared& p, double cap, const std::vector<Eigen::VectorXd>& further, const Settings& s,
+                const Control& control, Progress& progress) {
+  const Effort full{s.max_evaluations};
   Round round;
-  round.runs.resize(static_cast<std::size_t>(count));
-  parallel_for(count, 1, s.threads, [&](long first, long) {
-    if (control.stop.stop_requested()) return;
-    Run run = minimise(p, p.coordinates.start(static_cast<int>(first), s.seed), Formulation::minimax, s.max_evaluations,
-                       control.stop);
-    progress.finished(run.end);
-    round.runs[static_cast<std::size_t>(first)] = std::move(run);
-  });
-  for (const auto& run : round.runs) {
-    if (!run) continue;
-    round.evaluations += run->evaluations;
-    ++round.done;
+  if (expensive(p) && p.coordinates.size() > 0) {
+    const std::vector<Eigen::VectorXd> chosen = scouted(p, cap, s, control, progress, round);
+    run_all(p, chosen, full, s, control, round);
+  } else {
+    run_all(p, start_count(p, s), [&](int k) { return start_at(p, s, k); }, full, s, control, &progress, round);
+    for (const auto& run : round.runs) round.done += run.has_value();
   }
-  return round;
-}
-
-std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
-  std::vector<Candidate> ends;
+  round.from_starts = round.runs.size();
+  std::vector<Eigen::VectorXd> more;
+  for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
+  run_all(p, more, full, s, control, round);
+  if (p.coordinates.size() > 1 && s.starts > 1 && !agree(round))
+    run_all(p, recombined(p, s, round, std::max(1, static_cast<int>(round.runs.size()) / 2)), full, s, control, round);
   for (const auto& run : round.runs)
-    if (run && acceptable(p, run->end)) ends.push_back(run->end);
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.condition_number < b.condition_number; });
-  std::vector<Candidate> out;
-  std::vector<Eigen::VectorXd> signatures;
-  for (Candidate& end : ends) {
-    DesignPoint point;
-    p.family->evaluate({end.variables.data(), static_cast<std::size_t>(end.variables.size())},
-                       p.problem.characteristic_length, point);
-    std::size_t k = 0;
-    while (k < out.size() && !same_design(signatures[k], point.value)) ++k;
-    if (k == out.size()) {
-      out.push_back(std::move(end));
-      signatures.emplace_back(point.value);
-      out[k].reached = 1;
-      continue;
-    }
-    const int reached = out[k].reached + 1;
-    if (stands_for(end, out[k])) out[k] = std::move(end);
-    out[k].reached = reached;
-  }
-  return out;
-}
-
-std::optional<Candidate> best_allowed(const Round& round) {
-  std::optional<Candidate> best;
-  for (const auto& run : round.runs) {
-    if (!run || !run->end.feasible() || !run->end.regular()) continue;
-    if (!best || run->end.condition_number < best->condition_number) best = run->end;
-  }
-  if (best) best->reached = 1;
-  return best;
+    if (run) round.evaluations += run->evaluations;
+  return round;
 }
 
 }  // namespace ninedof

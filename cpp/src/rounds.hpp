@@ -8,11 +8,13 @@
 
 namespace ninedof {
 
-/// Runs of one round by start, empty where it was not begun, and what they cost.
+/// Runs of one round, empty where one was not begun, and what they cost.
 struct Round {
   std::vector<std::optional<Run>> runs;
+  std::size_t from_starts = 0;  ///< how many of them are starts; the others try again from ends
   long evaluations = 0;
-  int done = 0;
+  int done = 0;           ///< starts tried
+  int stopped_early = 0;  ///< of those, given up as hopeless
 };
 
 /// Counts finished starts over all rounds and passes on what is new, one caller at a time.
@@ -22,7 +24,7 @@ class Progress {
   void finished(const Candidate& c) {
     const std::lock_guard lock(guard_);
     ++done_;
-    if (c.feasible()) best_ = std::min(best_, c.condition_number);
+    if (c.feasible()) best_ = std::min(best_, c.objective);
     if (control_.progress) control_.progress(done_, total_, best_);
   }
 
@@ -36,7 +38,13 @@ class Progress {
 /// Starts of one round: a design without free variables is looked at once.
 int start_count(const Prepared& p, const Settings& s);
 
-Round run_round(const Prepared& p, const Settings& s, const Control& control, Progress& progress);
+/// Start `index` in solver coordinates: the warm ones first.
+Eigen::VectorXd start_at(const Prepared& p, const Settings& s, int index);
+
+/// All starts; where they do not agree, some more from recombined ends. The same bits for any number of threads.
+/// `further` starts, in full variables, are tried as well and not counted.
+Round run_round(const Prepared& p, double cap, const std::vector<Eigen::VectorXd>& further, const Settings& s,
+                const Control& control, Progress& progress);
 
 /// Distinct acceptable ends, best first: within the limits, stationary, regular, and on no cut of ours.
 std::vector<Candidate> distinct(const Prepared& p, const Round& round);

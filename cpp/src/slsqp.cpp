@@ -32,6 +32,8 @@ struct Session {
     try {
       const Eigen::Map<const Eigen::VectorXd> point(y, nlp.variables);
       if (at.size() == point.size() && at == point) return;
+      // A step of SLSQP's own arithmetic gone wrong: no design. The last values stand, and the run ends.
+      if (!point.allFinite()) return void(nlopt_force_stop(opt));
       at = point;
       if (!nlp.evaluate(at, values)) nlopt_force_stop(opt);
     } catch (...) {

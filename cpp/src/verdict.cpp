@@ -23,8 +23,11 @@ std::string join(const std::vector<std::string>& words) {
 
 bool runs_to_cap(const Prepared& p, const Candidate& best) {
   const Eigen::VectorXd y = p.coordinates.coordinates(best.variables);
-  for (int k = 0; k < p.coordinates.size(); ++k)
+  for (int k = 0; k < p.coordinates.size(); ++k) {
+    if (p.coordinates.info(k).ours || p.coordinates.info(k).kind == VariableKind::angle) continue;
     if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-3) return true;
+    if (p.coordinates.capped_low(k) && y[k] - p.coordinates.low()[k] < 1e-3) return true;
+  }
   return false;
 }
 
@@ -34,10 +37,9 @@ bool keeps_improving(const std::vector<Leader>& leaders) {
   if (leaders.size() < 3) return false;
   for (std::size_t k = 0; k < leaders.size(); ++k) {
     if (!leaders[k].at_cap) return false;
-    if (k > 0 && leaders[k].best.condition_number > leaders[k - 1].best.condition_number * (1.0 + rounding))
-      return false;
+    if (k > 0 && leaders[k].best.objective > leaders[k - 1].best.objective * (1.0 + rounding)) return false;
   }
-  return leaders.back().best.condition_number < leaders.front().best.condition_number * (1.0 - still_improving);
+  return leaders.back().best.objective < leaders.front().best.objective * (1.0 - still_improving);
 }
 
 /// Variables without a serious bound that grow from cap to cap.
@@ -45,9 +47,11 @@ std::vector<std::string> growing(const Problem& problem, const std::vector<Leade
   std::vector<std::string> names;
   const auto& info = design_family(problem.family).variables();
   for (std::size_t v = 0; v < info.size(); ++v) {
-    const auto at = [&](const Leader& l) { return l.best.variables[static_cast<Eigen::Index>(v)]; };
+    const auto at = [&](const Leader& l) { return std::abs(l.best.variables[static_cast<Eigen::Index>(v)]); };
     const Bounds& b = problem.variables[v];
-    bool grows = !info[v].is_angle && b.low < b.high && !serious_bound(problem, b.high);
+    const bool open =
+        !serious_bound(problem, b.high) || (info[v].kind == VariableKind::coordinate && !serious_bound(problem, b.low));
+    bool grows = info[v].kind != VariableKind::angle && b.low < b.high && open;
     for (std::size_t k = 1; grows && k < leaders.size(); ++k) grows = at(leaders[k]) > 1.5 * at(leaders[k - 1]);
     if (grows) names.push_back(info[v].name);
   }
@@ -58,7 +62,7 @@ std::string unbounded_reason(const std::vector<Leader>& leaders, const std::vect
   std::string text = "no least value: it keeps falling as " + join(causes) + " run away (";
   for (const Leader& l : leaders) {
     if (l.cap > leaders.front().cap) text += ", ";
-    text += format_number(std::round(l.best.condition_number * 1e6) / 1e6) + " at size " + format_number(l.cap);
+    text += format_number(std::round(l.best.objective * 1e6) / 1e6) + " at size " + format_number(l.cap);
   }
   return text + "); a bound of a million characteristic lengths or more counts as none";
 }
@@ -67,19 +71,20 @@ std::string unbounded_reason(const std::vector<Leader>& leaders, const std::vect
 
 std::vector<double> caps(const Problem& p) {
   const auto& info = design_family(p.family).variables();
-  double size = p.characteristic_length;
+  double size = p.unit();
   bool open = false;
   for (std::size_t k = 0; k < info.size(); ++k) {
-    if (info[k].is_angle) continue;
+    if (info[k].kind == VariableKind::angle) continue;
     const Bounds& b = p.variables[k];
-    const bool serious = b.low == b.high || serious_bound(p, b.high);
+    const bool coordinate = info[k].kind == VariableKind::coordinate;
+    const bool serious = b.low == b.high || (serious_bound(p, b.high) && (!coordinate || serious_bound(p, b.low)));
     open |= !serious;
-    size = std::max(size, serious ? b.high : b.low);
+    size = std::max(size, serious ? std::abs(b.high) : std::abs(b.low) < 1e6 * p.unit() ? std::abs(b.low) : 0.0);
   }
   std::vector<double> out;
-  const double first = std::max(10.0 * size, 100.0 * p.characteristic_length);
+  const double first = std::max(10.0 * size, 100.0 * p.unit());
   for (const double stretch : stretches)
-    if (stretch * first <= largest * p.characteristic_length || out.size() < 3) out.push_back(stretch * first);
+    if (stretch * first <= largest * p.unit() || out.size() < 3) out.push_back(stretch * first);
   if (!open) out.resize(1);
   return out;
 }
@@ -88,16 +93,23 @@ Leader leader(const Prepared& p, double cap, const Candidate& best) {
   return {cap, best, runs_to_cap(p, best)};
 }
 
-void judge_unbounded(const Problem& problem, const std::vector<Leader>& leaders, Result& result) {
+void judge_unbounded(const Problem& problem, std::vector<Leader> leaders, Result& result) {
+  // A larger size allows all that a smaller one does: worse is a search that failed, for rounding in zp - zs, and tells nothing.
+  while (leaders.size() > 3 &&
+         leaders.back().best.objective > leaders[leaders.size() - 2].best.objective * (1.0 + rounding))
+    leaders.pop_back();
   if (keeps_improving(leaders)) {
     result.status = Status::unbounded;
     result.causes = growing(problem, leaders);
     result.reason = unbounded_reason(leaders, result.causes);
-  } else if (leaders.back().at_cap) {
-    result.status = Status::stopped;
-    result.reason = "the best design found stands at size " + format_number(leaders.back().cap) +
-                    ", where a search without bounds was cut off, and does not keep improving: bound the variables";
+    return;
   }
+  const auto best = std::ranges::min_element(
+      leaders, [](const Leader& a, const Leader& b) { return a.best.objective < b.best.objective; });
+  if (!best->at_cap) return;
+  result.status = Status::stopped;
+  result.reason = "the best design found stands at size " + format_number(best->cap) +
+                  ", where a search without bounds was cut off, and does not keep improving: bound the variables";
 }
 
 bool judge_order(const Problem& problem, Result& result) {
@@ -135,6 +147,8 @@ void explain_failure(const Prepared& p, const Round& round, const Settings& s, c
   result.status = Status::infeasible;
   if (least->end.feasible()) {
     result.reason = "all designs reached within the limits are singular: none has a finite condition number";
+    if (p.problem.objective.index == Index::speed && std::isinf(p.problem.objective.condition_limit))
+      result.reason += "; the index speed needs a limit on it (condition_limit)";
     return;
   }
   result.causes = least->causes;

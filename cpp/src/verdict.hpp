@@ -19,7 +19,7 @@ Leader leader(const Prepared& p, double cap, const Candidate& best);
 
 /// Sets `result` to unbounded, with causes and reason, if the leaders of all caps show that the index has no least value; to
 /// stopped if the last one stands on its cap and they do not.
-void judge_unbounded(const Problem& problem, const std::vector<Leader>& leaders, Result& result);
+void judge_unbounded(const Problem& problem, std::vector<Leader> leaders, Result& result);
 
 /// Sets `result` to infeasible if 0 < zs < zp (eq. 9b) plainly leaves no design: a height held at zero, zs_fraction at 1 or more.
 bool judge_order(const Problem& problem, Result& result);

@@ -8,6 +8,7 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
     condition_number,
@@ -27,8 +28,13 @@ from ninedof.kinematics import (
     velocity_matrices,
 )
 from ninedof.lengths import characteristic_length
-from ninedof.optimize import Candidate, Result, Status, Trace, optimize, trace
-from ninedof.study import DesignPoint, Study
+from ninedof.objective import Objective
+from ninedof.optimize import Trace, optimize, trace
+from ninedof.pareto import Front, pareto
+from ninedof.point import DesignPoint
+from ninedof.pose import Pose
+from ninedof.result import Candidate, Result, Status
+from ninedof.study import Study
 
 __version__: str = _core.version
 
@@ -36,12 +42,17 @@ __all__ = [
     "Candidate",
     "Configuration",
     "DesignPoint",
+    "Front",
     "Geometry",
+    "LowerBound",
+    "Objective",
+    "Pose",
     "Result",
     "Status",
     "Study",
     "Trace",
     "VelocityMatrices",
+    "applicable_bounds",
     "axis_singular_values",
     "characteristic_length",
     "condition_number",
@@ -52,6 +63,7 @@ __all__ = [
     "leg_lengths",
     "manipulability",
     "optimize",
+    "pareto",
     "reciprocal_condition_number",
     "singular_values",
     "trace",

@@ -26,6 +26,8 @@ Threads = Annotated[
     int | None, typer.Option(help="Threads; one a processor by default. The result does not depend on it.")
 ]
 
+Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
+
 
 @app.command(
     epilog="[bold]Examples[/bold]\n\n"
@@ -41,13 +43,42 @@ def optimize(
     starts: Annotated[int | None, typer.Option(help="Starts, in place of the study's.")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
-    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")] = True,
+    figures: Figures = True,
+    check: Annotated[bool, typer.Option("--check", help="Verify the best design by other means, and say how.")] = False,
     json: Json = False,
 ) -> None:
-    """Find the design of least condition number."""
+    """Find the best design of a study: by default, the one of least condition number."""
     from ninedof import commands
 
-    raise typer.Exit(commands.optimize(study, out, starts, seed, threads, figures, json))
+    raise typer.Exit(commands.optimize(study, out, starts, seed, threads, figures, json, check))
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof pareto --against radius_ratio    how the paper's optimum falls as the base may grow\n\n"
+    "  ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4"
+)
+def pareto(
+    study: Annotated[
+        Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")
+    ] = None,
+    against: Annotated[
+        str, typer.Option(help="The limit that is swept: a constraint, or condition_limit.")
+    ] = "radius_ratio",
+    value: Annotated[
+        list[float] | None, typer.Option(help="A limit to solve; give it several times. Found by the tool if left out.")
+    ] = None,
+    points: Annotated[int, typer.Option(help="How many limits, where the tool finds them.")] = 13,
+    out: Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")] = None,
+    starts: Annotated[int | None, typer.Option(help="Starts, in place of the study's.")] = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Trade the condition number against a limit: the least of it for each value."""
+    from ninedof import commands
+
+    raise typer.Exit(commands.pareto(study, against, value, points, out, starts, threads, figures, json))
 
 
 @app.command(

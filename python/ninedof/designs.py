@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,6 +16,7 @@ from ninedof.geometry import Geometry
 from ninedof.kinematics import leg_lengths
 from ninedof.lengths import characteristic_length
 from ninedof.records import load_record
+from ninedof.study_file import read_toml
 
 __all__ = ["Design", "indices", "load_design"]
 
@@ -57,11 +57,7 @@ def load_design(path: str | os.PathLike[str]) -> Design:
     try:
         if file.is_dir() or file.suffix == ".json":
             return _from_record(file)
-        return _from_tables(tomllib.loads(file.read_text(encoding="utf-8")))
-    except OSError as error:
-        raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{file}: not a TOML file: {error}") from None
+        return _from_tables(read_toml(file))
     except ValueError as error:
         text = str(error)
         raise ValueError(text if text.startswith(str(file)) else f"{file}: {text}") from None
@@ -71,11 +67,13 @@ def _from_record(file: Path) -> Design:
     record = load_record(file)
     try:
         candidates = record.results["optimization"]["candidates"]
-    except (KeyError, TypeError):
+        variables = candidates[0]["variables"] if candidates else None
+    except (KeyError, TypeError, IndexError):
         raise ValueError("the record holds no optimization") from None
-    if not candidates:
+    if variables is None:
         raise ValueError("the record holds no design: the run found none")
-    return hexagonal_design(candidates[0]["variables"], record.study.characteristic_length)
+    point = record.study.evaluate(variables)
+    return Design(point.geometry, point.configuration, point.characteristic_length)
 
 
 def _from_tables(data: Mapping[str, Any]) -> Design:

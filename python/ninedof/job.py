@@ -15,8 +15,9 @@ from ninedof import paper
 from ninedof.conditioning import condition_number
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
-from ninedof.optimize import Result, trace
+from ninedof.optimize import trace
 from ninedof.records import Record, describe_result, write_record
+from ninedof.result import Result
 
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
@@ -26,10 +27,11 @@ __all__ = ["new_directory", "record_comparison", "record_result"]
 Say = Callable[[str], object]
 """Told what is being done, a few words at a time."""
 
-Named = tuple[str, Geometry, Configuration, float]
-"""A design to draw: name, geometry, configuration, condition number."""
+Named = tuple[str, Geometry, Configuration, float, float]
+"""A design to draw: name, geometry, neutral configuration, condition number there, characteristic length."""
 
-TRACED_STARTS = 200  # runs shown in the convergence figure
+TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
+FEWEST_TRACED = 10  # however many poses a run has to look at
 
 
 def new_directory(out: Path | None) -> Path:
@@ -72,7 +74,9 @@ def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: 
         "optimization": describe_result(c.result),
     }
     designs = [("published, best zs", c.best_zs), ("optimum", c.same_class)] if c.same_class is not None else []
-    named = [(name, row.geometry, row.configuration, row.condition_number) for name, row in designs if row is not None]
+    named = [
+        (name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in designs if row is not None
+    ]
     compared = {"level": paper.KAPPA, "crossings": c.crossings}
     return _record(c.result, results, named if figures else [], directory, say, **compared)
 
@@ -81,7 +85,7 @@ def record_result(result: Result, directory: Path, figures: bool, say: Say) -> P
     """Write the run folder of a study; return the path of the record."""
     # Without a least value there is no design to draw.
     shown = result.candidates[:1] if result.status != "unbounded" else ()
-    named = [("optimum", c.geometry, c.configuration, c.condition_number) for c in shown]
+    named = [("optimum", c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in shown]
     return _record(result, {"optimization": describe_result(result)}, named if figures else [], directory, say)
 
 
@@ -121,19 +125,20 @@ def _figures(
     say("drawing the mechanisms")
     from ninedof import plot
 
-    panels = [plot.Mechanism(name, g, c, kappa, _heights(c)) for name, g, c, kappa in designs]
+    panels = [plot.Mechanism(name, g, c, kappa, _heights(c)) for name, g, c, kappa, _ in designs]
     unit = "l_c" if compared else ""  # the paper's unit; a study keeps its own
-    lc = result.study.characteristic_length
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     say("drawing the condition number along zs and theta_z")
-    curves = [_curves(*designs[0], lc, **compared), *(_curves(*design, lc) for design in designs[1:])]
+    curves = [_curves(*designs[0], **compared), *(_curves(*design) for design in designs[1:])]
     files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
+    if result.best is not None and len(result.best.conditions) > 1:
+        say("drawing the condition number at each pose")
+        looked_at = plot.PoseConditions("optimum", result.best.conditions)
+        files += plot.save(plot.poses([looked_at]), directory, "poses")
     say("drawing the convergence")
     runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
-    if runs["minimax"] and result.condition_number is not None:
-        files += plot.save(
-            plot.convergence(runs["minimax"], runs["plain"], result.condition_number), directory, "convergence"
-        )
+    if runs["minimax"] and result.objective is not None:
+        files += plot.save(plot.convergence(runs["minimax"], runs["plain"], result.objective), directory, "convergence")
     return files
 
 
@@ -177,5 +182,7 @@ def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
     study = result.study
     if not any(isinstance(bound, tuple) for bound in study.variables.values()):
         return []
-    rows = study.problem().starts(TRACED_STARTS, study.seed)
-    return [trace(study, dict(zip(study.variables, x.tolist(), strict=True)), formulation).best for x in rows]
+    problem = study.problem()
+    count = max(FEWEST_TRACED, TRACED_STARTS // (1 + len(study.objective.poses)))
+    rows = problem.starts(count, study.seed)
+    return [trace(study, dict(zip(problem.names, x.tolist(), strict=True)), formulation).best for x in rows]

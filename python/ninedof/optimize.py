@@ -1,117 +1,23 @@
-"""Optimum design: one call to the compiled solver, and its answer in words and numbers."""
+"""Optimum design: one call to the compiled solver."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from time import perf_counter
 
 from ninedof import _core
 from ninedof.arrays import thread_argument
-from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
+from ninedof.result import Candidate, Result, Status, candidate_of
 from ninedof.study import Study
+from ninedof.warm import Warm, warm_starts
 
 __all__ = ["Candidate", "Result", "Status", "Trace", "optimize", "trace"]
 
 Progress = Callable[[int, int, float], object]
-"""Called with (starts done, starts in all, best condition number so far)."""
+"""Called with (starts done, starts in all, best objective so far)."""
 
 MAX_EVALUATIONS = 500  # of one start; a converging one takes about 30
-
-
-class Status(StrEnum):
-    """How an optimization ended."""
-
-    OPTIMAL = "optimal"
-    """Feasible and stationary by our own checks."""
-    UNBOUNDED = "unbounded"
-    """No least value: the index keeps falling as the variables in `causes` run away."""
-    INFEASIBLE = "infeasible"
-    """No design meets the limits; those in `causes` are in conflict."""
-    STOPPED = "stopped"
-    """Interrupted, or nothing passed the checks. What was found is returned, but it is no proved optimum."""
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A local optimum that passed the checks."""
-
-    condition_number: float
-    variables: dict[str, float]
-    geometry: Geometry
-    configuration: Configuration
-    active: tuple[str, ...]
-    """Variables on a bound and constraints on their limit."""
-    optimality_residual: float
-    """Norm of the least combination of active gradients of log(condition number), 0 where no direction improves to
-    first order. Lengths are taken on an asinh scale: linear near 0, logarithmic beyond."""
-    constraint_violation: float
-    """Largest negative margin; 0 if none."""
-    reached: int
-    """How many starts ended here."""
-
-
-@dataclass(frozen=True)
-class Result:
-    """What an optimization found. The fields of a design are those of the best candidate, or None without one."""
-
-    status: Status
-    reason: str
-    """One sentence."""
-    causes: tuple[str, ...]
-    """Variables or constraints behind "unbounded" or "infeasible"."""
-    candidates: tuple[Candidate, ...]
-    """Distinct local optima, best first. Mirror images count as one design."""
-    evaluations: int
-    starts_done: int
-    seconds: float
-    study: Study
-    interrupted: bool = False
-    """Whether Ctrl-C ended the run."""
-    lower_bound: float | None = None
-    """A proved bound, where one was asked for."""
-
-    @property
-    def best(self) -> Candidate | None:
-        """The best candidate."""
-        return self.candidates[0] if self.candidates else None
-
-    @property
-    def condition_number(self) -> float | None:
-        """Condition number of the best candidate."""
-        return self.best.condition_number if self.best else None
-
-    @property
-    def variables(self) -> dict[str, float] | None:
-        """Variables of the best candidate by name."""
-        return self.best.variables if self.best else None
-
-    @property
-    def geometry(self) -> Geometry | None:
-        """Geometry of the best candidate."""
-        return self.best.geometry if self.best else None
-
-    @property
-    def configuration(self) -> Configuration | None:
-        """Neutral configuration of the best candidate."""
-        return self.best.configuration if self.best else None
-
-    @property
-    def active(self) -> tuple[str, ...] | None:
-        """What binds at the best candidate."""
-        return self.best.active if self.best else None
-
-    @property
-    def optimality_residual(self) -> float | None:
-        """Stationarity of the best candidate."""
-        return self.best.optimality_residual if self.best else None
-
-    @property
-    def constraint_violation(self) -> float | None:
-        """Violation of the best candidate."""
-        return self.best.constraint_violation if self.best else None
 
 
 def optimize(
@@ -120,8 +26,9 @@ def optimize(
     seed: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    warm: Warm | Iterable[Warm] | None = None,
 ) -> Result:
-    """Find the design of least condition number.
+    """Find the design of least objective: by default, of least condition number.
 
     Multi-start sequential quadratic programming (NLopt's SLSQP) on the smooth minimax form of the problem, with exact
     gradients; every end is polished by Newton's method and judged by checks that do not believe the solver. Ctrl-C
@@ -135,7 +42,10 @@ def optimize(
     threads : int, optional
         One a processor by default. The result is the same, bit for bit, for any number.
     progress : callable, optional
-        Called as progress(starts done, starts in all, best condition number so far).
+        Called as progress(starts done, starts in all, best objective so far).
+    warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
+        Extra starts, tried first: a result of a similar study (its best four candidates), or a design you know. Moved
+        inside the bounds.
 
     Returns
     -------
@@ -161,18 +71,20 @@ def optimize(
         raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
     study = study.with_solver(starts, seed)
     problem = study.problem()
+    extra = warm_starts(study, warm)
     begin = perf_counter()
-    core = _core.optimize(problem, study.starts, study.seed, thread_argument(threads), MAX_EVALUATIONS, progress)
+    core = _core.optimize(problem, study.starts, study.seed, thread_argument(threads), MAX_EVALUATIONS, progress, extra)
     return Result(
         status=Status(core.status),
         reason=core.reason,
         causes=tuple(core.causes),
-        candidates=tuple(_candidate(study, problem, c) for c in core.candidates),
+        candidates=tuple(candidate_of(problem, c) for c in core.candidates),
         evaluations=core.evaluations,
         starts_done=core.starts_done,
         seconds=perf_counter() - begin,
         study=study,
         interrupted=core.interrupted,
+        stopped_early=core.stopped_early,
     )
 
 
@@ -181,7 +93,7 @@ class Trace:
     """One run from one start."""
 
     best: tuple[float, ...]
-    """Least condition number of an allowed design after each evaluation; infinite before the first."""
+    """Least objective of an allowed design after each evaluation; infinite before the first."""
     end: Candidate
 
 
@@ -194,8 +106,7 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     start : mapping
         Name to value of the free variables; moved inside the bounds.
     formulation : {"minimax", "plain"}
-        "plain" minimises log(condition number) itself, as the paper's SQP run did, and jams where two singular values
-        meet.
+        "plain" minimises log(objective) itself, as the paper's SQP run did, and jams where two singular values meet.
 
     """
     if not isinstance(study, Study):
@@ -204,18 +115,4 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
         raise ValueError(f'formulation: got {formulation!r}, expected "minimax" or "plain"')
     problem = study.problem()
     best, end = _core.trace(problem, study.vector(start), formulation)
-    return Trace(tuple(best), _candidate(study, problem, end))
-
-
-def _candidate(study: Study, problem: _core.Problem, c: _core.Candidate) -> Candidate:
-    x = c.variables.tolist()
-    return Candidate(
-        condition_number=c.condition_number,
-        variables=dict(zip(study.variables, x, strict=True)),
-        geometry=problem.geometry(x),
-        configuration=Configuration(*problem.configuration(x)),
-        active=tuple(c.active),
-        optimality_residual=c.optimality_residual,
-        constraint_violation=c.constraint_violation,
-        reached=c.reached,
-    )
+    return Trace(tuple(best), candidate_of(problem, end))

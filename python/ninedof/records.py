@@ -7,7 +7,7 @@ import math
 import os
 import platform
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ninedof import __version__, _core
-from ninedof.optimize import Candidate, Result
+from ninedof.result import Candidate, Result
 from ninedof.study import Study
 
 __all__ = ["Record", "load_record", "write_record"]
@@ -51,9 +51,13 @@ def versions() -> dict[str, str]:
 def describe_candidate(candidate: Candidate) -> dict[str, Any]:
     """Return a candidate as plain JSON values."""
     return {
+        "objective": candidate.objective,
         "condition_number": candidate.condition_number,
+        "conditions": list(candidate.conditions),
+        "characteristic_length": candidate.characteristic_length,
         "variables": candidate.variables,
         "active": list(candidate.active),
+        "prices": candidate.prices,
         "optimality_residual": candidate.optimality_residual,
         "constraint_violation": candidate.constraint_violation,
         "reached": candidate.reached,
@@ -68,6 +72,8 @@ def describe_result(result: Result) -> dict[str, Any]:
         "causes": list(result.causes),
         "evaluations": result.evaluations,
         "starts_done": result.starts_done,
+        "stopped_early": result.stopped_early,
+        "confidence": result.confidence,
         "interrupted": result.interrupted,
         "seconds": result.seconds,
         "lower_bound": result.lower_bound,
@@ -83,7 +89,15 @@ def to_json(value: Any) -> str:
 def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
     """Write `record.json` into an existing directory, whole or not at all, and return its path."""
     path = Path(directory) / FILE
-    data = {"format": FORMAT, **asdict(record), "study": record.study.to_dict()}
+    # The fields one by one: dataclasses.asdict copies deeply, and the study's mappings are read-only views.
+    data = {
+        "format": FORMAT,
+        "study": record.study.to_dict(),
+        "results": record.results,
+        "versions": record.versions,
+        "created": record.created,
+        "files": record.files,
+    }
     temporary = path.with_name(f".{FILE}.{os.getpid()}")
     try:
         temporary.write_text(to_json(data) + "\n", encoding="utf-8")

@@ -1,67 +1,64 @@
-"""A design study: which family, which variables are free, what is allowed. Files are TOML."""
+"""A design study: which family, which variables are free, what is allowed, what is made least."""
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
-import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
-from ninedof import _core
-from ninedof.arrays import Floats
+from ninedof import _core, limits
+from ninedof.checks import choice, finite, is_number, known_keys, number, pair, shown, whole
 from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
+from ninedof.lengths import KINDS
+from ninedof.lengths import characteristic_length as length_of
+from ninedof.objective import Objective
+from ninedof.point import DesignPoint, design_point
+from ninedof.study_file import read_toml, study_arguments, study_tables, write_toml
 
 __all__ = ["DesignPoint", "Study"]
-
-LARGEST = 500.0  # of a logarithm of a condition number; beyond, a singular value has vanished
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 
-
-@dataclass(frozen=True, eq=False)
-class DesignPoint:
-    """One design of a study, with exact gradients."""
-
-    variables: dict[str, float]
-    """Every variable of the family."""
-    condition_number: float
-    """Of J' at the neutral configuration; infinite where it is singular."""
-    gradient: dict[str, float]
-    """d(condition number)/d(variable); NaN where singular. Where singular values tie, that of one of them."""
-    margins: dict[str, float]
-    """Smallest margin of each constraint: the logarithm of the ratio left, negative where violated."""
-    margin_gradients: dict[str, dict[str, float]]
-    """d(margin)/d(variable) of that margin."""
-    geometry: Geometry
-    configuration: Configuration
+LENGTH = "characteristic_length"
 
 
 @dataclass(frozen=True)
 class Study:
-    """A design problem: least condition number over the free variables of a family, within limits.
+    """A design problem: the least value of an objective over the free variables of a family, within limits.
+
+    Immutable; `dataclasses.replace` makes another.
 
     Parameters
     ----------
     family : str
-        "hexagonal": the plates of eqs. (37)-(38), variables a1 a2 b1 b2 zp zs theta_z.
+        "hexagonal": the plates of eqs. (37)-(38), variables a1 a2 b1 b2 zp zs theta_z. "symmetric": planar triples,
+        each with its radius and angle. "symmetric_nonplanar": with heights too. "general": all 36 joint coordinates.
     variables : mapping
         Name to (low, high) for a free variable (either may be infinite) or to a number for a fixed one. Those left out
-        take the family's defaults: sides in [0, 60], heights in [0.05, 80] characteristic lengths, theta_z = 0.
-        Lengths in one unit of your choice, angles in radians.
+        take the family's defaults, in characteristic lengths if that is a number and in units of length otherwise; a
+        hexagonal design has sides in [0, 60], heights in [0.05, 80] and theta_z = 0. Lengths in one unit of your
+        choice, angles in radians.
     constraints : mapping
-        Name to (low, high), None for an open side. "radius_ratio": base / platform circumradius; "leg_ratio": longest /
-        shortest leg; "zs_fraction": zs / zp. 0 < zs < zp (eq. 9b) always holds.
-    characteristic_length : float
-        l_c of eqs. (30)-(33), in the same unit. A number: the kinds of `ninedof.characteristic_length` are not for
-        studies yet. An upper bound of a million characteristic lengths or more counts as none.
+        Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
+        {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
+
+        ratios: radius_ratio (base / platform, largest joint distance from the axis), leg_ratio (longest / shortest leg
+        over all poses), stroke_ratio (longest / shortest of one leg over the poses), zs_fraction (zs / zp).
+        lengths: stroke, leg_length, external_length, upper_length, lower_length and leg_clearance (`of` "length" or
+        "zp"), joint_height and joint_spacing (`of` "length" or "radius"), height, footprint. leg_clearance takes the
+        `radius` of a leg in place of min. angles: base_cone and platform_cone (`axis` of the cone, by default the
+        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose.
+    objective : Objective or mapping
+        What is made least; by default the condition number at the neutral pose. A mapping is read as the table
+        [objective] of a study file.
+    characteristic_length : float, str or (low, high)
+        l_c of eqs. (30)-(33), in the same unit: a number; a kind of `ninedof.characteristic_length`, taken at the
+        neutral pose; or bounds, and it is a free variable. An upper bound of a variable of a million characteristic
+        lengths or more counts as none.
     starts, seed : int
         Number of low-discrepancy starts and the shift of their sequence.
 
@@ -81,10 +78,11 @@ class Study:
 
     family: str = "hexagonal"
     variables: Mapping[str, Bound] = field(default_factory=dict)
-    constraints: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
-    characteristic_length: float = 1.0
+    constraints: Mapping[str, limits.Limit] = field(default_factory=dict)
+    characteristic_length: float | str | tuple[float, float] = 1.0
     starts: int = 64
     seed: int = 0
+    objective: Objective = field(default_factory=Objective)
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
 
@@ -92,30 +90,25 @@ class Study:
 
     def __post_init__(self) -> None:
         """Complete the variables, normalise numbers, and let the core check the whole."""
-        if not isinstance(self.family, str):
-            raise ValueError(f"family: got {self.family!r}, expected one of {_core.design_family_names()}")
-        known = _core.family_variables(self.family)
-        if isinstance(self.characteristic_length, str):
-            raise ValueError(
-                f"characteristic_length: got {self.characteristic_length!r}, expected a number: in a study the kinds "
-                "are not available yet"
-            )
-        length = _number("characteristic_length", self.characteristic_length)
-        _known_keys("variables", self.variables, [name for name, *_ in known])
-        _known_keys("constraints", self.constraints, _core.constraint_names())
+        family = choice("family", self.family, _core.design_family_names())
+        known = _core.family_variables(family)
+        length = _length(self.characteristic_length)
+        known_keys("variables", self.variables, [name for name, *_ in known])
+        known_keys("constraints", self.constraints, _core.constraint_names())
         variables: dict[str, Bound] = {}
-        for name, is_angle, low, high in known:
-            unit = 1.0 if is_angle else length
-            default: Bound = low if low == high else (low * unit, high * unit)
+        for name, kind, low, high in known:
+            unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
+            default: Bound = low * unit if low == high else (low * unit, high * unit)
             variables[name] = _bound(name, self.variables.get(name, default))
-        constraints = {name: _limit(name, value) for name, value in self.constraints.items()}
+        objective = self.objective
         for name, value in {
-            "variables": variables,
-            "constraints": constraints,
+            "variables": MappingProxyType(variables),
+            "constraints": MappingProxyType({n: limits.parse(n, value) for n, value in self.constraints.items()}),
             "characteristic_length": length,
-            "starts": _whole("starts", self.starts, 1, 2**31 - 1),
+            "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
+            "starts": whole("starts", self.starts, 1, 2**31 - 1),
+            "seed": whole("seed", self.seed, 0, 2**63 - 1),
             "defaulted": tuple(n for n, b in variables.items() if n not in self.variables and isinstance(b, tuple)),
-            "seed": _whole("seed", self.seed, 0, 2**63 - 1),
         }.items():
             object.__setattr__(self, name, value)
         self.problem()
@@ -135,170 +128,110 @@ class Study:
             If the file cannot be read, is not TOML, or an entry does not fit; the message names the file.
 
         """
+        data = read_toml(path)
         try:
-            text = Path(path).read_text(encoding="utf-8")
-            return cls.from_dict(tomllib.loads(text))
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-            raise ValueError(f"{os.fspath(path)}: cannot be read ({reason})") from None
-        except tomllib.TOMLDecodeError as error:
-            raise ValueError(f"{os.fspath(path)}: not a TOML file: {error}") from None
-        except RecursionError:
-            raise ValueError(f"{os.fspath(path)}: not a TOML file we can read: nested too deep") from None
+            return cls.from_dict(data)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:
         """Make a study from the tables of a study file."""
-        if isinstance(data, Mapping) and "geometry" in data:
-            raise ValueError(
-                "study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`"
-            )
-        _known_keys("study", data, ["design", "variables", "constraints", "objective", "solver"])
-        tables = {name: _table(name, data.get(name, {})) for name in ("design", "objective", "solver", "variables")}
-        _known_keys("design", tables["design"], ["family", "characteristic_length"])
-        _known_keys("objective", tables["objective"], ["index"])
-        _known_keys("solver", tables["solver"], ["starts", "seed"])
-        index = tables["objective"].get("index", "condition_number")
-        if index != "condition_number":
-            raise ValueError(f'objective.index: got {index!r}, expected "condition_number"')
-        constraints = {}
-        for name, limit in _table("constraints", data.get("constraints", {})).items():
-            _known_keys(f"constraints.{name}", _table(f"constraints.{name}", limit), ["min", "max"])
-            constraints[name] = (limit.get("min"), limit.get("max"))
-        return cls(variables=tables["variables"], constraints=constraints, **tables["design"], **tables["solver"])
-
-    def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
-        """Return the same study with another number of starts or another seed."""
-        return replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
+        return cls(**study_arguments(data))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tables of a study file; `Study.from_dict` reads them back."""
-        return {
-            "design": {"family": self.family, "characteristic_length": self.characteristic_length},
-            "variables": {name: list(b) if isinstance(b, tuple) else b for name, b in self.variables.items()},
-            "constraints": {
-                name: {key: v for key, v in zip(("min", "max"), limit, strict=True) if v is not None}
-                for name, limit in self.constraints.items()
-            },
-            "objective": {"index": "condition_number"},
-            "solver": {"starts": self.starts, "seed": self.seed},
-        }
+        return study_tables(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file."""
-        import tomli_w
+        write_toml(path, self.to_dict())
 
-        Path(path).write_text(tomli_w.dumps(self.to_dict()), encoding="utf-8")
+    def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
+        """Return the same study with another number of starts or another seed."""
+        new = replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
+        object.__setattr__(new, "defaulted", self.defaulted)
+        return new
+
+    @property
+    def angles(self) -> tuple[str, ...]:
+        """Names of the variables that are angles, in radians."""
+        return tuple(name for name, kind, *_ in _core.family_variables(self.family) if kind == "angle")
 
     def problem(self) -> _core.Problem:
         """Return the study as the core takes it, checked there once more."""
         bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-        limits = [
-            (name, 0.0 if low is None else low, math.inf if high is None else high)
-            for name, (low, high) in self.constraints.items()
-        ]
-        return _core.Problem(self.family, bounds, limits, self.characteristic_length)
+        constraints = [limits.for_core(name, limit) for name, limit in self.constraints.items()]
+        return _core.Problem(self.family, bounds, constraints, self.characteristic_length, self.objective.for_core())
 
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
-        """Return condition number, margins and exact gradients of one design.
+        """Return objective, condition numbers, margins and exact gradients of one design.
 
         Parameters
         ----------
         variables : mapping
-            Name to value. Fixed variables may be left out; bounds are not enforced.
+            Name to value, as `vector` takes them; bounds are not enforced.
 
         """
-        x = self.vector(variables)
-        problem = self.problem()
-        names = list(self.variables)
-        values = dict(zip(names, x, strict=True))
-        core = problem.evaluate(x)
-        regular = core["log_condition_number"] < LARGEST
-        kappa = math.exp(core["log_condition_number"]) if regular else math.inf
-        slope = kappa * core["gradient"] if regular else np.full(len(names), np.nan)
-        margins: dict[str, tuple[float, Floats]] = {}
-        for name, value, margin_slope in core["margins"]:
-            if name not in margins or value < margins[name][0]:
-                margins[name] = (value, margin_slope)
-        return DesignPoint(
-            variables=values,
-            condition_number=kappa,
-            gradient=dict(zip(names, slope.tolist(), strict=True)),
-            margins={name: value for name, (value, _) in margins.items()},
-            margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, (_, s) in margins.items()},
-            geometry=problem.geometry(x),
-            configuration=Configuration(*problem.configuration(x)),
-        )
+        return design_point(self.problem(), self.vector(variables))
 
     def vector(self, variables: Mapping[str, float]) -> list[float]:
-        """Return named values in the family's order, fixed variables filled in."""
-        _known_keys("variables", variables, list(self.variables))
+        """Return named values in the order of the problem.
+
+        Fixed variables may be left out. So may a free characteristic length, which is then the one that is best at
+        the neutral pose, and free places of O, which then stay.
+        """
+        problem = self.problem()
+        names = list(problem.names)
+        known_keys("variables", variables, names)
         out = []
-        for name, bound in self.variables.items():
+        for name in names:
+            bound = self.variables.get(name, 0.0)
             if name in variables:
-                out.append(_finite(name, variables[name]))
+                out.append(finite(name, variables[name]))
             elif isinstance(bound, tuple):
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
             else:
                 out.append(bound)
+        if LENGTH in names and LENGTH not in variables:
+            out[names.index(LENGTH)] = 1.0  # any will do to ask for the robot
+            out[names.index(LENGTH)] = self._best_length(problem, out)
         return out
 
+    def _best_length(self, problem: _core.Problem, x: list[float]) -> float:
+        """Return the characteristic length that is best at the neutral pose, within the bounds."""
+        best = float(length_of(problem.geometry(x), Configuration(*problem.configurations(x))[0], "optimal"))
+        low, high = self.characteristic_length if isinstance(self.characteristic_length, tuple) else (0.0, math.inf)
+        return min(max(best if math.isfinite(best) else 1.0, low), high)
 
-def _known_keys(where: str, given: Mapping[str, Any], known: Iterable[str]) -> None:
-    known = list(known)
-    if not isinstance(given, Mapping):
-        raise ValueError(f"{where}: got {given!r}, expected a mapping of names")
-    for key in given:
-        if key not in known:
-            close = difflib.get_close_matches(str(key).lower(), known, n=1, cutoff=0.5)
-            hint = f" (did you mean {close[0]!r}?)" if close else ""
-            raise ValueError(f"{where}: got the entry {key!r}, expected only {', '.join(known)}{hint}")
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle and copy plain dictionaries: a read-only view cannot be."""
+        constraints = {n: dict(v) if isinstance(v, Mapping) else v for n, v in self.constraints.items()}
+        return self.__dict__ | {"variables": dict(self.variables), "constraints": constraints}
 
-
-def _table(name: str, value: Any) -> Mapping[str, Any]:
-    if not isinstance(value, Mapping):
-        raise ValueError(f"{name}: got {value!r}, expected a table")
-    return value
-
-
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
-        raise ValueError(f"{name}: got {value!r}, expected a number")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(f"{name}: got {str(value)[:20]}..., expected a number of ordinary size") from None
-
-
-def _finite(name: str, value: Any) -> float:
-    number = _number(name, value)
-    if not math.isfinite(number):
-        raise ValueError(f"{name}: got {value!r}, expected a finite number")
-    return number
-
-
-def _whole(name: str, value: Any, least: int, most: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise ValueError(f"{name}: got {value!r}, expected a whole number from {least} to {most}")
-    return int(value)
-
-
-def _pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
-    if not isinstance(value, list | tuple | np.ndarray) or np.ndim(value) != 1 or len(value) != 2:
-        raise ValueError(f"{name}: got {value!r}, expected {expected}")
-    low, high = value
-    return low, high
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make the dictionaries read-only again."""
+        constraints = {n: MappingProxyType(v) if isinstance(v, dict) else v for n, v in state["constraints"].items()}
+        views = {"variables": MappingProxyType(state["variables"]), "constraints": MappingProxyType(constraints)}
+        self.__dict__.update(state | views)
 
 
 def _bound(name: str, value: Any) -> Bound:
-    if isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool):
-        return _finite(name, value)
-    low, high = _pair(name, value, "a number, or (low, high)")
-    return _number(name, low), _number(name, high)
+    if is_number(value):
+        return finite(name, value)
+    low, high = pair(name, value, "a number, or (low, high)")
+    return number(name, low), number(name, high)
 
 
-def _limit(name: str, value: Any) -> tuple[float | None, float | None]:
-    low, high = _pair(name, value, "(low, high), None for an open side")
-    return None if low is None else _number(name, low), None if high is None else _number(name, high)
+def _length(value: Any) -> float | str | tuple[float, float]:
+    if isinstance(value, str):
+        return choice(LENGTH, value, KINDS)
+    if not is_number(value):
+        low, high = (finite(LENGTH, x) for x in pair(LENGTH, value, "a number, a kind, or (low, high)"))
+        if not 0.0 < low <= high:
+            raise ValueError(f"{LENGTH}: got {shown(value)}, expected 0 < low <= high")
+        return low if low == high else (low, high)
+    length = finite(LENGTH, value)
+    if not length > 0.0:
+        raise ValueError(f"{LENGTH}: got {shown(value)}, expected a number above 0")
+    return length

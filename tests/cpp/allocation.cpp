@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "ninedof/conditioning.hpp"
-#include "ninedof/hexagonal_family.hpp"
+#include "ninedof/design.hpp"
+#include "ninedof/hexapod.hpp"
 #include "ninedof/legs.hpp"
+#include "ninedof/sensitivity.hpp"
 #include "ninedof/svd6.hpp"
 #include "ninedof/symmetric.hpp"
 #include "ninedof/velocity.hpp"
@@ -139,13 +141,33 @@ TEST_SUITE("allocation") {
     CHECK(allocations_of([&] { keep(axis_spectrum(dual, 0.7)); }) == 0);
   }
 
-  TEST_CASE("a design family into a warm DesignPoint" * doctest::skip(!NINEDOF_COUNTS)) {
-    const HexagonalFamily family;
-    const std::array<double, 7> x{0.2, 6.0, 3.0, 0.1, 5.0, 3.0, 0.1};
-    DesignPoint out;
-    family.evaluate(x, 1.0, out);
-    CHECK(allocations_of([&] { family.evaluate(x, 1.0, out); }) == 0);
-    CHECK(allocations_of([&] { keep(out.extremes()); }) == 0);
-    CHECK(allocations_of([&] { keep(out.log_condition_number()); }) == 0);
+  TEST_CASE("derivatives by points, singular vectors with them" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(183);
+    const auto [g, c] = random_robot(random);
+    CHECK(allocations_of([&] {
+            const Points at = points(g, c);
+            const NineLegs legs = nine_legs(at);
+            const Spectrum s = spectrum(at, legs, 0.7);
+            PointGradient out = zero_gradient();
+            for (int k = 0; k < 6; ++k) add_spectrum_gradient(at, legs, s, 0, k, 1.0, out);
+            keep(out);
+          }) == 0);
+    const Mat6 m = random.matrix<Mat6>();
+    CHECK(allocations_of([&] { keep(right_svd_6x6(m)); }) == 0);
+  }
+
+  TEST_CASE("design families: blueprints and the axis" * doctest::skip(!NINEDOF_COUNTS)) {
+    for (const std::string& name : design_family_names()) {
+      const DesignFamily& family = design_family(name);
+      Eigen::VectorXd x = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(family.variables().size()));
+      x[family.index("zp")] = 2.0;
+      const std::span<const double> variables{x.data(), family.variables().size()};
+      Blueprint blueprint;
+      CHECK(allocations_of([&] { family.blueprint(variables, blueprint); }) == 0);
+      if (!family.symmetric()) continue;
+      AxisPoint point;
+      for (const Machine machine : {Machine::nine_legged, Machine::six_legged})
+        CHECK(allocations_of([&] { family.axis(variables, 1.0, {}, machine, point); }) == 0);
+    }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "hand.hpp"
 #include "studies.hpp"
 
 using namespace studies;
@@ -22,9 +23,11 @@ void check_candidates(const Problem& p, const Result& r) {
     CHECK(relative_error(c.condition_number, kappa) <= 64.0 * eps * kappa);
     CHECK(c.feasible());
     CHECK(c.stationary());
-    CHECK(c.reached >= 1);
-    CHECK(c.condition_number >= last);
-    last = c.condition_number;
+    CHECK(c.reached >= 0);  // one found from other ends is no start's
+    CHECK(c.reached <= r.starts_done);
+    CHECK(c.objective == doctest::Approx(c.condition_number).epsilon(1e-14));
+    CHECK(c.objective >= last);
+    last = c.objective;
   }
 }
 
@@ -44,6 +47,25 @@ Problem random_problem(Random& random) {
   if (random.uniform(0, 1) < 0.5) p.limits.push_back({"leg_ratio", random.uniform(0.0, 1.6), random.uniform(1.6, 4.0)});
   if (random.uniform(0, 1) < 0.3)
     p.limits.push_back({"zs_fraction", random.uniform(-0.2, 0.4), random.uniform(0.4, 0.9)});
+  return p;
+}
+
+/// Planar triples, s left to the optimizer at one of three poses, limits of several kinds.
+Problem pose_study(ninedof::Aggregate aggregate) {
+  Problem p;
+  p.family = "symmetric";
+  for (const auto& v : ninedof::design_family(p.family).variables())
+    p.variables.push_back({v.low, v.kind == ninedof::VariableKind::length ? 6.0 : v.high});
+  p.limits = {{.name = "radius_ratio", .high = 2.0},
+              {.name = "leg_ratio", .high = 3.0},
+              {.name = "stroke", .high = 0.3, .of = ninedof::Unit::zp},
+              {.name = "base_cone", .high = 0.6},
+              {.name = "leg_clearance", .low = 0.05, .of = ninedof::Unit::zp},
+              {.name = "singularity_free", .low = 0.02, .steps = 2}};
+  p.objective.aggregate = aggregate;
+  p.objective.poses = {{.position = {0.1, 0.0, 0.1}, .in_zp = true},
+                       {.position = {0.0, 0.1, 0.0}, .rotation = {0.1, 0.0, 0.0}, .best_internal = true, .in_zp = true},
+                       {.rotation = {0.0, -0.15, 0.0}}};
   return p;
 }
 
@@ -167,11 +189,89 @@ TEST_SUITE("optimize") {
     problems.push_back(paper_study());
     problems.back().variables[6] = {-pi, pi};  // a whole family of equally good designs
     for (int n = 0; n < 10; ++n) problems.push_back(random_problem(random));
+    problems.push_back(pose_study(ninedof::Aggregate::weighted));
     for (const Problem& p : problems) {
       const Result one = optimize(p, {.starts = 24, .seed = 5, .threads = 1});
       for (const int threads : {1, 2, 3})
         CHECK(same_bits(optimize(p, {.starts = 24, .seed = 5, .threads = threads}), one));
     }
+  }
+
+  TEST_CASE(
+      "several poses: what is returned keeps every limit, is as good as it says, and no design near it is better") {
+    using ninedof::Aggregate;
+    for (const Aggregate aggregate : {Aggregate::worst, Aggregate::mean_inverse, Aggregate::weighted}) {
+      const Problem p = pose_study(aggregate);
+      const Result r = optimize(p, {.starts = 16});
+      CAPTURE(r.reason);
+      REQUIRE(r.status == Status::optimal);
+      const auto conditions = [&](const Eigen::VectorXd& x) {
+        const hand::Design d = hand::design(p, x);
+        Eigen::VectorXd out(3);
+        for (Eigen::Index k = 0; k < 3; ++k)
+          out[k] = ninedof::condition_number(d.geometry, d.looked()[static_cast<std::size_t>(k)]);
+        return out;
+      };
+      const auto objective = [&](const Eigen::VectorXd& kappa) {
+        const double worst = kappa.maxCoeff(), harmonic = 3.0 / kappa.cwiseInverse().sum();
+        return aggregate == Aggregate::worst          ? worst
+               : aggregate == Aggregate::mean_inverse ? harmonic
+                                                      : std::sqrt(worst * harmonic);
+      };
+      const auto least_margin = [&](const Eigen::VectorXd& x) {
+        double least = infinity;
+        for (const Limit& limit : p.limits) least = std::min(least, hand::margin(p, limit, x));
+        return least;
+      };
+      for (const Candidate& c : r.candidates) {
+        CHECK((c.feasible() && c.stationary()));
+        CHECK(least_margin(c.variables) >= -1e-8);
+        const Eigen::VectorXd kappa = conditions(c.variables);
+        REQUIRE(c.conditions.size() == 3);
+        CHECK(matrix_error(Eigen::VectorXd::Map(c.conditions.data(), 3), kappa) <= 1e-12);
+        CHECK(relative_error(c.objective, objective(kappa)) <= 1e-12);
+        CHECK(std::all_of(c.prices.begin(), c.prices.end(), [](const auto& price) { return price.second > 0.0; }));
+      }
+      Random random(154);
+      const Candidate& best = r.candidates.front();
+      int tried = 0;
+      for (int n = 0; n < 20'000; ++n) {
+        const double reach = random.log_uniform(1e-5, 0.1);
+        Eigen::VectorXd x = best.variables;
+        for (Eigen::Index k = 0; k < x.size(); ++k) {
+          x[k] += reach * std::max(0.3, std::abs(x[k])) * random.normal();
+          if (k < 9)
+            x[k] = std::clamp(x[k], p.variables[static_cast<std::size_t>(k)].low,
+                              p.variables[static_cast<std::size_t>(k)].high);
+        }
+        if (!(x[8] < x[7]) || least_margin(x) < 0.0) continue;
+        ++tried;
+        CHECK(objective(conditions(x)) >= best.objective * (1.0 - 1e-7));
+      }
+      CHECK(tried > 50);
+    }
+  }
+
+  TEST_CASE("a warm start at an optimum stays there, whatever the other starts do") {
+    const Candidate best = optimize(paper_study()).candidates.at(0);
+    const Result r = optimize(paper_study(), {.starts = 1, .seed = 7, .warm = {best.variables}});
+    REQUIRE(r.status == Status::optimal);
+    CHECK(r.candidates.front().objective <= best.objective * (1.0 + 1e-12));
+    CHECK((r.candidates.front().variables - best.variables).cwiseAbs().maxCoeff() <= 1e-6);
+    CHECK(r.starts_done == 2);
+    CHECK(refuses("warm", [&] { optimize(paper_study(), {.warm = {Eigen::VectorXd::Ones(6)}}); }));
+  }
+
+  TEST_CASE("a price is what a limit is worth: the objective falls by so many per cent when it is relaxed by one") {
+    const auto objective = [](double limit) {
+      Problem p = paper_study();
+      p.limits.front().high = limit;
+      return optimize(p).candidates.at(0).objective;
+    };
+    const Candidate best = optimize(paper_study()).candidates.at(0);
+    REQUIRE(best.prices.contains("radius_ratio"));
+    const double slope = (std::log(objective(2.0 * 0.999)) - std::log(objective(2.0 * 1.001))) / 0.002;
+    CHECK(best.prices.at("radius_ratio") == doctest::Approx(slope).epsilon(1e-3));
   }
 
   TEST_CASE("millimetres or metres: the same design") {
@@ -180,7 +280,7 @@ TEST_SUITE("optimize") {
       millimetres.variables[k].low *= 1000.0;
       millimetres.variables[k].high *= 1000.0;
     }
-    millimetres.characteristic_length *= 1000.0;
+    millimetres.characteristic_length.value *= 1000.0;
     const Result one = optimize(metres), thousand = optimize(millimetres);
     REQUIRE(one.status == Status::optimal);
     REQUIRE(thousand.status == Status::optimal);

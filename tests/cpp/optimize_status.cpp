@@ -231,7 +231,7 @@ TEST_SUITE("optimize_status") {
     };
     CHECK(refused("family", [](Problem& p) { p.family = "round"; }));
     for (const double bad : {0.0, -1.0, no_number, infinity})
-      CHECK(refused("characteristic_length", [&](Problem& p) { p.characteristic_length = bad; }));
+      CHECK(refused("characteristic_length", [&](Problem& p) { p.characteristic_length.value = bad; }));
     CHECK(refused("variables", [](Problem& p) { p.variables.pop_back(); }));
     CHECK(refused("variables", [](Problem& p) { p.variables.clear(); }));
     CHECK(refused("zp", [](Problem& p) { p.variables[4] = {2.0, 1.0}; }));

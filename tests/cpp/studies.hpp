@@ -54,11 +54,13 @@ inline std::span<const double> span(const Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
-/// Condition number of the robot the variables describe; infinite where they describe none.
+/// Condition number of the robot the variables describe, the characteristic length a number; infinite where they describe
+/// none.
 inline double condition_number(const Problem& p, const Eigen::VectorXd& x) {
   try {
-    return ninedof::condition_number(hexagonal().geometry(span(x)), hexagonal().configuration(span(x)),
-                                     p.characteristic_length);
+    const ninedof::DesignFamily& family = ninedof::design_family(p.family);
+    return ninedof::condition_number(family.geometry(span(x)), family.configuration(span(x)),
+                                     p.characteristic_length.value);
   } catch (const ninedof::InvalidArgument&) {
     return infinity;
   }
@@ -90,7 +92,7 @@ inline double best_nearby(const Problem& p, const Eigen::VectorXd& x, Random& ra
     for (Eigen::Index k = 0; k < y.size(); ++k) {
       const auto& b = p.variables[static_cast<std::size_t>(k)];
       if (random.uniform(0.0, 1.0) < 0.6)
-        y[k] += reach * std::max(p.characteristic_length, std::abs(x[k])) * random.normal();
+        y[k] += reach * std::max(p.characteristic_length.value, std::abs(x[k])) * random.normal();
       y[k] = std::clamp(y[k], b.low, b.high);
     }
     // Follow the limit of the paper's study, or hardly any draw is allowed: the platform carries the base's size.
@@ -112,14 +114,14 @@ inline bool contains(const std::vector<std::string>& names, const std::string& n
 }
 
 inline bool same_bits(const Candidate& a, const Candidate& b) {
-  return a.variables == b.variables && a.condition_number == b.condition_number &&
-         a.optimality_residual == b.optimality_residual && a.constraint_violation == b.constraint_violation &&
-         a.active == b.active && a.reached == b.reached;
+  return a.variables == b.variables && a.objective == b.objective && a.condition_number == b.condition_number &&
+         a.conditions == b.conditions && a.prices == b.prices && a.optimality_residual == b.optimality_residual &&
+         a.constraint_violation == b.constraint_violation && a.active == b.active && a.reached == b.reached;
 }
 
 inline bool same_bits(const Result& a, const Result& b) {
   return a.status == b.status && a.reason == b.reason && a.causes == b.causes && a.evaluations == b.evaluations &&
-         a.starts_done == b.starts_done &&
+         a.starts_done == b.starts_done && a.stopped_early == b.stopped_early &&
          std::equal(a.candidates.begin(), a.candidates.end(), b.candidates.begin(), b.candidates.end(),
                     [](const Candidate& x, const Candidate& y) { return same_bits(x, y); });
 }

@@ -163,6 +163,40 @@ TEST_SUITE("svd6") {
     }
   }
 
+  TEST_CASE("right singular vectors: V orthogonal, M V has orthogonal columns as long as the singular values say") {
+    Random random(89);
+    for (int n = 0; n < 1000; ++n) {
+      Mat6 m = random.matrix<Mat6>();
+      Vec6 sigma;
+      switch (n % 6) {
+        case 0: break;
+        case 1: m *= 0x1p600; break;
+        case 2: sigma << 3, 2, 2, 1, 1, 0.5; break;
+        case 3: sigma << 2, 2, 2, 1, 1, 1; break;
+        case 4: sigma << 1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15; break;
+        default: m.col(2) = m.col(4); break;  // rank deficient
+      }
+      if (n % 6 > 1 && n % 6 < 5) m = with_singular_values(random, sigma);
+      CAPTURE(n);
+      const RightSvd svd = right_svd_6x6(m);
+      CHECK(descending(svd.sigma));
+      CHECK(error(svd.sigma, singular_values_6x6(m)) <= 8.0 * eps);
+      CHECK((svd.v.transpose() * svd.v - Mat6::Identity()).cwiseAbs().maxCoeff() <= 16.0 * eps);
+      const Mat6 image = m / svd.sigma[0] * svd.v;  // U Sigma
+      const Vec6 lengths = svd.sigma / svd.sigma[0];
+      CHECK((image.colwise().norm().transpose() - lengths).cwiseAbs().maxCoeff() <= 16.0 * eps);
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < i; ++j)
+          CHECK(std::abs(image.col(i).dot(image.col(j))) <= 16.0 * eps * std::max(lengths[i], lengths[j]));
+    }
+    CHECK(right_svd_6x6(Mat6::Zero()).sigma == Vec6::Zero());
+    CHECK(right_svd_6x6(Mat6::Zero()).v == Mat6::Identity());
+    Mat6 bad = Mat6::Identity();
+    bad(3, 1) = no_number;
+    CHECK(right_svd_6x6(bad).sigma.array().isNaN().all());
+    CHECK(right_svd_6x6(bad).v.array().isNaN().all());
+  }
+
   TEST_CASE("NaN in, NaN out; infinite in, infinite out; never a number from neither") {
     for (int k = 0; k < 36; ++k) {
       Mat6 m = Mat6::Identity();

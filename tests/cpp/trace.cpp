@@ -111,7 +111,7 @@ TEST_SUITE("trace") {
     CHECK(refuses("start", [&] { trace(p, Eigen::VectorXd{}); }));
     CHECK(refuses("start", [&] { trace(p, Eigen::VectorXd::Constant(7, no_number)); }));
     Problem bad = p;
-    bad.characteristic_length = -1.0;
+    bad.characteristic_length.value = -1.0;
     CHECK(refuses("characteristic_length", [&] { trace(bad, Eigen::VectorXd::Ones(7)); }));
     CHECK(refuses("characteristic_length", [&] { starts(bad, {}); }));
     CHECK(refuses("starts", [&] { starts(p, {.starts = -1}); }));

@@ -15,12 +15,12 @@ from pathlib import PurePosixPath
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
     {"types", "error", "rotation", "dual", "parallel"},
-    {"geometry", "configuration", "svd6"},
-    {"legs"},
-    {"velocity", "acceleration"},
-    {"conditioning", "characteristic_length", "symmetric", "forward_position", "statics"},
-    {"design", "axis_family", "hexagonal_family", "constraints"},
-    {"optimize", "pareto", "coordinates", "slsqp", "minimax"},
+    {"geometry", "configuration", "svd6", "pose"},
+    {"legs", "points", "blueprint"},
+    {"velocity", "acceleration", "null_space"},
+    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
+    {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
+    {"optimize", "pareto"},
     {"batch", "workspace"},
 )
 PRIVATE_LAYER = 6
@@ -36,14 +36,17 @@ NOWHERE = {"pybind11", "Python.h", "iostream"}
 
 # Modules of the package, lowest layer first; a folder stands for all files in it. `__init__` holds the public names.
 PYTHON_LAYERS = (
-    {"arrays"},
+    {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
     {"conditioning", "kinematics"},
-    {"study"},
-    {"optimize", "sweep", "pareto", "workspace"},
+    {"angles", "bounds"},
+    {"pose", "poses", "objective", "limits", "point"},
+    {"study", "study_file"},
+    {"check", "words"},  # look at a result that is handed to them; Result.check and Result.summary call them
+    {"result", "warm", "optimize", "sweep", "pareto", "workspace"},
     {"__init__"},
-    {"records", "paper"},
+    {"records", "front_records", "paper"},
     {"designs"},
     {"plot"},
     {"job", "report", "viewer", "export"},
@@ -59,12 +62,15 @@ CORE_USERS = {
     "lengths",
     "conditioning",
     "kinematics",
+    "limits",
     "study",
     "optimize",
 }
 
 # Figures are drawn from records and never compute.
-PYTHON_FORBIDDEN = {"plot": {"_core", "conditioning", "kinematics", "optimize", "sweep", "pareto", "workspace"}}
+PYTHON_FORBIDDEN = {
+    "plot": {"_core", "conditioning", "kinematics", "result", "optimize", "sweep", "pareto", "workspace"}
+}
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
 HEAVY = {"matplotlib", "rich", "typer", "scipy"}

@@ -86,6 +86,30 @@ def test_study_file(capsys, status):
     assert record["results"]["optimization"]["status"] == status
 
 
+def test_study_over_poses_shows_prices_and_poses(capsys):
+    Path("study.toml").write_text(
+        "[constraints]\nradius_ratio = { max = 2.0 }\n[objective]\nunit = 'zp'\n"
+        "[objective.box]\nhalf = [0.1, 0.0, 0.0]\n[solver]\nstarts = 8\n"
+    )
+    status, out, _ = run(capsys, "study.toml --no-figures --out run")
+    assert status == 0
+    text = " ".join(out.split())
+    for part in (
+        "neutral condition",
+        "worst over the poses",
+        "best over the poses",
+        "more radius_ratio buys",
+        "% of the",
+    ):
+        assert part in text
+    best = json.loads(Path("run/record.json").read_text())["results"]["optimization"]["candidates"][0]
+    assert len(best["conditions"]) == 3
+    assert best["objective"] == pytest.approx(max(best["conditions"]), rel=1e-9)
+    assert "radius_ratio" in best["prices"]
+    evaluated = json.loads(run(capsys, "evaluate run --json")[1])
+    assert evaluated["condition_number"] == pytest.approx(best["condition_number"], rel=1e-9)
+
+
 BAD = {
     "missing file": ("optimize nothing.toml", "nothing.toml"),
     "missing design": ("evaluate nothing.toml", "nothing.toml"),

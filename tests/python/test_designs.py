@@ -21,6 +21,12 @@ def test_hexagonal_design(tmp_path):
     assert indices(design)["condition_number"] == pytest.approx(3.9110, abs=5e-5)
 
 
+def test_the_mark_before_utf_8_is_read_over(tmp_path):
+    file = tmp_path / "design.toml"
+    file.write_bytes(b"\xef\xbb\xbf" + (HEXAGON + NEUTRAL).encode())
+    assert load_design(file) == load(tmp_path, HEXAGON + NEUTRAL)
+
+
 def test_any_joints_and_any_pose(tmp_path, published):
     triples = "".join(
         f"{name} = {getattr(published, name).tolist()}\n"

@@ -70,3 +70,33 @@ def test_record_without_a_design(tmp_path):
     write_record(Record(study, {"optimization": describe_result(nd.optimize(study))}), tmp_path)
     with pytest.raises(ValueError, match="holds no design"):
         load_design(tmp_path)
+
+
+@pytest.mark.parametrize("family", ["hexagonal", "symmetric", "symmetric_nonplanar", "general"])
+def test_design_of_a_record_of_any_family(tmp_path, family):
+    objective = nd.Objective(poses=(nd.Pose(position=(0.1, 0, 0), internal_point="best"),))
+    study = nd.Study(family=family, characteristic_length="optimal", objective=objective, starts=4)
+    x = study.problem().starts(1, 0)[0].tolist()
+    variables = dict(zip(study.problem().names, x, strict=True))
+    write_record(Record(study, {"optimization": {"candidates": [{"variables": variables}]}}), tmp_path)
+    point, design = study.evaluate(variables), load_design(tmp_path)
+    assert design == (point.geometry, point.configuration, point.characteristic_length)
+    assert load_record(tmp_path).study == study
+
+
+BAD_CANDIDATES = {
+    "none": None,
+    "text": "best",
+    "number": [3],
+    "no variables": [{}],
+    "unknown variable": [{"variables": {"a9": 1.0}}],
+    "variables as list": [{"variables": [1.0, 2.0]}],
+    "variable as text": [{"variables": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), "1")}],
+}
+
+
+@pytest.mark.parametrize("candidates", BAD_CANDIDATES.values(), ids=BAD_CANDIDATES.keys())
+def test_a_record_changed_by_hand_is_refused_by_name(tmp_path, candidates):
+    write_record(Record(nd.Study(), {"optimization": {"candidates": candidates}}), tmp_path)
+    with pytest.raises(ValueError, match=str(tmp_path)):
+        load_design(tmp_path)

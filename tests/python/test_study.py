@@ -1,4 +1,5 @@
-"""A design study: its defaults, its file, its checks. What a study evaluates is in test_design.py."""
+"""A design study: its defaults, its file, its checks. Its value as an object is in test_study_values.py,
+what it evaluates in test_design.py."""
 
 import math
 import pickle
@@ -111,7 +112,7 @@ BAD_LIMITS = {
     "text limit": (None, "2"),
     "bool": (None, True),
     "three": (None, 1.0, 2.0),
-    "table": {"min": 1.0, "max": 2.0},
+    "text in a mapping": {"max": "2"},
     "huge whole number": (None, 10**400),
 }
 
@@ -123,7 +124,21 @@ def test_bad_constraint(bad):
             nd.Study(constraints={name: bad})
 
 
-@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, INF, "1", True, None, [1.0], pytest.param(10**400, id="huge")])
+BAD_LENGTHS = {
+    "text": "1",
+    "other kind": "longest",
+    "huge": 10**400,
+    "reversed": (2.0, 1.0),
+    "from zero": (0.0, 1.0),
+    "open": (1.0, INF),
+    "nan": (1.0, math.nan),
+    "bools": (False, True),
+    "kinds": ("natural", "optimal"),
+    "three": (1.0, 2.0, 3.0),
+} | {repr(bad): bad for bad in (0.0, -1.0, math.nan, INF, True, None, [1.0], (), {}, 1j, np.bool_(True))}
+
+
+@pytest.mark.parametrize("bad", BAD_LENGTHS.values(), ids=BAD_LENGTHS.keys())
 def test_bad_characteristic_length(bad):
     with pytest.raises(ValueError, match=message("characteristic_length")):
         nd.Study(characteristic_length=bad)

@@ -5,6 +5,7 @@ import math
 import pytest
 
 import ninedof as nd
+from ninedof import poses
 
 INF = math.inf
 
@@ -29,6 +30,41 @@ STUDIES = {
         starts=3,
         seed=2**62,
     ),
+    "every option": nd.Study(
+        constraints={
+            "stroke_ratio": (None, 1.7),
+            "stroke": {"max": 0.3, "of": "zp"},
+            "leg_length": {"min": 0.5, "max": 1.5, "of": "zp"},
+            "external_length": (1.0, 9.0),
+            "upper_length": (None, 9.0),
+            "lower_length": (0.1, None),
+            "height": (1.0, 5.0),
+            "footprint": (None, 4.0),
+            "joint_height": {"max": 0.2, "of": "radius"},
+            "joint_spacing": {"min": 0.05, "of": "radius"},
+            "leg_clearance": {"radius": 0.02, "of": "zp"},
+            "base_cone": {"max_deg": 45, "axis": [0.1, 0.2, 1 / 3]},
+            "platform_cone": {"max": 1 / 3},
+            "singularity_free": {"min": 0.01, "steps": 7},
+        },
+        objective=nd.Objective(
+            index="frobenius",
+            aggregate="weighted",
+            weight=1 / 3,
+            condition_limit=12.5,
+            poses=(
+                nd.Pose(),
+                nd.Pose(rotation=(1 / 3, 0, -0.1), unit="zp", internal_point="best"),
+                nd.Pose(position=(0.1, 0.2, 0.1 + 0.2), internal_point=(0.0, 1e-9, 0.0)),
+                *poses.box((0.1, 0.1, 0.0), tilt_deg=(10, 0, 7)),
+                *poses.ball(0.1, points=9, unit="zp"),
+                *poses.path([[0, 0, 0], [1, 0, 0], [1, 2, 0]], rotations_deg=[[0, 0, 0], [0, 10, 0], [0, 0, 33]]),
+            ),
+        ),
+        characteristic_length=(0.3, 0.1 + 0.2 + 1.0),
+    ),
+    "length of a kind": nd.Study(characteristic_length="natural"),
+    "six legs": nd.Study(objective=nd.Objective(index="six_legged")),
     "open constraint": nd.Study(constraints={"radius_ratio": (None, None), "leg_ratio": (None, INF)}),
 }
 
@@ -64,6 +100,61 @@ def test_the_example_of_the_interface(write):
     assert nd.Study.load(write(text)) == nd.Study(constraints=limits, starts=32, seed=5)
 
 
+def test_the_mark_before_utf_8_is_read_over(write):
+    text = "[solver]\nstarts = 3\n"
+    assert nd.Study.load(write(b"\xef\xbb\xbf" + text.encode())) == nd.Study.load(write(text)) == nd.Study(starts=3)
+
+
+def test_poses_of_a_file(write):
+    text = """
+        [objective]
+        aggregate = "mean_inverse"
+        unit = "zp"
+        internal_point = "best"
+        [[objective.poses]]
+        position = [0.1, 0.0, 0.0]
+        rotation_deg = [0, 10, 0]
+        [[objective.poses]]
+        internal_point = [0, 0, 0.5]
+        unit = "length"
+        [objective.box]
+        half = [0.1, 0, 0]
+        tilt_deg = [5, 0, 0]
+        [objective.ball]
+        radius = 0.2
+        points = 4
+        internal_point = "stay"
+        [objective.path]
+        positions = [[0, 0, 0], [0, 0, 1]]
+        points = 3
+    """
+    free = {"unit": "zp", "internal_point": "best"}
+    expected = nd.Objective(
+        aggregate="mean_inverse",
+        poses=(
+            nd.Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), **free),
+            nd.Pose(internal_point=(0, 0, 0.5)),
+            *poses.box((0.1, 0, 0), tilt_deg=(5, 0, 0), **free),
+            *poses.ball(0.2, points=4, unit="zp"),
+            *poses.path([[0, 0, 0], [0, 0, 1]], points=3, **free),
+        ),
+    )
+    study = nd.Study.load(write(text))
+    assert study.objective == expected
+    assert len(expected.poses) == 2 + 5 + 4 + 3
+
+
+def test_what_was_typed_in_degrees_is_written_in_degrees():
+    study = nd.Study(
+        constraints={"base_cone": {"max_deg": 45}, "platform_cone": (None, 0.123456789012345)},
+        objective={"poses": [{"rotation_deg": [0, 10, -7.5]}, {"rotation": [0.1, 0, 0.123456789012345]}]},
+    )
+    data = study.to_dict()
+    assert data["constraints"] == {"base_cone": {"max_deg": 45.0}, "platform_cone": {"max": 0.123456789012345}}
+    assert data["objective"]["poses"][0] == {"rotation_deg": [0.0, 10.0, -7.5]}
+    assert data["objective"]["poses"][1] == {"rotation": [0.1, 0.0, 0.123456789012345]}
+
+
 def test_empty_file_is_the_study_without_constraints(write):
     assert nd.Study.load(write("")) == nd.Study()
     assert nd.Study.load(write("# nothing\r\n[design]\r\n")) == nd.Study()
@@ -80,6 +171,7 @@ BAD_FILES = {
     "unknown index": ("[objective]\nindex = 'manipulability'", "objective.index.*manipulability"),
     "entry outside tables": ("a1 = 3", "a1"),
     "table as number": ("variables = 3", "variables.*table"),
+    "objective as text": ("objective = 'condition_number'", "objective.*table"),
     "array of tables": ('[[design]]\nfamily = "hexagonal"', "design.*table"),
     "constraint as number": ("[constraints]\nradius_ratio = 2", "radius_ratio.*table"),
     "family as number": ("[design]\nfamily = 3", "family.*3"),
@@ -100,6 +192,27 @@ BAD_FILES = {
     "limit bool": ("[constraints]\nleg_ratio = { max = true }", "leg_ratio.*True"),
     "limit nan": ("[constraints]\nleg_ratio = { max = nan }", "leg_ratio.*nan"),
     "limit low > high": ("[constraints]\nleg_ratio = { min = 3, max = 2 }", "leg_ratio.*low <= high"),
+    "cone in degrees by mistake": ("[constraints]\nbase_cone = { max = 45 }", "base_cone.*max_deg"),
+    "cone twice": ("[constraints]\nbase_cone = { max = 1, max_deg = 45 }", "base_cone.*max_deg"),
+    "axis of zero": ("[constraints]\nbase_cone = { max = 1, axis = [0, 0, 0] }", "base_cone.axis.*direction"),
+    "axis of two": ("[constraints]\nbase_cone = { max = 1, axis = [0, 1] }", "base_cone.axis.*three"),
+    "option of another": ("[constraints]\nradius_ratio = { max = 2, of = 'zp' }", "radius_ratio.*'of'"),
+    "no such unit": ("[constraints]\nstroke = { max = 2, of = 'zs' }", "stroke.of.*did you mean 'zp'"),
+    "pose misspelt": ("[[objective.poses]]\npositon = [0, 0, 0]", r"poses\[0\].*did you mean 'position'"),
+    "pose as number": ("[objective]\nposes = [3]", r"objective.poses\[0\].*3"),
+    "poses as table": ("[objective.poses]\nposition = [0, 0, 0]", "objective.poses.*position"),
+    "pose nan": ("[[objective.poses]]\nposition = [0, nan, 0]", r"objective.poses\[0\].position.*nan"),
+    "two rotations": ("[[objective.poses]]\nrotation = [0, 0, 1]\nrotation_deg = [0, 0, 1]", "rotation.*both"),
+    "box without half": ("[objective.box]\npoints = 3", "objective.box.half: got nothing"),
+    "box misspelt": ("[objective.box]\nhalf = [0, 0, 0]\npoint = 3", "objective.box.*did you mean 'points'"),
+    "box as list": ("[objective]\nbox = [0.1, 0.1, 0.1]", "objective.box.*table"),
+    "ball negative": ("[objective.ball]\nradius = -1.0", "objective.ball.radius.*-1.0"),
+    "path of one": ("[objective.path]\npositions = [[0, 0, 0]]", "objective.path.positions.*at least two"),
+    "unknown aggregate": ("[objective]\naggregate = 'wurst'", "objective.aggregate.*did you mean 'worst'"),
+    "weight too large": ("[objective]\nweight = 1.5", "objective.weight.*1.5"),
+    "limit below one": ("[objective]\ncondition_limit = 0.5", "objective.condition_limit.*0.5"),
+    "unit unused": ("[objective]\nunit = 'zs'", "objective.unit.*did you mean 'zp'"),
+    "digits without end": (f"[variables]\na1 = {'9' * 5000}", "not a TOML file"),
     "starts as decimal": ("[solver]\nstarts = 1.5", "starts.*1.5"),
     "starts bool": ("[solver]\nstarts = true", "starts.*True"),
     "no starts": ("[solver]\nstarts = 0", "starts.*0"),

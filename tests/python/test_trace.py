@@ -41,7 +41,7 @@ def test_plain_reaches_it_less_often_and_later(starts):
     # some tens of per cent for each unit of relative change of the design.
     jams = [t.end for t in traces if t.end.condition_number > LEAST + 1e-6]
     assert min(c.optimality_residual for c in jams) > 1e-6
-    assert min(c.optimality_residual for c in jams if c.condition_number > LEAST * 1.0005) > 0.05
+    assert min(c.optimality_residual for c in jams if c.condition_number > LEAST * 1.0005) > 0.02
     smooth = [nd.trace(STUDY, start) for start in starts[:50]]
     assert np.mean([len(t.best) for t in smooth]) < 0.5 * np.mean([len(t.best) for t in traces[:50]])
 

@@ -1,21 +1,25 @@
 #pragma once
-/// Optimum design: the condition number made least over a design family, as a smooth minimax problem.
+/// Optimum design: an index made least over a design family, as a smooth minimax problem.
 ///
 /// kappa = sigma_max / sigma_min has a kink wherever two singular values meet, and its minimisers sit on such kinks. Posed as
-///     minimise alpha - beta  subject to  log sigma_k <= alpha,  log sigma_k >= beta,  and the design's own constraints
+///     minimise t  subject to  log sigma_i - log sigma_j <= t  for every pair that may rule, and the design's own constraints
 /// the problem is smooth, and sequential quadratic programming solves it from almost anywhere (NLopt's SLSQP; its return
 /// code is never believed, every answer is checked here).
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "ninedof/characteristic_length.hpp"
 #include "ninedof/constraints.hpp"
 #include "ninedof/design.hpp"
 #include "ninedof/error.hpp"
+#include "ninedof/objective.hpp"
 
 namespace ninedof {
 
@@ -25,23 +29,42 @@ struct Bounds {
   double high = 0.0;
 };
 
+/// The characteristic length of a study: a number, a kind (taken at each design's neutral configuration), or free.
+struct StudyLength {
+  enum class Choice { number, kind, free };
+  Choice choice = Choice::number;
+  double value = 1.0;                          ///< if a number
+  LengthKind kind = LengthKind::mean_leg;  ///< if a kind; `optimal` makes the objective least: see Problem::validate
+  Bounds bounds = {};  ///< if free
+};
+
 /// A design problem.
 struct Problem {
   std::string family = "hexagonal";
   std::vector<Bounds> variables;  ///< in the family's order; lengths in the study's unit, angles in radians
   std::vector<Limit> limits;
-  double characteristic_length = 1.0;
+  StudyLength characteristic_length;
+  Objective objective;
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
+
+  /// The length variables are measured by where a size matters: the characteristic length if it is a number, else 1.
+  double unit() const;
+
+  /// Names of everything the optimizer may move: the family's variables, "characteristic_length" if it is free or "optimal",
+  /// and the place of s, in fractions of zp from its stated place, for poses that leave it to the optimizer
+  /// ("pose3.s_x", ...). A full set of variables has one value for each.
+  std::vector<std::string> names() const;
 };
 
 /// How hard to look.
 struct Settings {
-  int starts = 64;         ///< low-discrepancy starts
+  int starts = 64;  ///< low-discrepancy starts
   std::uint64_t seed = 0;  ///< shifts the sequence
-  int threads = 0;         ///< 0: one a processor; the answer does not depend on it
+  int threads = 0;  ///< 0: one a processor; the answer does not depend on it
   int max_evaluations = 500;  ///< of one SLSQP call; a start that does not settle makes up to four
+  std::vector<Eigen::VectorXd> warm = {};  ///< full sets of variables to start from as well
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
@@ -50,34 +73,41 @@ struct Settings {
 /// What a long run listens to and reports.
 struct Control {
   std::stop_token stop;
-  /// (starts done, starts in all, best condition number so far); called from one thread at a time.
+  /// (starts done, starts in all, best objective so far); called from one thread at a time.
   std::function<void(int, int, double)> progress;
 };
 
 /// A local optimum as checked here.
 struct Candidate {
-  Eigen::VectorXd variables;
-  double condition_number = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd variables;  ///< a full set
+  double objective = std::numeric_limits<double>::infinity();  ///< the number made least
+  double condition_number = std::numeric_limits<double>::infinity();  ///< at the neutral configuration, 2-norm
+  std::vector<double> conditions;  ///< at each pose looked at, 2-norm
+  double characteristic_length = 1.0;
   double optimality_residual = std::numeric_limits<double>::infinity();  ///< see active_set.hpp in src
   double constraint_violation = std::numeric_limits<double>::infinity();  ///< largest negative margin; 0 if none
   std::vector<std::string> active;  ///< variables on a bound and constraints on their limit
-  int reached = 0;                  ///< starts that ended here
+  /// Lagrange multipliers in words: per cent by which the objective falls, to first order, when a limit or bound is relaxed
+  /// by one per cent. Only of what binds; a bound at zero has no per cent.
+  std::map<std::string, double> prices;
+  bool singular = true;  ///< at a pose looked at: no machine, whatever the objective
+  int reached = 0;  ///< starts that ended at this objective, at this design or one as good
 
   bool feasible() const { return constraint_violation <= 1e-8; }
-  /// Beyond 1e14 a condition number is rounding away from a singular design.
-  bool regular() const { return condition_number < 1e14; }
+  bool regular() const { return !singular; }
   bool stationary() const { return optimality_residual <= 1e-6; }
 };
 
 /// What an optimization found.
 struct Result {
   Status status = Status::stopped;
-  std::string reason;                ///< one sentence for a person
-  std::vector<std::string> causes;   ///< variables or constraints behind `unbounded` or `infeasible`
-  std::vector<Candidate> candidates; ///< distinct local optima, best first; empty if nothing acceptable was found
-  long evaluations = 0;              ///< designs SLSQP looked at, over all starts and rounds
+  std::string reason;  ///< one sentence for a person
+  std::vector<std::string> causes;  ///< variables or constraints behind `unbounded` or `infeasible`
+  std::vector<Candidate> candidates;  ///< distinct local optima, best first; empty if nothing acceptable was found
+  long evaluations = 0;  ///< designs SLSQP looked at, over all starts and rounds
   int starts_done = 0;
-  bool interrupted = false;          ///< by Control::stop
+  int stopped_early = 0;  ///< starts given up as hopeless
+  bool interrupted = false;  ///< by Control::stop
 };
 
 /// Multi-start minimax optimization. Same problem, settings: same bits, whatever the thread count.
@@ -89,11 +119,10 @@ std::string solver_version();
 /// Which objective a single run follows.
 enum class Formulation {
   minimax,  ///< the smooth problem above
-  plain,    ///< log kappa itself, as the paper's SQP run did: it jams on the kinks
+  plain,  ///< the logarithm of the index itself, as the paper's SQP run did: it jams on the kinks
 };
 
-/// One run from one start: the best feasible condition number after each evaluation (infinite before the first), and where
-/// it ended.
+/// One run from one start: the best allowed objective after each evaluation (infinite before the first), and where it ended.
 struct Trace {
   std::vector<double> best;
   Candidate end;
@@ -103,5 +132,27 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
 
 /// The starts that `optimize` would use, one a column.
 Eigen::MatrixXd starts(const Problem& problem, const Settings& settings);
+
+/// One design looked at closely: `variables` a full set, bounds not enforced.
+struct Evaluation {
+  double log_objective;
+  Eigen::VectorXd gradient;  ///< of log_objective; where singular values tie, that of one of them
+  double condition_number;  ///< at the neutral configuration
+  std::vector<double> conditions;
+  double characteristic_length;
+  struct Margin {
+    std::string name;
+    double value;
+    Eigen::VectorXd gradient;
+  };
+  std::vector<Margin> margins;  ///< the smallest of each constraint
+};
+Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables);
+
+/// The characteristic length of one design.
+double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables);
+
+/// The neutral configuration and the poses of the objective, for one design.
+std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables);
 
 }  // namespace ninedof

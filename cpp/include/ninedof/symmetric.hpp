@@ -71,13 +71,13 @@ T shared(const T& a, const T& q, const T& b, const T& r) {
 
 }  // namespace detail
 
-/// The closed form. Lengths in one unit; the characteristic length must be positive and is not checked here.
-template <class T>
-AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, double characteristic_length) {
+/// The closed form. Lengths in one unit; the characteristic length, a double or a T, must be positive and is not checked here.
+template <class T, class Length>
+AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characteristic_length) {
   using detail::shared;
   using std::abs;
   using std::sqrt;
-  const double inverse_lc = 1.0 / characteristic_length;
+  const Length inverse_lc = 1.0 / characteristic_length;
 
   // External leg 1: x = p + u - r, and u x (p - r) = u x x.
   const Point<T>& u = d.platform_external;

@@ -4,16 +4,22 @@ Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no
 """
 
 from ninedof.plot.convergence import convergence
+from ninedof.plot.front import Sketch, front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
+from ninedof.plot.poses import PoseConditions, poses
 from ninedof.plot.style import save
 
 __all__ = [
     "DesignCurves",
     "Mechanism",
+    "PoseConditions",
+    "Sketch",
     "condition_curves",
     "convergence",
     "draw_mechanism",
+    "front",
     "mechanisms",
+    "poses",
     "save",
 ]

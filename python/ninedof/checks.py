@@ -1,0 +1,113 @@
+"""Small checks of what people pass: each raises ValueError naming the entry, what came and what was expected."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+LONGEST = 200  # characters of a value that a message repeats
+
+Vector = tuple[float, float, float]
+
+
+def shown(value: Any) -> str:
+    """Return a value as a message repeats it; the long ones cut."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of thousands of digits, which Python will not spell
+        return "a very long number"
+    return text if len(text) <= LONGEST else text[:LONGEST] + "..."
+
+
+def did_you_mean(slip: object, known: Iterable[str]) -> str:
+    """Return a suggestion in brackets, or nothing."""
+    close = difflib.get_close_matches(str(slip).lower(), list(known), n=1, cutoff=0.5)
+    return f" (did you mean {close[0]!r}?)" if close else ""
+
+
+def known_keys(where: str, given: Any, known: Iterable[str]) -> None:
+    """Refuse what is no mapping, and entries that nobody would read."""
+    names = list(known)
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{where}: got {shown(given)}, expected a mapping of names")
+    for key in given:
+        if key not in names:
+            hint = did_you_mean(key, names)
+            raise ValueError(f"{where}: got the entry {shown(key)}, expected only {', '.join(names)}{hint}")
+
+
+def table(name: str, value: Any) -> Mapping[str, Any]:
+    """Return a table of a file."""
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{name}: got {shown(value)}, expected a table")
+    return value
+
+
+def is_number(value: Any) -> bool:
+    """Tell a real number, Python's or numpy's, from everything else; True and False are none."""
+    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+
+
+def number(name: str, value: Any) -> float:
+    """Return a number, infinite and NaN included."""
+    if not is_number(value):
+        raise ValueError(f"{name}: got {shown(value)}, expected a number")
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name}: got {shown(value)[:20]}..., expected a number of ordinary size") from None
+
+
+def finite(name: str, value: Any, least: float = -math.inf, most: float = math.inf) -> float:
+    """Return a finite number, within limits where they are given."""
+    found = number(name, value)
+    if not math.isfinite(found) or not least <= found <= most:
+        limits = [f"at least {least:g}"] * math.isfinite(least) + [f"at most {most:g}"] * math.isfinite(most)
+        expected = " ".join(["a finite number", " and ".join(limits)]).strip()
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    return found
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """Return a whole number; 3.0 is none."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
+        raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} to {most}")
+    return int(value)
+
+
+def choice(name: str, value: Any, known: Iterable[str]) -> str:
+    """Return one of the known words."""
+    words = list(known)
+    if not isinstance(value, str) or value not in words:
+        hint = did_you_mean(value, words) if isinstance(value, str) else ""
+        raise ValueError(f"{name}: got {shown(value)}, expected one of {', '.join(words)}{hint}")
+    return value
+
+
+def items(name: str, value: Any, expected: str) -> tuple[Any, ...]:
+    """Return the entries of a list, a tuple or an array, of whatever kind they are."""
+    if not isinstance(value, list | tuple | np.ndarray) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    return tuple(value)
+
+
+def pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
+    """Return two things of whatever kind."""
+    found = items(name, value, expected)
+    if len(found) != 2:
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    return found[0], found[1]
+
+
+def vector(name: str, value: Any, least: float = -math.inf) -> Vector:
+    """Return three finite numbers."""
+    expected = "three finite numbers [x, y, z]"
+    found = items(name, value, expected)
+    if len(found) != 3 or not all(is_number(x) for x in found):
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    x, y, z = (finite(name, x, least) for x in found)
+    return x, y, z

@@ -1,0 +1,8 @@
+"""What each command does, and how it looks on a terminal: one file a command."""
+
+from ninedof.commands.evaluation import evaluate
+from ninedof.commands.front import pareto
+from ninedof.commands.optimization import optimize
+from ninedof.commands.verdicts import paper
+
+__all__ = ["evaluate", "optimize", "paper", "pareto"]

@@ -1,0 +1,71 @@
+"""Where words, bars and machine-readable results go, and what the shell is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from ninedof.records import to_json
+from ninedof.result import Result, Status
+
+DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, bad input, is the command line's
+
+
+def exit_status(result: Result) -> int:
+    """Return what the shell is told."""
+    if result.interrupted:
+        return INTERRUPTED
+    return DONE if result.status == Status.OPTIMAL else NO_RESULT
+
+
+class Screen:
+    """Where words go: standard output, or standard error where standard output is for JSON."""
+
+    def __init__(self, json: bool) -> None:
+        """Choose the consoles."""
+        self.json = json
+        self.progress_console = Console(stderr=True)
+        self.words = Console(stderr=True) if json else Console(highlight=False)
+
+    def print(self, *parts: Any) -> None:
+        """Print words or a table for a person."""
+        self.words.print(*parts)
+
+    def data(self, value: Any) -> None:
+        """Print the machine-readable result, if it was asked for."""
+        if self.json:
+            print(to_json(value))
+
+    def say(self, doing: str) -> None:
+        """Say what is being done besides solving."""
+        self.progress_console.print(f"  {doing}", style="dim", highlight=False)
+
+    @contextmanager
+    def progress(self, title: str) -> Iterator[Bar]:
+        """Show a bar of starts while solving, then what else is done."""
+        columns = (
+            TextColumn("{task.description}"),
+            BarColumn(bar_width=24),
+            MofNCompleteColumn(),
+            TextColumn("{task.fields[best]}"),
+            TimeElapsedColumn(),
+        )
+        with Progress(*columns, console=self.progress_console) as shown:
+            yield Bar(shown, title)
+
+
+class Bar:
+    """A bar of starts."""
+
+    def __init__(self, shown: Progress, title: str) -> None:
+        """Begin at nothing."""
+        self._shown = shown
+        self._task = shown.add_task(title, total=None, best="")
+
+    def starts(self, done: int, total: int, best: float) -> None:
+        """Take the progress of an optimization."""
+        self._shown.update(self._task, completed=done, total=total, best=f"best {best:.6f}")

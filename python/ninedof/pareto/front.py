@@ -1,0 +1,108 @@
+"""What a trade-off is: for each limit the best design, or why there is none."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ninedof.result import Result, Status
+from ninedof.study import Study
+
+__all__ = ["Front", "objective_of"]
+
+SAME = 1e-9  # relative: an objective that is no better than this is no better
+
+
+@dataclass(frozen=True, eq=False)
+class Front:
+    """The least objective for each value of a limit, from the tightest to the loosest."""
+
+    study: Study
+    """As it was given, with the index that was made least; the limit takes the values of `limits` in turn."""
+    against: str
+    """The limit: a constraint, whose max moves, or "condition_limit"."""
+    limits: tuple[float, ...]
+    results: tuple[Result, ...]
+    """One for each limit."""
+    interrupted: bool = False
+    """Whether Ctrl-C ended the work: what was found until then is here."""
+    seconds: float = 0.0
+
+    def __len__(self) -> int:
+        """Return the number of limits."""
+        return len(self.limits)
+
+    def __iter__(self) -> Iterator[Result]:
+        """Go through the results, from the tightest limit to the loosest."""
+        return iter(self.results)
+
+    @property
+    def objectives(self) -> tuple[float, ...]:
+        """The objective at each limit; NaN where there is no best design."""
+        return tuple(objective_of(result) for result in self.results)
+
+    @property
+    def prices(self) -> tuple[float | None, ...]:
+        """Per cent by which the objective falls when the limit is relaxed by 1 %; None where no design was proved."""
+        return tuple(
+            r.best.prices.get(self.against, 0.0) if r.best is not None and r.status == Status.OPTIMAL else None
+            for r in self.results
+        )
+
+    @property
+    def dominated(self) -> tuple[bool, ...]:
+        """Whether a tighter limit allows a design that is as good: the limit has stopped to matter."""
+        out, best = [], math.inf
+        for value in self.objectives:
+            out.append(value >= best * (1.0 - SAME))
+            best = min(best, value) if not math.isnan(value) else best
+        return tuple(out)
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return one row for each limit, as plain values.
+
+        Returns
+        -------
+        list of dict
+            limit; status and reason; objective, condition_number (at the neutral pose), price, active, variables of
+            the best design, None where there is none; dominated.
+
+        """
+        rows = []
+        for limit, result, value, price, flat in zip(
+            self.limits, self.results, self.objectives, self.prices, self.dominated, strict=True
+        ):
+            best = result.best if not math.isnan(value) else None
+            rows.append(
+                {
+                    "limit": limit,
+                    "status": str(result.status),
+                    "reason": result.reason,
+                    "objective": None if best is None else best.objective,
+                    "condition_number": None if best is None else best.condition_number,
+                    "price": price,
+                    "active": None if best is None else list(best.active),
+                    "variables": None if best is None else dict(best.variables),
+                    "dominated": flat,
+                }
+            )
+        return rows
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the front as plain JSON values; `ninedof.front_records` writes it with everything that was found."""
+        return {
+            "against": self.against,
+            "objective": self.study.objective.words,
+            "interrupted": self.interrupted,
+            "seconds": self.seconds,
+            "rows": self.table(),
+        }
+
+
+def objective_of(result: Result) -> float:
+    """Return the objective of a result, NaN where it holds no design or the study has no least value."""
+    if result.best is None or result.status not in (Status.OPTIMAL, Status.STOPPED):
+        return math.nan
+    return result.best.objective

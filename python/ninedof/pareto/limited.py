@@ -1,0 +1,74 @@
+"""A study with another value of one limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from ninedof.check.rules import RULES
+from ninedof.checks import did_you_mean, shown
+from ninedof.objective import INDICES
+from ninedof.study import Study
+
+__all__ = ["CONDITION_LIMIT", "floor_of", "limited", "own_value", "resolve"]
+
+CONDITION_LIMIT = "condition_limit"
+
+
+def resolve(study: Study, against: str) -> tuple[Study, str]:
+    """Return the study to solve and the limit to move for what a caller trades the objective against.
+
+    A constraint with a max moves as it is. Of two indices, one is made least within limits of the condition number:
+    "speed" for a study of the condition number becomes a study of speed under a moving condition limit, the same
+    front seen from the other side.
+    """
+    known = [name for name, rule in RULES.items() if rule.upper is not None]
+    if isinstance(against, str) and against in known:
+        return study, against
+    index = study.objective.index
+    if against in (CONDITION_LIMIT, *INDICES):
+        if against in (CONDITION_LIMIT, "condition_number") and index != "condition_number":
+            return study, CONDITION_LIMIT
+        if against in INDICES and index == "condition_number" and against != index:
+            return replace(study, objective=replace(study.objective, index=against)), CONDITION_LIMIT
+        raise ValueError(
+            f"against: got {against!r} for a study of the index {index!r}, expected one of the two to be the condition "
+            "number and the other another index"
+        )
+    hint = did_you_mean(against, [*known, CONDITION_LIMIT, *INDICES]) if isinstance(against, str) else ""
+    raise ValueError(
+        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}), "
+        f"{CONDITION_LIMIT} or another index{hint}"
+    )
+
+
+def limited(study: Study, against: str, value: float | None) -> Study:
+    """Return the study with `max` of a limit set, or open where the value is None; other options are kept."""
+    if against == CONDITION_LIMIT:
+        return replace(study, objective=replace(study.objective, condition_limit=value))
+    entry = _entry(study, against) | {"max": value}
+    others = {name: limit for name, limit in study.constraints.items() if name != against}
+    if value is None and entry.get("min") is None:
+        return replace(study, constraints=others)
+    return replace(study, constraints=others | {against: {k: v for k, v in entry.items() if v is not None}})
+
+
+def own_value(study: Study, against: str) -> float | None:
+    """Return the value that the study itself gives to the limit."""
+    if against == CONDITION_LIMIT:
+        return study.objective.condition_limit
+    found = _entry(study, against).get("max")
+    return None if found is None or not math.isfinite(found) else float(found)
+
+
+def floor_of(study: Study, against: str) -> float:
+    """Return what the limit cannot be under, whatever the design: 1 for ratios of like things, or its own min."""
+    least = 1.0 if against in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
+    return least if against == CONDITION_LIMIT else max(least, _entry(study, against).get("min") or 0.0)
+
+
+def _entry(study: Study, against: str) -> dict[str, Any]:
+    given = study.constraints.get(against, (None, None))
+    return dict(given) if isinstance(given, Mapping) else dict(zip(("min", "max"), given, strict=True))

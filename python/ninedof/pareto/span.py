@@ -1,0 +1,116 @@
+"""From where to where a limit is worth moving."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from ninedof.check.robot import Places
+from ninedof.check.rules import limit_of, measured
+from ninedof.optimize import optimize
+from ninedof.pareto.front import objective_of
+from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, limited, own_value
+from ninedof.pareto.sweep import Interrupted, Sweep
+from ninedof.result import Result, Status
+
+__all__ = ["span", "value_taken"]
+
+DEAR = 3.0  # times the best objective: designs beyond interest nobody
+NEAR_LEAST = 1.002  # times the least condition number: there the two indices leave one design only
+STEPS_DOWN = 12  # halvings
+BISECTIONS = 6
+
+
+def span(sweep: Sweep) -> tuple[float, float] | None:
+    """Return the tightest and the loosest limit worth solving, or None where no design exists at all.
+
+    The loosest is the value that the best design takes when nothing limits it, the tightest one that still allows a
+    design, to a few per cent, or that still allows one within a factor of the best.
+
+    Raises
+    ------
+    ValueError
+        If the study is unbounded without the limit and does not limit it itself: there is no scale to begin with.
+
+    """
+    sweep.planned = 4 + BISECTIONS
+    if sweep.against == CONDITION_LIMIT:
+        return _between_indices(sweep)
+    open_ended = sweep.solve(None)
+    if open_ended.status == Status.INFEASIBLE:
+        return None
+    high = _loosest(sweep, open_ended)
+    best = sweep.solve(high, [open_ended])
+    if math.isnan(objective_of(best)):
+        return None
+    return _tightest(sweep, high, objective_of(best)), high
+
+
+def value_taken(sweep: Sweep, result: Result) -> float:
+    """Return the least value of the limit that allows the best design of a result."""
+    best = result.best
+    assert best is not None
+    if sweep.against == CONDITION_LIMIT:
+        return max(best.conditions)
+    # The value does not matter, only which options come with it.
+    entry = limited(sweep.study, sweep.against, own_value(sweep.study, sweep.against) or 1.0).constraints[sweep.against]
+    places = Places(result.study, best.variables)
+    return measured(limit_of(sweep.against, entry), places.robot(places.x))
+
+
+def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
+    """Return a little more than the least condition number of all, and what the other index asks for at most.
+
+    The other index alone may have no best design, or none that anybody would build: it is given a generous limit.
+    """
+    study = sweep.study
+    plain = replace(study.objective, index="condition_number", aggregate="worst", condition_limit=None)
+    least = optimize(replace(study, objective=plain))
+    if least.interrupted:
+        raise Interrupted
+    if least.status != Status.OPTIMAL or least.best is None:
+        sweep.open_ended = least
+        return None
+    low = NEAR_LEAST * least.best.objective
+    widest = sweep.solve(max(DEAR * low, low + 1.0), [least])
+    if math.isnan(objective_of(widest)):
+        sweep.open_ended = widest
+        return None
+    high = max(value_taken(sweep, widest), low)
+    sweep.solve(high, [widest])
+    return low, high
+
+
+def _loosest(sweep: Sweep, open_ended: Result) -> float:
+    if not math.isnan(objective_of(open_ended)):
+        return max(value_taken(sweep, open_ended), floor_of(sweep.study, sweep.against))
+    own = own_value(sweep.study, sweep.against)
+    if own is None:
+        raise ValueError(
+            f"values: got None, expected limits to sweep: without a limit on {sweep.against} the study is "
+            f"{open_ended.status}, so none can be derived ({open_ended.reason})"
+        )
+    return 4.0 * own
+
+
+def _tightest(sweep: Sweep, high: float, objective: float) -> float:
+    """Halve the limit until there is no design worth having, then close in on where the last one is lost."""
+    floor = floor_of(sweep.study, sweep.against)
+    good, bad = high, None
+    for _ in range(STEPS_DOWN):
+        trial = max(0.5 * good, floor)
+        if trial >= good:
+            return good
+        if not _is_worth_it(sweep, trial, good, objective):
+            bad = trial
+            break
+        good = trial
+    for _ in range(BISECTIONS if bad is not None else 0):
+        trial = math.sqrt(good * (bad or good))
+        good, bad = (trial, bad) if _is_worth_it(sweep, trial, good, objective) else (good, trial)
+    return good
+
+
+def _is_worth_it(sweep: Sweep, limit: float, looser: float, objective: float) -> bool:
+    value = objective_of(sweep.solve(limit, [sweep.results[looser]]))
+    return value <= DEAR * objective  # NaN, no design, is not

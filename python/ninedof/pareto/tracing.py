@@ -1,0 +1,148 @@
+"""`pareto`: the front of a study's objective against one of its limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from time import perf_counter
+
+import numpy as np
+
+from ninedof.arrays import thread_argument
+from ninedof.checks import finite, items, shown, whole
+from ninedof.pareto.front import Front, objective_of
+from ninedof.pareto.limited import resolve
+from ninedof.pareto.span import span
+from ninedof.pareto.sweep import Interrupted, Progress, Sweep
+from ninedof.result import Status
+from ninedof.study import Study
+
+__all__ = ["pareto"]
+
+MOST_POINTS = 1000
+FIRST = 0.6  # share of the points that is spread evenly; the rest goes where the front is steep
+
+
+def pareto(
+    study: Study,
+    against: str,
+    values: Sequence[float] | None = None,
+    points: int = 13,
+    starts: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Front:
+    """Find the best objective for each value of a limit: what one thing costs in terms of the other.
+
+    One study is solved for many limits (the epsilon-constraint method), from loose to tight and back, each time from
+    its own starts and from what its neighbours found. A looser limit never ends with a worse design. Ctrl-C returns
+    what there is, with `interrupted` set.
+
+    Parameters
+    ----------
+    study : Study
+        A value that it gives to the limit itself is replaced; its min and its other options are kept.
+    against : str
+        A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...), or a second index: with
+        "condition_limit" the study's own index is made least under limits of the condition number at every pose, and
+        "speed" or "frobenius" make that index least for a study of the condition number.
+    values : sequence of float, optional
+        Limits to solve, in the unit of the constraint (radians for angles). By default from the value that the best
+        design takes without the limit down to where no design is left, evenly in logarithms, and closer together
+        where the objective changes fast; the largest limit found impossible comes with them.
+    points : int
+        How many limits with a design, if `values` is None; 13 by default.
+    starts : int, optional
+        Starts for each limit, in place of the study's.
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    progress : callable, optional
+        Called as progress(solved so far, to be solved as far as known, last objective, NaN without one).
+
+    Returns
+    -------
+    Front
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit, or no limits can be derived since the study is unbounded without one.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof.pareto import pareto
+    >>> front = pareto(nd.Study.paper(), "radius_ratio", values=[1.5, 2.0, 3.0])
+    >>> [round(value, 4) for value in front.objectives]
+    [3.9412, 3.7627, 3.5486]
+
+    """
+    if not isinstance(study, Study):
+        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: got {shown(progress)}, expected a callable of three arguments")
+    thread_argument(threads)
+    count = whole("points", points, 2, MOST_POINTS)
+    given = None if values is None else _values(values)
+    posed, limit = resolve(study.with_solver(starts), against)
+    sweep = Sweep(posed, limit, threads, progress)
+    begin, interrupted = perf_counter(), False
+    wanted: list[float] | None = given
+    try:
+        wanted = _trace(sweep, count) if given is None else given
+        if given is not None:
+            sweep.both_ways(given)
+        sweep.repair()
+    except (Interrupted, KeyboardInterrupt):
+        interrupted = True
+    shown_limits = sorted(sweep.results if wanted is None else set(wanted) & set(sweep.results))
+    results = tuple(sweep.results[value] for value in shown_limits)
+    return Front(posed, limit, tuple(shown_limits), results, interrupted, perf_counter() - begin)
+
+
+def _values(values: Sequence[float]) -> list[float]:
+    listed = items("values", values, "a sequence of limits")
+    found = {finite(f"values[{k}]", value) for k, value in enumerate(listed)}
+    if not found or min(found) <= 0.0:
+        raise ValueError(f"values: got {shown(values)}, expected one or more limits above 0")
+    return sorted(found)
+
+
+def _trace(sweep: Sweep, count: int) -> list[float]:
+    """Find the range, solve a first part of the limits, then halve the widest gaps."""
+    ends = span(sweep)
+    if ends is None:  # one row that says why: the study as open as it can be
+        assert sweep.open_ended is not None
+        sweep.results[math.inf] = sweep.open_ended
+        return [math.inf]
+    low, high = ends
+    first = max(2, round(FIRST * count))
+    wanted = [low, *np.geomspace(low, high, first)[1:-1].tolist(), high] if high > low * (1.0 + 1e-6) else [high]
+    sweep.planned += 2 * first + count
+    sweep.both_ways(wanted)
+    while 1 < len(wanted) < count:
+        gap = _widest(sweep, wanted)
+        if gap is None:
+            break
+        wanted = sorted([*wanted, sweep.between(*gap)])
+    below = max((value for value in sweep.results if value < low), default=None)
+    is_edge = below is not None and sweep.results[below].status == Status.INFEASIBLE
+    return [below, *wanted] if below is not None and is_edge else wanted
+
+
+def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None:
+    """Return the neighbours farthest apart in limit and objective, each in parts of its range; None if all are close.
+
+    Objectives count thrice: a table wants the steep part, a figure the whole.
+    """
+    pairs = [(value, objective_of(sweep.results[value])) for value in limits]
+    x, y = np.log(np.array([pair for pair in pairs if not math.isnan(pair[1])]).reshape(-1, 2)).T
+    if len(x) < 2:
+        return None
+    apart = np.hypot(np.diff(x) / max(np.ptp(x), 1e-12), 3.0 * np.diff(y) / max(np.ptp(y), 1e-12))
+    widest = int(np.argmax(apart))
+    low, high = math.exp(x[widest]), math.exp(x[widest + 1])
+    known = sorted(limits)
+    low = min(known, key=lambda value: abs(value - low))
+    high = min(known, key=lambda value: abs(value - high))
+    return (low, high) if high > low * (1.0 + 1e-4) else None

@@ -1,0 +1,199 @@
+"""A front: the best objective against a limit, what relaxing it buys, and where there is no design."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from matplotlib.ticker import LogLocator, NullFormatter
+from numpy.typing import NDArray
+
+from ninedof.geometry import Geometry
+from ninedof.plot import style
+from ninedof.plot.plates import outlines
+
+__all__ = ["Sketch", "front"]
+
+Floats = NDArray[np.float64]
+
+
+class Sketch(NamedTuple):
+    """A design of the front, to be drawn from above."""
+
+    limit: float
+    geometry: Geometry
+    theta_z: float = 0.0
+    """Twist of its platform, radians."""
+
+
+MOST_SKETCHES = 5
+MARKS = {"optimal": "o", "stopped": "D"}
+NONE = {"infeasible": ("X", "no design"), "unbounded": ("v", "no least value"), "stopped": ("P", "nothing found")}
+
+
+def front(
+    rows: Sequence[Mapping[str, Any]],
+    against: str,
+    objective: str = "condition number",
+    unit: str = "",
+    sketches: Sequence[Sketch] = (),
+) -> Figure:
+    """Return a figure of a front.
+
+    Above, the objective at each limit; limits without a design are crosses on a grey ground. Below, what relaxing the
+    limit by 1 % buys, and a few plates from above.
+
+    Parameters
+    ----------
+    rows : sequence of mappings
+        As `ninedof.pareto.Front.table` gives them: limit, status, objective, price, dominated.
+    against : str
+        Name of the limit.
+    objective : str
+        Name of what was made least.
+    unit : str
+        Of the limit, if it is a length.
+    sketches : sequence of Sketch
+        At most five designs.
+
+    Raises
+    ------
+    ValueError
+        If there are no rows, or none with a finite limit.
+
+    Examples
+    --------
+    >>> from ninedof import plot
+    >>> from ninedof.plot.front import front
+    >>> rows = [
+    ...     {"limit": 1.5, "status": "optimal", "objective": 3.94, "price": 0.2, "dominated": False},
+    ...     {"limit": 2.0, "status": "optimal", "objective": 3.76, "price": 0.1, "dominated": False},
+    ... ]
+    >>> figure = front(rows, "radius_ratio")
+
+    """
+    shown = [row for row in rows if math.isfinite(row["limit"])]
+    if not shown:
+        raise ValueError(f"rows: got {len(rows)} without a finite limit, expected at least one")
+    if len(sketches) > MOST_SKETCHES:
+        raise ValueError(f"sketches: got {len(sketches)}, expected at most {MOST_SKETCHES}")
+    with style.look():
+        figure = style.new_figure(8.0, 6.9 if sketches else 5.34)
+        share = 1.75 / 6.9 if sketches else 0.0
+        upper = figure.add_axes((0.095, share + 0.42 * (1 - share), 0.885, 0.515 * (1 - share)))
+        lower = figure.add_axes((0.095, share + 0.115 * (1 - share), 0.885, 0.225 * (1 - share)), sharex=upper)
+        name = style.with_unit(f"largest {against.replace('_', ' ')} allowed", unit)
+        _objective(upper, shown, objective)
+        _prices(lower, shown, name)
+        _limits(upper, shown)
+        if sketches:
+            _sketches(figure, upper, sketches, share)
+        _legend(figure, upper, shown)
+    return figure
+
+
+def _objective(axes: Any, rows: Sequence[Mapping[str, Any]], objective: str) -> None:
+    found = [row for row in rows if row["objective"] is not None]
+    x, y = (np.array([row[key] for row in found], dtype=np.float64) for key in ("limit", "objective"))
+    axes.plot(x, y, color=style.SERIES[0], lw=1.8, zorder=2)
+    for row in found:
+        colour = style.ALARM if row["status"] != "optimal" else style.SERIES[0]
+        face = "white" if row["dominated"] else colour
+        mark = MARKS.get(row["status"], "D")
+        axes.plot(row["limit"], row["objective"], mark, ms=6.5, mfc=face, mec=colour, mew=1.3, zorder=4)
+    axes.set_title(f"{objective}: the least for each limit")
+    axes.set_ylabel(objective if len(objective) < 30 else "objective")
+    if len(y):
+        room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
+        axes.set_ylim(float(y.min()) - room, float(y.max()) + 1.6 * room)
+    axes.tick_params(labelbottom=False)
+
+
+def _prices(axes: Any, rows: Sequence[Mapping[str, Any]], name: str) -> None:
+    priced = [(row["limit"], row["price"]) for row in rows if row["price"] is not None]
+    if priced:
+        x, y = np.array(priced, dtype=np.float64).T
+        axes.vlines(x, 0.0, y, color=style.SERIES[2], lw=2.2)
+        axes.plot(x, y, "o", ms=5, color=style.SERIES[2], mec="white", mew=0.8, zorder=3, clip_on=False)
+        axes.set_ylim(0.0, 1.25 * max(float(y.max()), 1e-3))
+    else:
+        axes.set_yticks([])
+    axes.set_title("price: per cent gained for a limit 1 % looser", size=style.TEXT_SIZE, color=style.SERIES[2])
+    axes.set(xlabel=name, ylabel="% per 1 %")
+
+
+def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Spread the limits, evenly in logarithms where they span a factor, and mark where there is no design."""
+    limits = np.array([row["limit"] for row in rows], dtype=np.float64)
+    low, high = float(limits.min()), float(limits.max())
+    if high > 4.0 * low > 0.0:
+        margin = (high / low) ** 0.035
+        view = (low / margin, high * margin)
+        axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+    else:
+        margin = 0.035 * max(high - low, 0.1 * abs(high))
+        view = (low - margin, high + margin)
+    axes.set_xlim(view)
+    first = min((row["limit"] for row in rows if row["objective"] is not None), default=None)
+    infeasible = [row["limit"] for row in rows if row["status"] == "infeasible"]
+    bottom = axes.get_ylim()[0]
+    for row in rows:
+        if row["objective"] is None:
+            mark = NONE[row["status"]][0]
+            axes.plot(row["limit"], bottom, mark, ms=8, color=style.ALARM, mec="white", clip_on=False, zorder=6)
+    if infeasible and (first is None or max(infeasible) < first):
+        for each in axes.figure.axes:
+            each.axvspan(view[0], max(infeasible), color=style.GRID, lw=0, zorder=0)
+
+
+def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Explain only the marks that are there."""
+    plain: dict[str, Any] = {"ls": "", "ms": 6.5, "mew": 1.3}
+    keys = []
+    if any(row["status"] == "optimal" and not row["dominated"] for row in rows):
+        keys.append(style.key(style.SERIES[0], marker="o", label="optimal", **plain))
+    if any(row["dominated"] for row in rows):
+        label = "no better than a tighter limit"
+        keys.append(style.key(style.SERIES[0], marker="o", mfc="white", label=label, **plain))
+    if any(row["status"] != "optimal" and row["objective"] is not None for row in rows):
+        keys.append(style.key(style.ALARM, marker="D", label="found, not proved", **plain))
+    for status, (mark, words) in NONE.items():
+        if any(row["status"] == status and row["objective"] is None for row in rows):
+            keys.append(style.key(style.ALARM, marker=mark, label=words, ls="", ms=8, mec="white", mew=0.8))
+    axes.legend(handles=keys, loc="upper right")
+
+
+def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float) -> None:
+    """Draw plates from above in a row, in the order of their limits."""
+    ordered = sorted(sketches, key=lambda sketch: sketch.limit)
+    width = 0.885 / len(ordered)
+    figure.text(
+        0.095, share - 0.005, "plates from above, each at its own scale, base dark, platform light", size=style.SMALL_SIZE
+    )
+    for k, sketch in enumerate(ordered):
+        reach = float(np.abs(_joints(sketch)[:, :2]).max())
+        axes = figure.add_axes((0.095 + k * width, 0.005, width, share - 0.045))
+        axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(-1.08 * reach, 1.08 * reach), aspect="equal")
+        axes.set_axis_off()
+        axes.set_title(f"at {sketch.limit:.4g}", size=style.SMALL_SIZE, loc="center", pad=2, weight="normal")
+        joints = _joints(sketch)
+        for body, colour, alpha in ((joints[:6], style.BASE, 0.88), (joints[6:], style.PLATFORM, 0.62)):
+            flat = np.column_stack([body[:, :2], np.zeros(6)])
+            for outline in outlines(flat):
+                axes.add_patch(Polygon(outline[:, :2], fc=colour, ec=style.INK, lw=0.8, alpha=alpha))
+            axes.plot(*flat[:, :2].T, "o", ms=2.6, color=style.INK)
+
+
+def _joints(sketch: Sketch) -> Floats:
+    """Return base joints, then platform joints turned by the twist, shape (12, 3)."""
+    g, cosine, sine = sketch.geometry, math.cos(sketch.theta_z), math.sin(sketch.theta_z)
+    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    platform = np.vstack([g.platform_external, g.platform_internal]) @ turn.T
+    return np.vstack([g.base_external, g.base_internal, platform])

@@ -1,0 +1,142 @@
+"""The condition number at each pose of a design, beside other designs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, ScalarFormatter
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof.plot import style
+
+__all__ = ["PoseConditions", "poses"]
+
+Floats = NDArray[np.float64]
+
+MOST_NAMED = 40  # poses; more have numbers, and not every one
+RANGE = 30.0  # times the least: poses beyond it are drawn at the upper edge
+
+
+@dataclass(frozen=True, eq=False)
+class PoseConditions:
+    """One design at a list of poses."""
+
+    name: str
+    conditions: ArrayLike
+    """Condition number at each pose, shape (n,); infinite where singular."""
+
+
+def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: str = "condition number") -> Figure:
+    """Return a figure of the condition number at each pose: stems for the first design, dots for the others.
+
+    Parameters
+    ----------
+    designs : sequence of PoseConditions
+        One to four, all at the same poses.
+    names : sequence of str
+        Of the poses; their numbers if there are none.
+    index : str
+        What is shown.
+
+    Raises
+    ------
+    ValueError
+        If there are no designs, too many, or their numbers of poses differ.
+
+    Examples
+    --------
+    >>> from ninedof.plot.poses import PoseConditions, poses
+    >>> designs = [PoseConditions("robust", [4.1, 4.3, 4.2]), PoseConditions("neutral only", [3.8, 4.9, 4.4])]
+    >>> figure = poses(designs, names=["neutral", "x + 0.1", "x - 0.1"])
+
+    """
+    if not 0 < len(designs) <= len(style.SERIES):
+        raise ValueError(f"designs: got {len(designs)}, expected 1 to {len(style.SERIES)}")
+    values = [np.atleast_1d(np.asarray(design.conditions, dtype=np.float64)) for design in designs]
+    count = len(values[0])
+    if any(v.shape != (count,) for v in values) or not count:
+        raise ValueError(f"designs: got conditions of shapes {[v.shape for v in values]}, expected one shape (n,)")
+    if len(names) not in (0, count):
+        raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
+    with style.look():
+        longest = max((len(name) for name in names), default=0) if count <= MOST_NAMED else 0
+        below = max(0.95, 0.42 + 0.055 * longest)  # inches: slanted names stand on their ends
+        height = 3.4 + below
+        figure = style.new_figure(8.0, height)
+        axes = figure.add_axes((0.085, below / height, 0.895, 1.0 - (below + 0.4) / height))
+        axes.set_title(f"{index} at each of {count} poses" if count > 1 else index)
+        axes.set_ylabel(index)
+        _scale(axes, values)
+        for k, (colour, v) in enumerate(zip(style.SERIES, values, strict=False)):
+            _one(axes, v, colour, k, len(values))
+        _names(axes, names, count)
+        keys = [
+            style.key(colour, marker="o", ms=6, lw=2.2 if k == 0 else 0, mec="white", label=_label(design.name, v))
+            for k, (colour, design, v) in enumerate(zip(style.SERIES, designs, values, strict=False))
+        ]
+        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.005), ncols=2 if len(keys) > 2 else 4)
+    return figure
+
+
+def _label(name: str, values: Floats) -> str:
+    worst = float(values.max())
+    text = "singular at some" if not np.isfinite(worst) else f"worst {worst:.4g}"
+    return f"{name}: {text}" if len(values) > 1 else f"{name}: {worst:.4g}"
+
+
+def _scale(axes: Any, values: Sequence[Floats]) -> None:
+    """Show all that is finite and not far off, in logarithms where it spans a factor."""
+    every = np.concatenate(values)
+    finite = every[np.isfinite(every)]
+    low = float(finite.min()) if len(finite) else 1.0
+    high = min(float(finite.max()) if len(finite) else 2.0, RANGE * low)
+    if high > 3.0 * low:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter(ScalarFormatter())
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.set_ylim(low / 1.15, high * 1.15)
+    else:
+        room = 0.1 * max(high - low, 0.05 * low)
+        axes.set_ylim(low - room, high + 1.5 * room)
+
+
+def _one(axes: Any, values: Floats, colour: str, k: int, count: int) -> None:
+    """One design: its poses side by side with those of the others, its worst as a line."""
+    x = np.arange(len(values)) + (k - 0.5 * (count - 1)) * min(0.16, 0.5 / count)
+    bottom, top = axes.get_ylim()
+    seen = np.minimum(values, top)
+    if k == 0:
+        axes.vlines(x, bottom, seen, color=colour, lw=2.2 if len(values) <= MOST_NAMED else 1.0, alpha=0.55, zorder=2)
+    off = ~(values <= top)
+    size = 6.0 if len(values) <= MOST_NAMED else 3.5
+    axes.plot(x[~off], seen[~off], "o", ms=size, color=colour, mec="white", mew=0.8, zorder=4)
+    if off.any():
+        axes.plot(x[off], seen[off], "^", ms=size + 2, color=colour, mec="white", mew=0.8, clip_on=False, zorder=5)
+    worst = float(values.max())
+    if worst <= top and len(values) > 1:
+        axes.axhline(worst, color=colour, lw=0.9, ls=(0, (5, 3)), zorder=1)
+
+
+def _names(axes: Any, names: Sequence[str], count: int) -> None:
+    axes.set_xlim(-0.7, count - 0.3)
+    axes.xaxis.grid(False)
+    if count > MOST_NAMED:
+        step = 10 ** int(np.log10(count / 5)) * max(1, round(count / (10 * 10 ** int(np.log10(count / 5)))))
+        shown = list(range(step - 1, count, step))
+        axes.set_xticks(shown, [str(k + 1) for k in shown])
+        axes.set_xlabel("pose")
+        return
+    axes.xaxis.set_major_locator(FixedLocator(list(range(count))))
+    labels = list(names) or [str(k + 1) for k in range(count)]
+    slanted = bool(names) and (max(len(name) for name in names) > 6 or count > 12)
+    axes.set_xticklabels(labels, rotation=55 if slanted else 0, ha="right" if slanted else "center")
+    if slanted:
+        for label in axes.get_xticklabels():
+            label.set_rotation_mode("anchor")
+    if not names:
+        axes.set_xlabel("pose")

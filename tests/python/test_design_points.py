@@ -1,0 +1,287 @@
+"""Single designs of studies: objective, condition numbers, margins and all gradients, for every family and option.
+
+Oracle: design_oracle, which rebuilds everything from the tables of the study file and shares no formula with the core.
+Gradients are held against its central differences; the few places where a kink lies within a step are left out, and
+counted.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from design_margins import segment_distance
+from design_oracle import TRIPLES, Oracle, differences, family_names, is_angle, joints
+from numpy.testing import assert_allclose
+
+import ninedof as nd
+
+FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
+LIMITS = (
+    {
+        "radius_ratio": {"min": 0.5, "max": 2.0},
+        "leg_ratio": {"max": 3.0},
+        "stroke_ratio": {"max": 1.5},
+        "zs_fraction": {"min": 0.1, "max": 0.9},
+        "stroke": {"max": 0.7},
+        "leg_length": {"min": 0.2, "max": 9.0},
+        "height": {"min": 0.5, "max": 8.0},
+        "footprint": {"max": 6.0},
+        "joint_height": {"max": 0.6, "of": "radius"},
+        "joint_spacing": {"min": 0.1, "of": "radius"},
+        "leg_clearance": {"min": 0.05, "of": "zp"},
+        "base_cone": {"max_deg": 70.0, "axis": [0.1, -0.2, 2.0]},
+        "platform_cone": {"max_deg": 60.0},
+        "singularity_free": {},
+    },
+    {
+        "radius_ratio": {"min": 0.9},
+        "leg_ratio": {"min": 1.3, "max": 4.0},
+        "stroke": {"max": 0.2, "of": "zp"},
+        "leg_length": {"max": 2.0, "of": "zp"},
+        "external_length": {"min": 0.1, "max": 5.0},
+        "upper_length": {"min": 0.2, "of": "zp"},
+        "lower_length": {"max": 7.0},
+        "zs_fraction": {"max": 0.8},
+        "footprint": {"min": 0.3, "max": 9.0},
+        "joint_height": {"max": 2.0},
+        "joint_spacing": {"min": 0.05},
+        "leg_clearance": {"radius": 0.02},
+        "base_cone": {"max_deg": 50.0},
+        "platform_cone": {"max_deg": 80.0, "axis": [0.0, 0.3, -1.0]},
+        "singularity_free": {"min": 1e-2, "steps": 3},
+    },
+)
+# (characteristic length, index and aggregate, how many poses, whether O is placed by the tool at the last of them)
+ASKED = (
+    (1.3, {}, 0, False),
+    ("natural", {"aggregate": "worst"}, 3, False),
+    ([0.05, 20.0], {"aggregate": "mean_inverse"}, 3, True),
+    ("mean_leg", {"index": "frobenius", "aggregate": "weighted", "weight": 0.3}, 3, False),
+    ("platform_radius", {"index": "speed"}, 2, True),
+    ("optimal", {"index": "six_legged"}, 0, False),
+)
+
+
+def rounded(a):
+    return [float(x) for x in np.round(a, 6)]
+
+
+def random_design(family, rng):
+    """Values of a family's variables: a robot of ordinary proportions, O between the plates."""
+    v = {}
+    for name in family_names(family) if family != "general" else []:
+        draw = {"angle": rng.uniform(-3.0, 3.0), "height": rng.uniform(-0.5, 0.5)}
+        v[name] = draw.get(name.rsplit("_", 1)[-1], math.exp(rng.uniform(-0.5, 1.0)))
+    if family == "general":  # orbits, each joint then moved on its own
+        for triple in joints("symmetric_nonplanar", random_design("symmetric_nonplanar", rng)):
+            moved = triple + 0.3 * rng.normal(size=(3, 3))
+            v |= dict(zip(itertools.islice(family_names(family), len(v), None), moved.ravel(), strict=False))
+    v["zp"] = rng.uniform(1.5, 4.0)
+    v["zs"] = v["zp"] * rng.uniform(0.25, 0.75)
+    if family in ("hexagonal", "general"):
+        v["theta_z"] = rng.uniform(-1.0, 1.0)
+    return {n: np.float64(x) for n, x in v.items()}
+
+
+def bounds(name):
+    return [-9.0, 9.0] if is_angle(name) or name[-2:] in ("_x", "_y", "_z", "ht") else [1e-3, 50.0]
+
+
+def random_study(family, asked, limits, rng):
+    """Tables of a study file, and a design of it by name."""
+    length, objective, count, placed = asked
+    design = random_design(family, rng)
+    poses = [
+        {
+            "position": rounded(0.15 * rng.normal(size=3)),
+            "rotation": rounded(0.15 * rng.normal(size=3)),
+            "internal_point": rounded(0.1 * rng.normal(size=3)),
+            "unit": ("length", "zp")[k % 2],
+        }
+        for k in range(count)
+    ]
+    if placed:
+        poses[-1]["internal_point"] = "best"
+    if count == 3:
+        poses[0] = {}  # the neutral pose, all by default
+    variables = {n: bounds(n) for n in design}
+    if family == "general" and rng.uniform() < 0.5:  # a part of the joints stays where it is
+        variables |= {n: float(design[n]) for n in family_names(family)[3:20]}
+    data = {
+        "design": {"family": family, "characteristic_length": length},
+        "variables": variables,
+        "constraints": limits,
+        "objective": objective | ({"poses": poses} if poses else {}),
+    }
+    if length == "optimal" or isinstance(length, list):
+        design["characteristic_length"] = rng.uniform(0.5, 2.0)
+    if placed:
+        design |= {f"pose{count}.s_{axis}": x for axis, x in zip("xyz", 0.05 * rng.normal(size=3), strict=True)}
+    return data, design
+
+
+def cases():
+    """Thirty designs a family: five seeds for each of the questions asked."""
+    for family, (k, asked), seed in itertools.product(FAMILIES, enumerate(ASKED), range(5)):
+        if (family, asked[1].get("index")) != ("general", "six_legged"):
+            rng = np.random.default_rng([FAMILIES.index(family), k, seed])
+            yield family, *random_study(family, asked, LIMITS[(k + seed) % 2], rng)
+
+
+CASES = list(cases())
+BY_FAMILY = pytest.mark.parametrize("family", FAMILIES)
+
+
+def of_family(family):
+    return [(data, design) for f, data, design in CASES if f == family]
+
+
+def set_up(data, design):
+    """The core's problem, the oracle, and the design as a vector in the core's order."""
+    problem, oracle = nd.Study.from_dict(data).problem(), Oracle(data)
+    assert set(problem.names) == set(design)
+    return problem, oracle, np.array([design[n] for n in problem.names])
+
+
+def margins_of(core):
+    return {name: value for name, value, _ in core["margins"]}
+
+
+@BY_FAMILY
+def test_values(family):
+    for data, design in of_family(family):
+        problem, oracle, x = set_up(data, design)
+        core, expected = problem.evaluate(x), oracle.evaluate(problem.names, x)
+        exact = 1e-10 * max(1.0, expected["conditions"].max(), expected["condition_number"])
+        for key in ("objective", "condition_number", "conditions"):
+            assert_allclose(core[key], expected[key], rtol=exact, err_msg=f"{key} of {data}")
+        assert problem.characteristic_length(x) == pytest.approx(expected["characteristic_length"], rel=exact)
+        margins = margins_of(core)
+        assert set(margins) == set(data["constraints"])
+        for name, value in expected["margins"].items():
+            assert margins[name] == pytest.approx(value, rel=exact, abs=exact), (name, data)
+
+
+@BY_FAMILY
+def test_gradients(family):
+    """Of log(objective) and of every margin, in every free variable: joints, heights, l_c, places of O."""
+    compared = left_out = 0
+    for data, design in of_family(family):
+        problem, oracle, x = set_up(data, design)
+        names, core = problem.names, problem.evaluate(x)
+        free = np.array([not isinstance(data["variables"].get(n), float) for n in names])
+
+        def values(y, oracle=oracle, names=names):
+            found = oracle.evaluate(names, y)
+            return {"log objective": np.log(found["objective"])} | found["margins"]
+
+        found = {"log objective": core["gradient"]} | {name: slope for name, _, slope in core["margins"]}
+        for name, (expected, doubt) in differences(values, x, 1e-3 * np.maximum(np.abs(x), 0.1)).items():
+            scale = 1.0 + np.abs(expected[free]).max()
+            sure = free & (doubt <= 1e-6 * scale)
+            assert_allclose(
+                np.asarray(found[name])[sure], expected[sure], rtol=0.0, atol=1e-6 * scale, err_msg=f"{name} of {data}"
+            )
+            compared, left_out = compared + sure.sum(), left_out + (free & ~sure).sum()
+    assert left_out <= 0.03 * compared
+
+
+@BY_FAMILY
+def test_joints_and_poses(family):
+    for data, design in of_family(family):
+        problem, oracle, x = set_up(data, design)
+        g = problem.geometry(x)
+        for triple, expected in zip(TRIPLES, joints(family, design), strict=True):
+            assert_allclose(getattr(g, triple), expected, atol=1e-13)
+        for found, expected in zip(
+            problem.configurations(x), oracle.evaluate(problem.names, x)["configurations"], strict=True
+        ):
+            assert_allclose(found, expected, atol=1e-13)
+
+
+@BY_FAMILY
+def test_a_study_tells_what_its_problem_does(family):
+    data, design = of_family(family)[5]
+    point = nd.Study.from_dict(data).evaluate({n: float(x) for n, x in design.items()})
+    expected = Oracle(data).evaluate(list(design), np.array(list(design.values())))
+    assert point.objective == pytest.approx(expected["objective"], rel=1e-8)
+    assert point.condition_number == pytest.approx(expected["condition_number"], rel=1e-8)
+    assert_allclose(point.conditions, expected["conditions"], rtol=1e-8)
+    assert point.margins == pytest.approx({n: float(m) for n, m in expected["margins"].items()}, rel=1e-8, abs=1e-8)
+
+
+# --- Units ------------------------------------------------------------------------------------------------------------
+
+IN_FRACTIONS = ("radius_ratio", "leg_ratio", "stroke_ratio", "zs_fraction", "singularity_free")
+
+
+def in_unit(data, design, unit):
+    """The same study and design with every length times `unit`."""
+
+    def length(value):
+        return [x * unit for x in value] if isinstance(value, list) else value * unit
+
+    limits = {}
+    for name, options in data["constraints"].items():
+        by_length = options.get("of", "length") == "length" and name not in IN_FRACTIONS
+        limits[name] = {
+            key: length(x) if by_length and key in ("min", "max", "radius") else x for key, x in options.items()
+        }
+    poses = []
+    for pose in data["objective"].get("poses", []):
+        keys = ("position", "internal_point") if pose.get("unit") == "length" else ()
+        poses.append({k: length(x) if k in keys and not isinstance(x, str) else x for k, x in pose.items()})
+    l_c = data["design"]["characteristic_length"]
+    scaled = {
+        "design": data["design"] | {"characteristic_length": l_c if isinstance(l_c, str) else length(l_c)},
+        "variables": {n: b if is_angle(n) else length(b) for n, b in data["variables"].items()},
+        "constraints": limits,
+        "objective": data["objective"] | ({"poses": poses} if poses else {}),
+    }
+    return scaled, {n: x if is_angle(n) or ".s_" in n else x * unit for n, x in design.items()}
+
+
+@BY_FAMILY
+@pytest.mark.parametrize("unit", [1e-6, 1e6])
+def test_the_unit_of_length_does_not_matter(family, unit):
+    for data, design in of_family(family)[::3]:
+        problem, _, x = set_up(data, design)
+        other, _, y = set_up(*in_unit(data, design, unit))
+        one, two = problem.evaluate(x), other.evaluate(y)
+        exact = 1e-11 * max(1.0, *one["conditions"], one["condition_number"])
+        for key in ("objective", "condition_number", "conditions"):
+            assert_allclose(two[key], one[key], rtol=exact)
+        assert margins_of(two) == pytest.approx(margins_of(one), rel=exact, abs=exact)
+        per_length = y / x  # a gradient in a length shrinks as the length grows
+        assert_allclose(
+            two["gradient"] * per_length, one["gradient"], rtol=0.0, atol=1e-8 * (1 + max(one["conditions"]))
+        )
+
+
+# --- Shared joints ----------------------------------------------------------------------------------------------------
+
+
+def test_legs_that_meet_by_construction_have_no_distance():
+    """Coupled triangles, a1 and b2 fixed at 0: pairs of an external and an internal leg on one joint do not count."""
+    values = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435, "theta_z": 0.0}
+    limits = {"leg_clearance": {"min": 0.05, "of": "zp"}}
+    variables = values | {"a2": [1.0, 9.0], "b1": [1.0, 9.0]}
+    data = {"design": {"family": "hexagonal"}, "variables": variables, "constraints": limits}
+    expected = Oracle(data).evaluate(list(values), list(values.values()))["margins"]["leg_clearance"]
+    found = nd.Study.from_dict(data).evaluate(values).margins["leg_clearance"]
+    assert found == pytest.approx(expected, rel=1e-12)
+    assert found > 0.0
+
+
+def test_the_oracle_of_distances():
+    """Against a fine grid on both segments."""
+    rng = np.random.default_rng(5)
+    ends = rng.normal(size=(4, 200, 3))
+    ends[3, :20] = ends[2, :20] + 0.7 * (ends[1, :20] - ends[0, :20])  # parallel
+    t = np.linspace(0.0, 1.0, 121)[:, None, None]
+    a, b, c, d = ends
+    grid = np.linalg.norm((a + t * (b - a))[:, None] - (c + t * (d - c))[None], axis=-1).min(axis=(0, 1))
+    exact = segment_distance(a, b, c, d)
+    assert (exact <= grid + 1e-12).all()
+    assert_allclose(exact, grid, atol=0.05)

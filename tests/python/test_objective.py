@@ -1,0 +1,229 @@
+"""Objectives, poses and sets of poses: what they hold, and what they refuse. Study files are in test_study_file.py."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import ninedof as nd
+from ninedof import poses
+
+NAN, INF = math.nan, math.inf
+
+
+def message(entry):
+    return rf"(?s)^{entry}: got .+, expected .+"
+
+
+def positions(found):
+    return np.array([pose.position for pose in found])
+
+
+# --- Pose -------------------------------------------------------------------------------------------------------------
+
+
+def test_the_neutral_pose_is_the_default():
+    assert nd.Pose() == nd.Pose((0, 0, 0), np.zeros(3), [0, 0, 0], "length")
+    assert nd.Pose().to_dict() == {}
+    assert nd.Pose().for_core() == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), False, False)
+
+
+def test_numbers_of_any_kind_become_floats():
+    pose = nd.Pose(np.array([1, 2, 3], dtype=np.int32), (np.float32(0.5), 0, 1), [0, np.int8(1), 0], "zp")
+    assert (pose.position, pose.rotation, pose.internal_point) == ((1.0, 2.0, 3.0), (0.5, 0.0, 1.0), (0.0, 1.0, 0.0))
+    assert {type(x) for v in (pose.position, pose.rotation, pose.internal_point) for x in v} == {float}
+    assert len({pose, pickle.loads(pickle.dumps(pose))}) == 1
+
+
+BAD_VECTORS = {
+    "number": 1.0,
+    "two": (0.0, 1.0),
+    "four": (0.0, 1.0, 2.0, 3.0),
+    "empty": (),
+    "nan": (0.0, NAN, 0.0),
+    "infinite": (INF, 0.0, 0.0),
+    "bool": (True, 0.0, 0.0),
+    "numpy bool": np.array([True, False, False]),
+    "text": ("0", "0", "0"),
+    "none": None,
+    "nested": [[0.0, 0.0, 0.0]] * 3,
+    "complex": (1j, 0.0, 0.0),
+    "mapping": {"x": 0.0},
+    "no dimension": np.array(1.0),
+    "huge": (10**400, 0, 0),
+    "longer than Python spells": (10**5000, 0, 0),
+}
+
+
+@pytest.mark.parametrize("bad", BAD_VECTORS.values(), ids=BAD_VECTORS.keys())
+@pytest.mark.parametrize("entry", ["position", "rotation", "internal_point"])
+def test_bad_vectors_of_a_pose(entry, bad):
+    with pytest.raises(ValueError, match=message(entry)):
+        nd.Pose(**{entry: bad})
+
+
+@pytest.mark.parametrize(("entry", "slip", "hint"), [("internal_point", "bets", "best"), ("unit", "lenght", "length")])
+def test_bad_words_of_a_pose(entry, slip, hint):
+    with pytest.raises(ValueError, match=rf"^{entry}: got '{slip}', expected one of .*did you mean '{hint}'"):
+        nd.Pose(**{entry: slip})
+
+
+def test_best_place_takes_no_shift():
+    assert nd.Pose(internal_point="best").for_core()[2:4] == ((0.0, 0.0, 0.0), True)
+    assert nd.Pose(internal_point=(1, 0, 0)).for_core()[2:4] == ((1.0, 0.0, 0.0), False)
+
+
+# --- Sets -------------------------------------------------------------------------------------------------------------
+
+
+def test_box():
+    found = positions(poses.box((0.1, 0.2, 0.3)))
+    assert len({*map(tuple, found)}) == 27
+    assert_allclose(np.abs(found).max(axis=0), [0.1, 0.2, 0.3])
+    assert set(found[:, 0]) == {-0.1, 0.0, 0.1}
+    assert len(poses.box((0.1, 0.0, 0.3))) == 9
+    assert poses.box((0, 0, 0)) == (nd.Pose(),)
+    assert set(positions(poses.box((1, 0, 0), points=2))[:, 0]) == {-1.0, 1.0}
+    assert set(positions(poses.box((1, 0, 0), points=5))[:, 0]) == {-1.0, -0.5, 0.0, 0.5, 1.0}
+    assert poses.box((1, 1, 1), points=1) == (nd.Pose(),)
+
+
+def test_grids_are_exactly_symmetric():
+    for points in range(2, 30):
+        found = positions(poses.box((0.1, 0, 0), points=points))[:, 0]
+        assert np.array_equal(found, -found[::-1])
+
+
+def test_tilts_are_at_the_centre_one_axis_at_a_time():
+    tilted = poses.box((0.1, 0, 0), tilt_deg=(10, 0, 5))[3:]
+    ten, five = math.radians(10), math.radians(5)
+    assert [p.rotation for p in tilted] == [(ten, 0, 0), (-ten, 0, 0), (0, 0, five), (0, 0, -five)]
+    assert {p.position for p in tilted} == {(0.0, 0.0, 0.0)}
+    assert tilted == poses.ball(1.0, points=2, tilt=(ten, 0, five))[2:]
+
+
+def test_ball_is_filled_evenly():
+    found = positions(poses.ball(2.0, points=1001))
+    distance = np.linalg.norm(found, axis=1)
+    assert np.array_equal(found[0], np.zeros(3))
+    assert distance.max() == pytest.approx(2.0)
+    assert (distance < 1.0).mean() == pytest.approx(1 / 8, abs=2e-3)  # an eighth of the volume
+    octants = np.unique(found[1:] > 0.0, axis=0, return_counts=True)[1]
+    assert octants == pytest.approx(125, abs=8)
+    assert poses.ball(1.0, points=1) == (nd.Pose(),)
+    assert len(poses.ball(1.0)) == 33
+    assert poses.ball(0.0, points=2) == (nd.Pose(), nd.Pose())
+
+
+def test_path_is_even_in_arc_length():
+    found = positions(poses.path([[0, 0, 0], [1, 0, 0], [1, 3, 0]], points=9))
+    assert_allclose(np.linalg.norm(np.diff(found, axis=0), axis=1), 0.5)
+    assert_allclose(found[[0, 2, -1]], [[0, 0, 0], [1, 0, 0], [1, 3, 0]])
+    assert len(poses.path([[0, 0, 0], [1, 0, 0]])) == 17
+
+
+def test_path_turns_between_its_corners():
+    turned = poses.path([[0, 0, 0], [1, 0, 0], [1, 1, 0]], rotations_deg=[[0, 0, 0], [0, 20, 0], [0, 20, 30]], points=5)
+    assert_allclose(np.degrees([p.rotation for p in turned])[[1, 3]], [[0, 10, 0], [0, 20, 15]])
+    in_place = poses.path([[0, 0, 1]] * 2, rotations=[[0, 0, 0], [0, 0, 1]], points=3)
+    assert [p.rotation[2] for p in in_place] == [0.0, 0.5, 1.0]
+
+
+def test_unit_and_place_of_o_hold_for_the_whole_set():
+    same = {"unit": "zp", "internal_point": "best"}
+    for found in (
+        poses.box((0.1, 0.1, 0.1), tilt_deg=(1, 1, 1), **same),
+        poses.ball(0.1, tilt_deg=(1, 1, 1), **same),
+        poses.path([[0, 0, 0], [1, 0, 0]], **same),
+    ):
+        assert {(p.unit, p.internal_point) for p in found} == {("zp", "best")}
+
+
+LINE = [[0, 0, 0], [1, 0, 0]]
+BAD_SETS = {
+    "half negative": (lambda: poses.box((-0.1, 0, 0)), "half"),
+    "half as number": (lambda: poses.box(0.1), "half"),
+    "half nan": (lambda: poses.box((NAN, 0, 0)), "half"),
+    "no points": (lambda: poses.box((1, 1, 1), points=0), "points"),
+    "points as decimal": (lambda: poses.box((1, 1, 1), points=3.0), "points"),
+    "points bool": (lambda: poses.ball(1.0, points=True), "points"),
+    "too many": (lambda: poses.box((1, 1, 1), points=100), "points"),
+    "far too many": (lambda: poses.ball(1.0, points=10**9), "points"),
+    "tilt twice": (lambda: poses.box((1, 1, 1), tilt=(0, 0, 0), tilt_deg=(0, 0, 0)), "tilt"),
+    "tilt negative": (lambda: poses.box((1, 1, 1), tilt_deg=(-1, 0, 0)), "tilt_deg"),
+    "tilt as number": (lambda: poses.ball(1.0, tilt=0.1), "tilt"),
+    "radius nan": (lambda: poses.ball(NAN), "radius"),
+    "radius infinite": (lambda: poses.ball(INF), "radius"),
+    "radius bool": (lambda: poses.ball(True), "radius"),
+    "radius as text": (lambda: poses.ball("1"), "radius"),
+    "path of nothing": (lambda: poses.path([]), "positions"),
+    "path of numbers": (lambda: poses.path([0, 1, 2]), r"positions\[0\]"),
+    "path of one point": (lambda: poses.path(LINE, points=1), "points"),
+    "rotations too few": (lambda: poses.path(LINE, rotations=[[0, 0, 0]]), "rotations"),
+    "rotations twice": (lambda: poses.path(LINE, rotations=LINE, rotations_deg=LINE), "rotations"),
+    "rotation nan": (lambda: poses.path(LINE, rotations=[[0, 0, 0], [NAN, 0, 0]]), r"rotations\[1\]"),
+    "turning without moving": (
+        lambda: poses.path([[0, 0, 0], *LINE], rotations=[[0, 0, 0], [0, 0, 1], [0, 0, 1]]),
+        r"positions\[1\]",
+    ),
+    "no such unit": (lambda: poses.ball(1.0, unit="mm"), "unit"),
+}
+
+
+@pytest.mark.parametrize(("make", "entry"), BAD_SETS.values(), ids=BAD_SETS.keys())
+def test_bad_sets(make, entry):
+    with pytest.raises(ValueError, match=message(entry)):
+        make()
+
+
+# --- Objective --------------------------------------------------------------------------------------------------------
+
+
+def test_the_default_is_the_neutral_condition_number():
+    assert nd.Study().objective == nd.Objective()
+    assert nd.Objective().to_dict() == {"index": "condition_number"}
+    assert nd.Objective().words == "condition number"
+    assert nd.Objective().for_core()["condition_limit"] == INF
+
+
+def test_an_objective_is_a_value():
+    one = nd.Objective(index="speed", condition_limit=10, poses=[{"position": [1, 0, 0]}, nd.Pose()])
+    assert one.poses == (nd.Pose((1, 0, 0)), nd.Pose())
+    assert one == nd.Objective.from_dict(one.to_dict()) == pickle.loads(pickle.dumps(one))
+    assert len({one, nd.Objective.from_dict(one.to_dict())}) == 1
+    with pytest.raises(AttributeError):
+        one.index = "frobenius"
+
+
+def test_an_infinite_condition_limit_is_none():
+    assert nd.Objective(condition_limit=INF) == nd.Objective()
+
+
+BAD = {
+    "index": ("index", ["condition", "", None, 1, True, ["speed"]]),
+    "aggregate": ("aggregate", ["mean", None, 0.5]),
+    "weight": ("weight", [-0.1, 1.1, NAN, True, "0.5", None]),
+    "condition_limit": ("condition_limit", [0.9, NAN, -INF, True, "10", (1.0, 2.0)]),
+    "poses": ("poses", [None, 3, "stay", nd.Pose(), {"position": [0, 0, 0]}, iter([nd.Pose()])]),
+    "entries": (r"poses\[0\]", [[3], [None], ["stay"], [(0.1, 0, 0)], [{"positon": (0, 0, 0)}]]),
+}
+
+
+@pytest.mark.parametrize(("entry", "values"), BAD.values(), ids=BAD.keys())
+def test_bad_entries_of_an_objective(entry, values):
+    for bad in values:
+        with pytest.raises(ValueError, match=message(rf"objective\.{entry}")):
+            nd.Objective(**{entry.split("\\")[0]: bad})
+
+
+def test_six_legs_have_the_neutral_pose_alone():
+    with pytest.raises(ValueError, match=message(r"objective\.poses")):
+        nd.Objective(index="six_legged", poses=(nd.Pose(),))
+
+
+@pytest.mark.parametrize("bad", [None, 3, [], "x", {"pose": []}, {"poses": {}}, {"box": {}}, {"ball": 1}], ids=repr)
+def test_bad_tables_of_an_objective(bad):
+    with pytest.raises(ValueError, match=message("objective.*")):
+        nd.Objective.from_dict(bad)
