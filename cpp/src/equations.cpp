@@ -3,27 +3,17 @@
 #include <algorithm>
 
 namespace ninedof {
-namespace {
-
-int pose_of(const Prepared& p, int row) {
-  int pose = 0;
-  while (row >= p.first_row(pose + 1)) ++pose;
-  return pose;
-}
-
-}  // namespace
-
 ActiveEquations::ActiveEquations(const Prepared& p, const Look& l, const ActiveSet& a, double gap)
     : p_(&p), margins_(a.margins) {
   std::vector<int> poses;
   for (const int k : a.uses) {
-    const int pose = pose_of(p, p.uses[static_cast<std::size_t>(k)].row);
+    const int pose = p.pose_of(p.uses[static_cast<std::size_t>(k)].row);
     if (std::ranges::find(poses, pose) == poses.end()) poses.push_back(pose);
   }
   if (gap > 0.0) groups_ = coalesced_groups(p, l, poses, gap);
   for (const int k : a.uses) {
     const Use& u = p.uses[static_cast<std::size_t>(k)];
-    const int pose = pose_of(p, u.row);
+    const int pose = p.pose_of(u.row);
     const bool held = std::ranges::any_of(groups_, [&](const Coalesced& c) { return c.pose() == pose; });
     if (!held) {
       plain_.push_back(k);

@@ -13,6 +13,9 @@ namespace {
 /// Smoothings of singular values that meet, in logarithms, one after the other.
 constexpr std::array smoothings{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 
+/// Tolerances of SLSQP: the last digits are Newton's work where it takes, and its own where not.
+constexpr double loose = 1e-10, tight = 1e-13;
+
 /// Whether `next` is the better point to stand on: a regular design before a singular one, allowed before not allowed, then
 /// the lower condition number, then, of two equal ones, the more nearly stationary.
 bool improves(const Candidate& next, const Candidate& now) {
@@ -67,16 +70,16 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     y = p.helped(next);
     return true;
   };
-  const auto solve = [&](const Eigen::VectorXd& from, double smoothing) {
-    Eigen::VectorXd end = subproblem.solve(from, smoothing, effort.max_evaluations);
+  const auto solve = [&](const Eigen::VectorXd& from, double smoothing, double tolerance) {
+    Eigen::VectorXd end = subproblem.solve(from, smoothing, tolerance, effort.max_evaluations);
     run.evaluations = subproblem.evaluations();
     return end;
   };
 
   Eigen::VectorXd from = y;
   for (int attempt = 0; attempt <= effort.restarts && !stop.stop_requested(); ++attempt) {
-    bool better = take(solve(from, 0.0));
-    better |= take(subproblem.seen());
+    bool better = take(solve(from, 0.0, attempt == 0 && effort.polished ? loose : tight));
+    if (subproblem.seen() != y) better |= take(subproblem.seen());
     if (formulation == Formulation::plain) return run;
     if (effort.polished && run.end.feasible() && run.end.optimality_residual < 1e-2) take(polish(p, y));
     if (settled()) break;
@@ -86,7 +89,7 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
       Eigen::VectorXd smoothed = y;
       for (const double epsilon : smoothings) {
         if (stop.stop_requested()) break;
-        smoothed = solve(smoothed, epsilon);
+        smoothed = solve(smoothed, epsilon, tight);
         take(smoothed);
       }
       take(polish(p, smoothed, smoothings.back()));

@@ -46,16 +46,18 @@ std::vector<int> PoseSpectrum::bottoms() const {
   return {bottoms_of(closed).begin(), bottoms_of(closed).end()};
 }
 
-void general_spectrum(const View& v, int pose, PoseSpectrum& out) {
+void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivatives) {
   const PoseView& at = v.pose(pose);
   out.closed = false;
   out.general = spectrum(at.at, at.legs, v.characteristic_length);
-  out.gradient.setZero(6, v.columns());
+  const auto gone = [&](int k) { return !(out.general.sigma[k] > tiny); };
+  for (int k = 0; k < 6; ++k) out.log_sigma[k] = std::log(!gone(k) ? out.general.sigma[k] : k == 0 ? 1.0 : tiny);
+  out.gradient.resize(6, v.columns());
+  if (!derivatives) return;
+  out.gradient.setZero();
   for (int k = 0; k < 6; ++k) {
     const double sigma = out.general.sigma[k];
-    const bool gone = !(sigma > tiny);
-    out.log_sigma[k] = std::log(!gone ? sigma : k == 0 ? 1.0 : tiny);
-    if (gone) continue;
+    if (gone(k)) continue;
     PointGradient g = zero_gradient();
     add_spectrum_gradient(at.at, at.legs, out.general, k, k, 0.5 / (sigma * sigma), g);
     v.add(pose, g, out.gradient.row(k));

@@ -24,8 +24,9 @@ struct PoseSpectrum {
   double log_min() const { return closed ? std::min(log_sigma[1], log_sigma[3]) : log_sigma[5]; }
 };
 
-/// Singular values of the nine-legged robot at a pose of the view, through the six values.
-void general_spectrum(const View& v, int pose, PoseSpectrum& out);
+/// Singular values of the nine-legged robot at a pose of the view, through the six values; without `derivatives` the gradient is
+/// left as it was.
+void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivatives = true);
 
 /// Through the closed form: `shift` from the neutral configuration, s_z of the pose taken from `place`.
 void closed_spectrum(const DesignFamily& family, const View& v, const Place& place, Machine machine, PoseSpectrum& out);

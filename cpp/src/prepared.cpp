@@ -150,6 +150,11 @@ bool Prepared::kinked() const {
          std::ranges::find(closed, false) != closed.end();
 }
 
+int Prepared::pose_of(int row) const {
+  const auto next = std::ranges::upper_bound(first_row_, row);
+  return static_cast<int>(next - first_row_.begin()) - 1;
+}
+
 double Prepared::margin_price(int k) const {
   const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
   return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->price_factor(row);
@@ -188,7 +193,7 @@ double Prepared::objective(const Eigen::VectorXd& t, Eigen::VectorXd* slopes) co
 
 namespace {
 
-void look_at_margins(const Prepared& p, const std::vector<int>* wanted, Look& out) {
+void look_at_margins(const Prepared& p, const Wanted* wanted, Look& out) {
   const auto count = static_cast<Eigen::Index>(p.margins.size());
   out.m.resize(count);
   out.m_gradient.resize(count, p.coordinates.size());
@@ -213,12 +218,12 @@ void look_at_margins(const Prepared& p, const std::vector<int>* wanted, Look& ou
   if (wanted == nullptr)
     for (Eigen::Index k = 0; k < count; ++k) differentiate(k);
   else
-    for (const int k : *wanted) differentiate(k);
+    for (const int k : wanted->margins) differentiate(k);
 }
 
 }  // namespace
 
-void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const std::vector<int>* margins) {
+void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const Wanted* wanted) {
   out.view.set(*p.family, p.coordinates, p.problem.characteristic_length, p.places, p.looked, y);
   out.view.unit = p.problem.unit();
   const Eigen::Index n = p.coordinates.size();
@@ -232,7 +237,7 @@ void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const std::vec
     const int place = out.view.first + k;
     if (p.closed[static_cast<std::size_t>(k)])
       closed_spectrum(*p.family, out.view, p.places[static_cast<std::size_t>(place)], machine, s);
-    else general_spectrum(out.view, place, s);
+    else general_spectrum(out.view, place, s, wanted == nullptr || wanted->poses[static_cast<std::size_t>(k)]);
     if (out.smoothing > 0.0 && p.kinked() && !s.closed)
       fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.f, out.f_gradient);
     else fill_index(p.problem.objective.index, s, p.first_row(k), out.f, out.f_gradient);
@@ -241,7 +246,7 @@ void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const std::vec
   for (const Use& u : p.uses) out.levels[u.level] = std::max(out.levels[u.level], out.f[u.row]);
   out.log_objective = p.objective(out.levels);
 
-  look_at_margins(p, margins, out);
+  look_at_margins(p, wanted, out);
 }
 
 double order_violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {

@@ -55,6 +55,8 @@ struct Prepared {
   /// Rows of the objective that belong to a pose looked at.
   int first_row(int pose) const { return first_row_[static_cast<std::size_t>(pose)]; }
 
+  int pose_of(int row) const;
+
   /// The objective, as a logarithm, and its derivatives with respect to the levels.
   double objective(const Eigen::VectorXd& levels, Eigen::VectorXd* slopes = nullptr) const;
 
@@ -78,8 +80,14 @@ struct Look {
   double smoothing = 0.0;
 };
 
-/// Evaluates the design at `y` into `out`; derivatives of `margins` only, where they are given.
-void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const std::vector<int>* margins = nullptr);
+/// What derivatives are asked for: of margins by index, and of all singular values of a pose looked at.
+struct Wanted {
+  std::vector<int> margins;
+  std::vector<bool> poses;
+};
+
+/// Evaluates the design at `y` into `out`; all derivatives, or those wanted. The others are left as they were.
+void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const Wanted* wanted = nullptr);
 
 /// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
 double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y);

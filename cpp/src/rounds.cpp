@@ -89,7 +89,9 @@ std::vector<Eigen::VectorXd> scouted(const Prepared& p, double cap, const Settin
     return scout.coordinates.coordinates(x.head(static_cast<Eigen::Index>(scout.problem.names().size())));
   };
   Round short_runs;
-  run_all(scout, start_count(p, s), start, {scouting_evaluations + and_for_each_variable * scout.coordinates.size(), 0, false}, s, control, &progress, short_runs);
+  run_all(scout, start_count(p, s), start,
+          {scouting_evaluations + and_for_each_variable * scout.coordinates.size(), 0, false}, s, control, &progress,
+          short_runs);
   std::vector<Eigen::VectorXd> out;
   const auto followed = std::max<std::size_t>(followed_at_least, short_runs.runs.size() / 8);
   for (const std::size_t k : ranked(short_runs)) {
@@ -127,6 +129,12 @@ std::vector<Eigen::VectorXd> recombined(const Prepared& p, const Settings& s, co
     out.push_back(std::move(y));
   }
   return out;
+}
+
+/// How many more starts: the more variables, the more ways to be half right.
+int second_look(const Prepared& p, const Round& round) {
+  const double share = std::min(1.0, p.coordinates.size() / 25.0);
+  return std::max(1, static_cast<int>(share * static_cast<double>(round.runs.size())));
 }
 
 /// Whether enough runs ended at the best objective.
@@ -170,7 +178,7 @@ Round run_round(const Prepared& p, double cap, const std::vector<Eigen::VectorXd
   for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
   run_all(p, more, full, s, control, round);
   if (p.coordinates.size() > 1 && s.starts > 1 && !agree(round))
-    run_all(p, recombined(p, s, round, std::max(1, static_cast<int>(round.runs.size()) / 2)), full, s, control, round);
+    run_all(p, recombined(p, s, round, second_look(p, round)), full, s, control, round);
   for (const auto& run : round.runs)
     if (run) round.evaluations += run->evaluations;
   return round;

@@ -12,9 +12,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// All rows are taken where there are no more than this.
 constexpr std::size_t few_rows = 150;
 /// Rows of the objective this far below their level, and margins this large, are left out at first: logarithms of ratios.
-constexpr double far_below = 0.5, large_margin = 0.3;
+constexpr double far_below = 0.2, large_margin = 0.1;
 /// What joins once a row that was left out is violated, and how often that may happen.
-constexpr double joins = 0.1;
+constexpr double joins = 0.05;
 constexpr int rounds = 8;
 
 /// An Nlp over the free coordinates and `extra` unbounded ones.
@@ -63,16 +63,26 @@ Eigen::VectorXd ruling_gradient(const Prepared& p, const Look& l, const Eigen::V
 
 void Subproblem::choose(const Look& l) {
   uses_.clear();
-  margins_.clear();
+  wanted_.margins.clear();
   if (p_.uses.size() + p_.margins.size() <= few_rows) {
     uses_ = all_of(p_.uses.size());
-    margins_ = all_of(p_.margins.size());
+    wanted_.margins = all_of(p_.margins.size());
     return;
   }
   for (std::size_t k = 0; k < p_.uses.size(); ++k)
     if (l.f[p_.uses[k].row] >= l.levels[p_.uses[k].level] - far_below) uses_.push_back(static_cast<int>(k));
   for (Eigen::Index k = 0; k < l.m.size(); ++k)
-    if (l.m[k] <= large_margin) margins_.push_back(static_cast<int>(k));
+    if (l.m[k] <= large_margin) wanted_.margins.push_back(static_cast<int>(k));
+}
+
+void Subproblem::note_wanted() {
+  wanted_.poses.assign(static_cast<std::size_t>(std::max(p_.looked, 1)), false);
+  for (const int k : uses_)
+    wanted_.poses[static_cast<std::size_t>(p_.pose_of(p_.uses[static_cast<std::size_t>(k)].row))] = true;
+  for (const int k : wanted_.margins) {
+    const int constraint = p_.margins[static_cast<std::size_t>(k)].constraint;
+    if (constraint < 0) wanted_.poses[static_cast<std::size_t>(-1 - constraint)] = true;
+  }
 }
 
 bool Subproblem::add_violated(const Look& l) {
@@ -87,15 +97,15 @@ bool Subproblem::add_violated(const Look& l) {
     }
   }
   for (Eigen::Index k = 0; k < l.m.size(); ++k)
-    if (l.m[k] <= joins && !has(margins_, static_cast<int>(k))) {
+    if (l.m[k] <= joins && !has(wanted_.margins, static_cast<int>(k))) {
       margins.push_back(static_cast<int>(k));
       violated |= l.m[k] < -clearly_allowed;
     }
   if (!violated) return false;
   uses_.insert(uses_.end(), uses.begin(), uses.end());
-  margins_.insert(margins_.end(), margins.begin(), margins.end());
+  wanted_.margins.insert(wanted_.margins.end(), margins.begin(), margins.end());
   std::ranges::sort(uses_);
-  std::ranges::sort(margins_);
+  std::ranges::sort(wanted_.margins);
   return true;
 }
 
@@ -106,7 +116,7 @@ void Subproblem::fill(const Look& l, const Eigen::VectorXd& at, Nlp::Values& out
     // The objective itself, with the gradient of the rows that rule.
     out.f = p_.objective(l.levels, &slopes);
     out.f_gradient = ruling_gradient(p_, l, slopes);
-    return write_constraints(p_, l, margins_, at, 0, out);
+    return write_constraints(p_, l, wanted_.margins, at, 0, out);
   }
   out.f = p_.objective(at.tail(p_.levels), &slopes);
   out.f_gradient.setZero();
@@ -118,14 +128,15 @@ void Subproblem::fill(const Look& l, const Eigen::VectorXd& at, Nlp::Values& out
     out.c_gradient.row(row).head(n) = l.f_gradient.row(u.row);
     out.c_gradient(row++, n + u.level) = -1.0;
   }
-  write_constraints(p_, l, margins_, at, row, out);
+  write_constraints(p_, l, wanted_.margins, at, row, out);
 }
 
-Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, int max_evaluations) {
+Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, int max_evaluations) {
   const int n = p_.coordinates.size();
-  Nlp nlp = blank(p_, minimax() ? p_.levels : 0, (minimax() ? uses_.size() : 0) + margins_.size() + 1);
+  note_wanted();
+  Nlp nlp = blank(p_, minimax() ? p_.levels : 0, (minimax() ? uses_.size() : 0) + wanted_.margins.size() + 1);
   nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
-    look(p_, at.head(n), l_, &margins_);
+    look(p_, at.head(n), l_, &wanted_);
     ++evaluations_;
     fill(l_, at, out);
     const double violated = violation(p_, l_, at.head(n));
@@ -139,10 +150,11 @@ Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, int max_evaluations
   Eigen::VectorXd full(nlp.variables);
   full.head(n) = from;
   if (minimax()) full.tail(p_.levels) = l_.levels;
-  return slsqp(nlp, full, {.max_evaluations = max_evaluations}).head(n);
+  return slsqp(nlp, full, {.tolerance = tolerance, .max_evaluations = max_evaluations}).head(n);
 }
 
-Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, double smoothing, int max_evaluations) {
+Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, double smoothing, double tolerance,
+                                  int max_evaluations) {
   seen_ = from;
   seen_objective_ = infinity;
   l_.smoothing = smoothing;
@@ -150,7 +162,7 @@ Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, double smoothing,
   choose(l_);
   Eigen::VectorXd y = from;
   for (int round = 0; round < rounds; ++round) {
-    y = run(y, max_evaluations);
+    y = run(y, tolerance, max_evaluations);
     if (stop_.stop_requested()) break;
     look(p_, y, l_);
     if (!add_violated(l_)) break;

@@ -27,8 +27,9 @@ class Subproblem {
   Subproblem(const Prepared& p, Formulation formulation, std::stop_token stop, Observer observer)
       : p_(p), formulation_(formulation), stop_(std::move(stop)), observer_(std::move(observer)) {}
 
-  /// The point SLSQP ends at, from `from`, in solver coordinates. `smoothing`: see Look.
-  Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, int max_evaluations);
+  /// The point SLSQP ends at, from `from`, in solver coordinates. `smoothing`: see Look; `tolerance`:
+  /// relative, on objective and coordinates.
+  Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, double tolerance, int max_evaluations);
 
   /// The allowed design of least objective that the last call looked at, or where it began. NLopt returns its own choice among
   /// the points it saw, by a measure that counts the levels.
@@ -40,7 +41,7 @@ class Subproblem {
   void choose(const Look& l);
   bool add_violated(const Look& l);
   void fill(const Look& l, const Eigen::VectorXd& at, Nlp::Values& out) const;
-  Eigen::VectorXd run(const Eigen::VectorXd& from, int max_evaluations);
+  Eigen::VectorXd run(const Eigen::VectorXd& from, double tolerance, int max_evaluations);
   bool minimax() const { return formulation_ == Formulation::minimax; }
 
   const Prepared& p_;
@@ -48,7 +49,10 @@ class Subproblem {
   std::stop_token stop_;
   Observer observer_;
   Look l_;
-  std::vector<int> uses_, margins_;  ///< rows taken
+  void note_wanted();
+
+  std::vector<int> uses_;  ///< rows taken, and the margins in `wanted_`
+  Wanted wanted_;
   Eigen::VectorXd seen_;
   double seen_objective_ = 0.0;
   long evaluations_ = 0;

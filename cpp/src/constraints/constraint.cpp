@@ -70,8 +70,13 @@ double joint_radius(const View& v, int joint) {
 int widest_joint(const View& v, int body) {
   const int begin = body < 0 ? 0 : body, end = body < 0 ? 12 : body + 6;
   int widest = begin;
-  for (int k = begin + 1; k < end; ++k)
-    if (joint_radius(v, k) > joint_radius(v, widest)) widest = k;
+  double most = -1.0;
+  for (int k = begin; k < end; ++k) {
+    const double squared = v.blueprint.joint[static_cast<std::size_t>(k)].head<2>().squaredNorm();
+    if (squared <= most) continue;
+    most = squared;
+    widest = k;
+  }
   return widest;
 }
 

@@ -175,7 +175,10 @@ def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: flo
     ordered = sorted(sketches, key=lambda sketch: sketch.limit)
     width = 0.885 / len(ordered)
     figure.text(
-        0.095, share - 0.005, "plates from above, each at its own scale, base dark, platform light", size=style.SMALL_SIZE
+        0.095,
+        share - 0.005,
+        "plates from above, each at its own scale, base dark, platform light",
+        size=style.SMALL_SIZE,
     )
     for k, sketch in enumerate(ordered):
         reach = float(np.abs(_joints(sketch)[:, :2]).max())
