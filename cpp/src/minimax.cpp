@@ -61,6 +61,7 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
   Eigen::VectorXd y = p.helped(start);
   Run run{judge(p, y)};
   if (p.coordinates.size() == 0) return run;
+  const bool minimax = formulation == Formulation::minimax;
   Subproblem subproblem(p, formulation, stop, observer);
   const auto settled = [&] { return run.end.feasible() && run.end.stationary(); };
   const auto take = [&](const Eigen::VectorXd& next) {
@@ -78,9 +79,9 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
 
   Eigen::VectorXd from = y;
   for (int attempt = 0; attempt <= effort.restarts && !stop.stop_requested(); ++attempt) {
-    bool better = take(solve(from, 0.0, attempt == 0 && effort.polished ? loose : tight));
+    bool better = take(solve(from, 0.0, attempt == 0 && minimax && effort.polished ? loose : tight));
     if (subproblem.seen() != y) better |= take(subproblem.seen());
-    if (formulation == Formulation::plain) return run;
+    if (!minimax) return run;
     if (effort.polished && run.end.feasible() && run.end.optimality_residual < 1e-2) take(polish(p, y));
     if (settled()) break;
     if (effort.polished && p.kinked() && run.end.feasible()) {
