@@ -111,6 +111,7 @@ void bind_optimize(py::module_& m) {
       .def_readonly("evaluations", &Result::evaluations)
       .def_readonly("starts_done", &Result::starts_done)
       .def_readonly("stopped_early", &Result::stopped_early)
+      .def_readonly("followed", &Result::followed)
       .def_readonly("interrupted", &Result::interrupted);
   m.def(
       "optimize",

@@ -7,7 +7,7 @@ namespace ninedof {
 namespace {
 
 constexpr double tie = 1e-6;            // of objective rows that count as equal
-constexpr double bound_contact = 1e-7;  // of a coordinate that counts as on its bound
+constexpr double near_bound = 1e-7;     // of a coordinate that may be on its way to its bound
 constexpr double limit_contact = 1e-6;  // of a margin that counts as zero
 constexpr double order_contact = 1e-9;  // of the logarithm of zp / zs; large robots come close to 0
 
@@ -17,7 +17,8 @@ void add_once(std::vector<std::string>& list, const std::string& name) {
 
 }  // namespace
 
-ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
+ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y, Contact contact) {
+  const double bound_contact = contact == Contact::exact ? 1e-12 : near_bound;
   const Coordinates& c = p.coordinates;
   ActiveSet a;
   for (std::size_t k = 0; k < p.uses.size(); ++k)
@@ -34,11 +35,12 @@ ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y)
 
 std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
   std::vector<std::string> out;
-  // A range of ours is no bound of the study.
-  for (const int k : a.at_low)
-    if (!p.coordinates.capped_low(k)) add_once(out, p.coordinates.info(k).name);
-  for (const int k : a.at_high)
-    if (!p.coordinates.capped_high(k)) add_once(out, p.coordinates.info(k).name);
+  // A range of ours is no bound of the study, but the reach of O is worth a word.
+  const auto shown = [&](int k, bool ours) {
+    if (!ours || p.coordinates.info(k).kind == VariableKind::fraction) add_once(out, p.coordinates.info(k).name);
+  };
+  for (const int k : a.at_low) shown(k, p.coordinates.capped_low(k));
+  for (const int k : a.at_high) shown(k, p.coordinates.capped_high(k));
   for (const int k : a.margins) add_once(out, p.margin_name(k));
   if (a.order) add_once(out, "zp > zs");
   return out;

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "prepared.hpp"
+#include "look.hpp"
 
 namespace ninedof {
 
@@ -15,7 +15,11 @@ struct ActiveSet {
   bool order = false;                ///< zs has run up to zp
 };
 
-ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
+/// Which coordinates count as on a bound: those exactly there, which an answer must be, or those near it, which Newton's method
+/// puts there. A length of 1e-9 is not on its bound at 0: designs that shrink for ever would pass for optima.
+enum class Contact { exact, near };
+
+ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y, Contact contact = Contact::exact);
 
 /// Names of the variables and constraints in an active set, each once.
 std::vector<std::string> names(const Prepared& p, const ActiveSet& a);

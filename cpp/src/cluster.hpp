@@ -1,7 +1,7 @@
 #pragma once
 /// Coinciding singular values: their joint derivative is a symmetric matrix, and any direction in it is a row.
 
-#include "prepared.hpp"
+#include "look.hpp"
 
 namespace ninedof {
 

@@ -46,11 +46,12 @@ bool stands_for(const Candidate& a, const Candidate& b) {
   return a.optimality_residual < b.optimality_residual;
 }
 
-/// Whether a run has ended where we cut an angle without bounds: no optimum of the study.
-bool at_cut_angle(const Prepared& p, const Candidate& c) {
+/// Whether a run has ended where we cut an angle without bounds, or on our range of an "optimal" length: no optimum of the study.
+bool at_cut(const Prepared& p, const Candidate& c) {
   const Eigen::VectorXd y = p.coordinates.coordinates(c.variables);
   for (int k = 0; k < p.coordinates.size(); ++k) {
-    if (p.coordinates.info(k).kind != VariableKind::angle) continue;
+    const Variable& v = p.coordinates.info(k);
+    if (v.kind != VariableKind::angle && !(v.kind == VariableKind::length && v.ours)) continue;
     if (p.coordinates.capped_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
     if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
   }
@@ -58,7 +59,7 @@ bool at_cut_angle(const Prepared& p, const Candidate& c) {
 }
 
 bool acceptable(const Prepared& p, const Candidate& c) {
-  return c.feasible() && c.stationary() && c.regular() && !at_cut_angle(p, c);
+  return c.feasible() && c.stationary() && c.regular() && !at_cut(p, c);
 }
 
 }  // namespace

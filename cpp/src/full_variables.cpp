@@ -15,6 +15,10 @@ bool length_is_free(const StudyLength& l) {
 
 }  // namespace
 
+bool placed(const Pose& pose) {
+  return pose.best_internal && !(pose.position.isZero(0.0) && pose.rotation.isZero(0.0));
+}
+
 bool on_axis(const Problem& problem, const Pose& pose) {
   const auto along_z = [](const Vec3& v) { return v.x() == 0.0 && v.y() == 0.0; };
   return design_family(problem.family).symmetric() && along_z(pose.position) && along_z(pose.rotation) &&
@@ -29,10 +33,13 @@ std::vector<Variable> full_variables(const Problem& problem) {
   const StudyLength& l = problem.characteristic_length;
   if (l.choice == StudyLength::Choice::free) out.push_back({"characteristic_length", VariableKind::length, l.bounds});
   else if (length_is_free(l))
-    out.push_back({"characteristic_length", VariableKind::length, {smallest_length, largest_length}, true});
+    out.push_back({"characteristic_length",
+                   VariableKind::length,
+                   {smallest_length * problem.unit(), largest_length * problem.unit()},
+                   true});
   for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
     const Pose& pose = problem.objective.poses[k];
-    if (!pose.best_internal) continue;
+    if (!placed(pose)) continue;
     const std::string name = "pose" + std::to_string(k + 1) + ".s_";
     for (const char axis : {'x', 'y', 'z'})
       if (axis == 'z' || !on_axis(problem, pose))
@@ -47,10 +54,10 @@ int length_variable(const Problem& problem) {
 
 std::array<int, 3> offset_variables(const Problem& problem, std::size_t k) {
   const auto& poses = problem.objective.poses;
-  if (!poses[k].best_internal) return {-1, -1, -1};
+  if (!placed(poses[k])) return {-1, -1, -1};
   int at = static_cast<int>(problem.variables.size()) + (length_variable(problem) >= 0 ? 1 : 0);
   for (std::size_t j = 0; j < k; ++j)
-    if (poses[j].best_internal) at += on_axis(problem, poses[j]) ? 1 : 3;
+    if (placed(poses[j])) at += on_axis(problem, poses[j]) ? 1 : 3;
   if (on_axis(problem, poses[k])) return {-1, -1, at};
   return {at, at + 1, at + 2};
 }

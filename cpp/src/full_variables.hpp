@@ -18,6 +18,9 @@ struct Variable {
 /// In the order of Problem::names().
 std::vector<Variable> full_variables(const Problem& problem);
 
+/// Whether the optimizer moves s of a pose. At the neutral place it does so through zs.
+bool placed(const Pose& pose);
+
 /// Place of the characteristic length among them, or -1.
 int length_variable(const Problem& problem);
 

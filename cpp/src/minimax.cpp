@@ -33,6 +33,13 @@ double worst(const std::vector<double>& conditions) {
   return *std::ranges::max_element(conditions);
 }
 
+/// Whether Newton's method has something to hold on to.
+bool nearly_stationary(const Prepared& p, const Eigen::VectorXd& y) {
+  Look l;
+  look(p, y, l);
+  return stationarity(p, l, active_set(p, l, y, Contact::near)).residual < 1e-2;
+}
+
 }  // namespace
 
 Candidate judge(const Prepared& p, const Eigen::VectorXd& unhelped) {
@@ -82,7 +89,7 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     bool better = take(solve(from, 0.0, attempt == 0 && minimax && effort.polished ? loose : tight));
     if (subproblem.seen() != y) better |= take(subproblem.seen());
     if (!minimax) return run;
-    if (effort.polished && run.end.feasible() && run.end.optimality_residual < 1e-2) take(polish(p, y));
+    if (effort.polished && run.end.feasible() && nearly_stationary(p, y)) take(polish(p, y));
     if (settled()) break;
     if (effort.polished && p.kinked() && run.end.feasible()) {
       // Singular values that meet, off the axis, have a kink that no row describes: solved smoothed, less and less, and then

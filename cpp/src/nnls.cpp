@@ -29,15 +29,19 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
     while (!passive.empty()) {
       const Eigen::VectorXd trial = unconstrained();
       double step = 1.0;
+      Eigen::Index limiting = -1;
       for (std::size_t k = 0; k < passive.size(); ++k) {
         const double now = w[passive[k]], next = trial[static_cast<Eigen::Index>(k)];
-        if (next <= 0.0 && now > next) step = std::min(step, now / (now - next));
+        if (!(next <= 0.0 && now > next && now / (now - next) < step)) continue;
+        step = now / (now - next);
+        limiting = passive[k];
       }
       for (std::size_t k = 0; k < passive.size(); ++k)
         w[passive[k]] += step * (trial[static_cast<Eigen::Index>(k)] - w[passive[k]]);
-      if (step >= 1.0) break;
+      if (limiting < 0) break;
+      // The weight that set the step is zero now, whatever rounding has left of it.
       std::erase_if(passive, [&](Eigen::Index k) {
-        const bool gone = w[k] <= 1e-15;
+        const bool gone = k == limiting || w[k] <= 1e-15;
         if (gone) w[k] = 0.0;
         return gone;
       });

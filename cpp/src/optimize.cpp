@@ -8,6 +8,9 @@
 namespace ninedof {
 namespace {
 
+/// Relative difference of objectives by which a design that is no optimum puts the best optimum in doubt.
+constexpr double worth_saying = 1e-6;
+
 double next_size(const std::vector<double>& sizes, double cap) {
   return *std::upper_bound(sizes.begin(), sizes.end(), cap);
 }
@@ -23,6 +26,14 @@ Eigen::VectorXd stretched(const Prepared& p, const Leader& l, double next) {
   return x;
 }
 
+Result interrupted(Result result) {
+  result.status = Status::stopped;
+  result.interrupted = true;
+  result.reason = "interrupted after " + std::to_string(result.starts_done) + " starts; " +
+                  (result.candidates.empty() ? "no design yet" : "the best so far is returned");
+  return result;
+}
+
 }  // namespace
 
 Result optimize(const Problem& problem, const Settings& settings, const Control& control) {
@@ -35,6 +46,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   const int starts_a_round = start_count(Prepared(problem, sizes.front()), settings);
   Progress progress(control, starts_a_round * static_cast<int>(sizes.size()));
   std::vector<Leader> leaders;
+  std::optional<Candidate> unsettled;  // better than every optimum, and none
   std::vector<Eigen::VectorXd> further;
   for (const double cap : sizes) {
     const Prepared p(problem, cap);
@@ -47,25 +59,37 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
       leaders.push_back(leader(p, cap, candidates.front()));
       const bool better =
           result.candidates.empty() || candidates.front().objective <= result.candidates.front().objective;
-      if (better) result.candidates = std::move(candidates);
+      if (better) {
+        result.candidates = std::move(candidates);
+        result.followed = round.done - round.stopped_early;
+      }
       // A larger size must not do worse for want of luck: the best so far starts there too, as it is and stretched.
       further = {leaders.back().best.variables};
       if (cap < sizes.back()) further.push_back(stretched(p, leaders.back(), next_size(sizes, cap)));
     }
+    if (std::optional<Candidate> best = best_allowed(round))
+      if (!unsettled || best->objective < unsettled->objective) unsettled = std::move(best);
     if (control.stop.stop_requested()) {
-      result.interrupted = true;
-      result.reason =
-          "interrupted after " + std::to_string(result.starts_done) + " starts; the best so far is returned";
       if (result.candidates.empty())
         if (std::optional<Candidate> best = best_allowed(round)) result.candidates.push_back(*std::move(best));
-      return result;
+      return interrupted(std::move(result));
     }
     if (cap == sizes.back() && leaders.empty()) explain_failure(p, round, settings, control, result);
   }
+  if (control.stop.stop_requested()) return interrupted(std::move(result));
   if (leaders.empty()) return result;
   result.status = Status::optimal;
   result.reason = "feasible and stationary by our own checks";
   judge_unbounded(problem, leaders, result);
+  if (result.status == Status::optimal && unsettled &&
+      unsettled->objective < result.candidates.front().objective * (1.0 - worth_saying)) {
+    result.status = Status::stopped;
+    result.reason =
+        "a better design than every optimum found is allowed, but is no optimum itself: the objective may still fall "
+        "from there, "
+        "or have no least value; look at which variables stand next to a bound";
+    result.candidates.insert(result.candidates.begin(), *std::move(unsettled));
+  }
   return result;
 }
 

@@ -35,7 +35,7 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double s
   Look l, ahead;
   l.smoothing = smoothing;
   look(p, y, l);
-  const ActiveSet active = active_set(p, l, y);
+  const ActiveSet active = active_set(p, l, y, Contact::near);
   l.smoothing = 0.0;
   std::vector<bool> held(static_cast<std::size_t>(n), false);
   for (const int k : active.at_low) {

@@ -1,7 +1,7 @@
 #pragma once
 /// From a point SLSQP left near an optimum to one that satisfies the first-order conditions to rounding.
 
-#include "prepared.hpp"
+#include "look.hpp"
 
 namespace ninedof {
 

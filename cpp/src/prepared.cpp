@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "look.hpp"
+
 namespace ninedof {
 namespace {
 
-/// A margin that is not a number, or infinitely bad, counts as this: logarithms of ratios of doubles end there.
-constexpr double hopeless = -700.0;
+/// Unrelated designs from which it is learned what is so in all of them.
+constexpr int probes = 3;
+
+/// Size up to which such designs are drawn where a variable has no serious bound and the solver is not asked.
+constexpr double caps_end = 100.0;
 
 const std::string condition_limit_name = "condition_limit";
 
@@ -17,15 +22,6 @@ bool limits_condition(const Problem& p) {
 
 int pair_rows(bool closed) {
   return index_rows(Index::condition_number, closed);
-}
-
-/// Margins of the limit on the condition number: log(limit) less the difference of two singular values' logarithms.
-void fill_condition_margin(const Problem& problem, const PoseSpectrum& s, int row, double& value, Row gradient) {
-  const std::vector<int> tops = s.tops(), bottoms = s.bottoms();
-  const auto count = static_cast<int>(bottoms.size());
-  const int top = tops[static_cast<std::size_t>(row / count)], bottom = bottoms[static_cast<std::size_t>(row % count)];
-  value = std::log(problem.objective.condition_limit) - (s.log_sigma[top] - s.log_sigma[bottom]);
-  gradient = s.gradient.row(bottom) - s.gradient.row(top);
 }
 
 }  // namespace
@@ -45,6 +41,7 @@ Prepared::Prepared(const Problem& given, double cap)
     : problem(given), family(&design_family(given.family)), coordinates(given, cap, count_helpers(given)) {
   place_poses();
   count_rows(Purpose::solve);
+  teach_constraints(coordinates);
   drop_repeated_margins();
 }
 
@@ -52,6 +49,7 @@ Prepared::Prepared(const Problem& given)
     : problem(given), family(&design_family(given.family)), coordinates(Coordinates::plain(given)) {
   place_poses();
   count_rows(Purpose::look);
+  teach_constraints(Coordinates(given, caps_end * given.unit()));
 }
 
 void Prepared::place_poses() {
@@ -99,6 +97,11 @@ void Prepared::count_rows(Purpose purpose) {
     if (own > 0) constraints.back()->set_helpers(visible + helpers, coordinates.coordinate(visible + helpers));
     helpers += own;
   }
+  std::vector<int> placed_poses;
+  for (int k = 0; k < looked; ++k)
+    if (placed(problem.objective.poses[static_cast<std::size_t>(k)])) placed_poses.push_back(k);
+  if (purpose == Purpose::solve && !placed_poses.empty())
+    constraints.push_back(make_between_plates(std::move(placed_poses)));
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
   if (limits_condition(problem))
@@ -107,9 +110,17 @@ void Prepared::count_rows(Purpose purpose) {
         margins.push_back({-1 - k, pair});
 }
 
+void Prepared::teach_constraints(const Coordinates& within) {
+  if (constraints.empty()) return;
+  std::vector<View> designs(probes);
+  for (int k = 0; k < probes; ++k)
+    designs[static_cast<std::size_t>(k)].set(*family, within, problem.characteristic_length, {{}}, 0,
+                                             within.start(7 * k + 1, 12345));
+  for (const auto& c : constraints) c->learn(designs);
+}
+
 void Prepared::drop_repeated_margins() {
   // Symmetry makes many margins the same function: those that agree at a few unrelated designs.
-  constexpr int probes = 3;
   std::vector<Eigen::VectorXd> seen;
   Look l;
   for (int k = 0; k < probes; ++k) {
@@ -124,14 +135,17 @@ void Prepared::drop_repeated_margins() {
   const auto same = [&](std::size_t a, std::size_t b) {
     return std::ranges::all_of(seen, [&](const Eigen::VectorXd& m) {
       const double x = m[static_cast<Eigen::Index>(a)], y = m[static_cast<Eigen::Index>(b)];
-      return std::abs(x - y) <= 1e-11 * std::max(1.0, std::abs(x)) && x > hopeless;
+      return std::abs(x - y) <= 1e-11 * std::max(1.0, std::abs(x)) && x > hopeless_margin;
     });
   };
   std::vector<MarginRow> kept;
   std::vector<std::size_t> kept_at;
   for (std::size_t k = 0; k < margins.size(); ++k) {
-    const bool repeated = std::ranges::any_of(
-        kept_at, [&](std::size_t j) { return margins[j].constraint == margins[k].constraint && same(j, k); });
+    const int constraint = margins[k].constraint;
+    const bool analytic = constraint < 0 || constraints[static_cast<std::size_t>(constraint)]->analytic();
+    const bool repeated = analytic && std::ranges::any_of(kept_at, [&](std::size_t j) {
+                            return margins[j].constraint == margins[k].constraint && same(j, k);
+                          });
     if (repeated) continue;
     kept.push_back(margins[k]);
     kept_at.push_back(k);
@@ -158,6 +172,11 @@ int Prepared::pose_of(int row) const {
 double Prepared::margin_price(int k) const {
   const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
   return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->price_factor(row);
+}
+
+double Prepared::violation_factor(int k) const {
+  const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
+  return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->violation_factor(row);
 }
 
 Eigen::VectorXd Prepared::helped(const Eigen::VectorXd& y) const {
@@ -189,90 +208,6 @@ double Prepared::objective(const Eigen::VectorXd& t, Eigen::VectorXd* slopes) co
     if (levels > poses) (*slopes)[poses] = w;
   }
   return (1.0 - w) * mean + (levels > poses ? w * t[poses] : 0.0);
-}
-
-namespace {
-
-void look_at_margins(const Prepared& p, const Wanted* wanted, Look& out) {
-  const auto count = static_cast<Eigen::Index>(p.margins.size());
-  out.m.resize(count);
-  out.m_gradient.resize(count, p.coordinates.size());
-  Eigen::RowVectorXd unused(p.coordinates.size());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
-    if (constraint < 0)
-      fill_condition_margin(p.problem, out.spectra[static_cast<std::size_t>(-1 - constraint)], row, out.m[k], unused);
-    else out.m[k] = p.constraints[static_cast<std::size_t>(constraint)]->margin(out.view, row);
-    if (!(out.m[k] > hopeless)) out.m[k] = hopeless;
-  }
-  const auto differentiate = [&](Eigen::Index k) {
-    const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
-    out.m_gradient.row(k).setZero();
-    if (out.m[k] <= hopeless) return;
-    double value = 0.0;
-    if (constraint < 0)
-      fill_condition_margin(p.problem, out.spectra[static_cast<std::size_t>(-1 - constraint)], row, value,
-                            out.m_gradient.row(k));
-    else p.constraints[static_cast<std::size_t>(constraint)]->add_gradient(out.view, row, out.m_gradient.row(k));
-  };
-  if (wanted == nullptr)
-    for (Eigen::Index k = 0; k < count; ++k) differentiate(k);
-  else
-    for (const int k : wanted->margins) differentiate(k);
-}
-
-}  // namespace
-
-void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const Wanted* wanted) {
-  out.view.set(*p.family, p.coordinates, p.problem.characteristic_length, p.places, p.looked, y);
-  out.view.unit = p.problem.unit();
-  const Eigen::Index n = p.coordinates.size();
-  const int poses = std::max(p.looked, 1);
-  const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
-  out.spectra.resize(static_cast<std::size_t>(poses));
-  out.f.resize(p.rows);
-  out.f_gradient.resize(p.rows, n);
-  for (int k = 0; k < poses; ++k) {
-    PoseSpectrum& s = out.spectra[static_cast<std::size_t>(k)];
-    const int place = out.view.first + k;
-    if (p.closed[static_cast<std::size_t>(k)])
-      closed_spectrum(*p.family, out.view, p.places[static_cast<std::size_t>(place)], machine, s);
-    else general_spectrum(out.view, place, s, wanted == nullptr || wanted->poses[static_cast<std::size_t>(k)]);
-    if (out.smoothing > 0.0 && p.kinked() && !s.closed)
-      fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.f, out.f_gradient);
-    else fill_index(p.problem.objective.index, s, p.first_row(k), out.f, out.f_gradient);
-  }
-  out.levels.setConstant(p.levels, -std::numeric_limits<double>::infinity());
-  for (const Use& u : p.uses) out.levels[u.level] = std::max(out.levels[u.level], out.f[u.row]);
-  out.log_objective = p.objective(out.levels);
-
-  look_at_margins(p, wanted, out);
-}
-
-double order_violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
-  // zs < zp is strict: what is beyond it by any rounding is no design, whatever the tolerance for other limits.
-  if (p.coordinates.order_margin(y) >= 0.0) return 0.0;
-  return std::max(1e-6, std::log(l.view.blueprint.zs / std::max(l.view.blueprint.zp, 1e-300)));
-}
-
-double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
-  double worst = order_violation(p, l, y);
-  if (l.m.size() > 0) worst = std::max(worst, -l.m.minCoeff());
-  return worst;
-}
-
-double neutral_condition(const Prepared& p, const Look& l) {
-  PoseSpectrum s;
-  if (p.family->symmetric()) closed_spectrum(*p.family, l.view, p.places.front(), Machine::nine_legged, s);
-  else general_spectrum(l.view, 0, s);
-  return std::exp(s.log_max() - s.log_min());
-}
-
-std::vector<double> conditions(const Prepared& p, const Look& l) {
-  if (p.problem.objective.index == Index::six_legged) return {neutral_condition(p, l)};
-  std::vector<double> out;
-  for (const PoseSpectrum& s : l.spectra) out.push_back(std::exp(s.log_max() - s.log_min()));
-  return out;
 }
 
 }  // namespace ninedof

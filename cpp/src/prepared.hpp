@@ -1,5 +1,5 @@
 #pragma once
-/// A problem made ready to be solved, and one look at a design in solver coordinates.
+/// A problem made ready to be solved.
 ///
 /// What the solver sees: levels t, one for each number the objective is made of; objective rows f(y), each to stay below a
 /// level; margins m(y) >= 0. The objective is a smooth, increasing function of the levels, so that at a solution each is the
@@ -13,6 +13,9 @@
 
 namespace ninedof {
 
+/// A margin that is not a number, or infinitely bad, counts as this: logarithms of ratios of doubles end there.
+constexpr double hopeless_margin = -700.0;
+
 /// An objective row and the level it stays below.
 struct Use {
   int row, level;
@@ -22,8 +25,6 @@ struct Use {
 struct MarginRow {
   int constraint, row;
 };
-
-struct Look;
 
 /// Coordinates, rows and places worked out once, shared by all starts.
 struct Prepared {
@@ -46,6 +47,7 @@ struct Prepared {
 
   const std::string& margin_name(int k) const;
   double margin_price(int k) const;
+  double violation_factor(int k) const;
   /// `y` with the helping variables of constraints at their best.
   Eigen::VectorXd helped(const Eigen::VectorXd& y) const;
   /// A full set of variables without the helping ones.
@@ -63,40 +65,10 @@ struct Prepared {
  private:
   void place_poses();
   void count_rows(Purpose purpose);
+  void teach_constraints(const Coordinates& within);
   void drop_repeated_margins();
 
   std::vector<int> first_row_;
 };
-
-/// A design and the derivatives of its rows with respect to the free coordinates.
-struct Look {
-  View view;
-  std::vector<PoseSpectrum> spectra;  ///< of the poses looked at
-  Eigen::VectorXd f, m;
-  Rows f_gradient, m_gradient;
-  Eigen::VectorXd levels;             ///< each the largest of its rows
-  double log_objective = 0.0;
-  /// Set before looking: where it is positive, poses off the axis have soft singular values, see fill_soft_index.
-  double smoothing = 0.0;
-};
-
-/// What derivatives are asked for: of margins by index, and of all singular values of a pose looked at.
-struct Wanted {
-  std::vector<int> margins;
-  std::vector<bool> poses;
-};
-
-/// Evaluates the design at `y` into `out`; all derivatives, or those wanted. The others are left as they were.
-void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const Wanted* wanted = nullptr);
-
-/// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
-double violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
-
-/// How far zs is beyond zp, as a violation; 0 where it is below.
-double order_violation(const Prepared& p, const Look& l, const Eigen::VectorXd& y);
-
-/// 2-norm condition number of the nine-legged robot at the neutral configuration, and at each pose looked at.
-double neutral_condition(const Prepared& p, const Look& l);
-std::vector<double> conditions(const Prepared& p, const Look& l);
 
 }  // namespace ninedof

@@ -17,7 +17,16 @@ void require_bounds(const std::string& name, VariableKind kind, const Bounds& b)
 }  // namespace
 
 double Problem::unit() const {
-  return characteristic_length.choice == StudyLength::Choice::number ? characteristic_length.value : 1.0;
+  using Choice = StudyLength::Choice;
+  if (characteristic_length.choice == Choice::number) return characteristic_length.value;
+  if (characteristic_length.choice == Choice::free)
+    return std::sqrt(characteristic_length.bounds.low) * std::sqrt(characteristic_length.bounds.high);
+  // A tenth of the smallest room there is: a study in other units is the same study.
+  const auto& info = design_family(family).variables();
+  double room = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < info.size() && k < variables.size(); ++k)
+    if (info[k].kind == VariableKind::length && variables[k].high > 0.0) room = std::min(room, variables[k].high);
+  return std::isfinite(room) ? 0.1 * room : 1.0;
 }
 
 std::vector<std::string> Problem::names() const {

@@ -84,16 +84,20 @@ void run_all(const Prepared& p, const std::vector<Eigen::VectorXd>& starts, cons
 std::vector<Eigen::VectorXd> scouted(const Prepared& p, double cap, const Settings& s, const Control& control,
                                      Progress& progress, Round& round) {
   const Prepared scout(without_placing(p.problem), cap);
+  const int warm = static_cast<int>(s.warm.size());
   const auto start = [&](int k) {
-    const Eigen::VectorXd x = p.coordinates.variables(start_at(p, s, k));
+    const Eigen::VectorXd x = p.coordinates.variables(start_at(p, s, warm + k));
     return scout.coordinates.coordinates(x.head(static_cast<Eigen::Index>(scout.problem.names().size())));
   };
   Round short_runs;
-  run_all(scout, start_count(p, s), start,
+  run_all(scout, start_count(p, s) - warm, start,
           {scouting_evaluations + and_for_each_variable * scout.coordinates.size(), 0, false}, s, control, &progress,
           short_runs);
+  // Warm starts need no scouting: they are followed as they are.
   std::vector<Eigen::VectorXd> out;
-  const auto followed = std::max<std::size_t>(followed_at_least, short_runs.runs.size() / 8);
+  for (int k = 0; k < warm; ++k) out.push_back(start_at(p, s, k));
+  round.done = warm;
+  const auto followed = std::max<std::size_t>(followed_at_least, short_runs.runs.size() / 8) + out.size();
   for (const std::size_t k : ranked(short_runs)) {
     round.evaluations += short_runs.runs[k]->evaluations;
     ++round.done;

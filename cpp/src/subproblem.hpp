@@ -7,7 +7,7 @@
 
 #include <functional>
 
-#include "prepared.hpp"
+#include "look.hpp"
 #include "slsqp.hpp"
 
 namespace ninedof {
@@ -40,6 +40,7 @@ class Subproblem {
  private:
   void choose(const Look& l);
   bool add_violated(const Look& l);
+  void note_wanted();
   void fill(const Look& l, const Eigen::VectorXd& at, Nlp::Values& out) const;
   Eigen::VectorXd run(const Eigen::VectorXd& from, double tolerance, int max_evaluations);
   bool minimax() const { return formulation_ == Formulation::minimax; }
@@ -49,8 +50,6 @@ class Subproblem {
   std::stop_token stop_;
   Observer observer_;
   Look l_;
-  void note_wanted();
-
   std::vector<int> uses_;  ///< rows taken, and the margins in `wanted_`
   Wanted wanted_;
   Eigen::VectorXd seen_;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -92,9 +92,15 @@ def for_core(name: str, limit: Limit) -> dict[str, Any]:
         "low": 0.0 if low is None else low,
         "high": math.inf if high is None else high,
         "of": options.get("of", "length"),
-        "axis": (np.array(axis) / np.linalg.norm(axis)).tolist() if axis else [],
+        "axis": _unit(axis) if axis else [],
         "steps": options.get("steps", STEPS),
     }
+
+
+def _unit(axis: Sequence[float]) -> list[float]:
+    """Return the direction of an axis; its largest entry first, so that no square over- or underflows."""
+    scaled = np.array(axis) / max(abs(v) for v in axis)
+    return (scaled / np.linalg.norm(scaled)).tolist()  # type: ignore[no-any-return]
 
 
 def _is_angle(name: str) -> bool:

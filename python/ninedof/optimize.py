@@ -85,6 +85,7 @@ def optimize(
         study=study,
         interrupted=core.interrupted,
         stopped_early=core.stopped_early,
+        followed=core.followed,
     )
 
 

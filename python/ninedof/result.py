@@ -82,6 +82,8 @@ class Result:
     """A proved bound, where one was asked for."""
     stopped_early: int = field(default=0, kw_only=True)
     """Starts among those done that were given up as hopeless."""
+    followed: int | None = field(default=None, kw_only=True)
+    """Starts followed to their end in the round that found the best design, where that is known."""
 
     @property
     def best(self) -> Candidate | None:
@@ -91,7 +93,7 @@ class Result:
     @property
     def confidence(self) -> float:
         """Fraction of the starts followed to their end that reached the best candidate, from 0 to 1; 0 without one."""
-        followed = self.starts_done - self.stopped_early
+        followed = self.starts_done - self.stopped_early if self.followed is None else self.followed
         return min(1.0, self.best.reached / followed) if self.best and followed > 0 else 0.0
 
     @property

@@ -149,3 +149,11 @@ def test_result_without_a_design_is_named():
     nothing = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 0.5)}))
     with pytest.raises(ValueError, match=r"^result: got one without a design \(infeasible\)"):
         applicable_bounds(nothing)
+
+
+def test_the_distance_bound_is_not_claimed_where_designs_beat_it():
+    """Below |s - p| = 0.5 l_c two threefold singular values do better than the family kappa_star is the least of."""
+    near = nd.optimize(nd.Study(variables={"zp": 1.0, "zs": 0.8}), starts=4)
+    far = nd.optimize(nd.Study(variables={"zp": 2.0, "zs": 0.8}), starts=4)
+    assert "distance of O" not in [bound.name for bound in applicable_bounds(near)]
+    assert "distance of O" in [bound.name for bound in applicable_bounds(far)]

@@ -247,3 +247,23 @@ def test_an_optimum_far_out_is_no_flight():
     assert result.status == "optimal"
     assert result.condition_number == pytest.approx(2.539702, abs=5e-6)
     assert result.active.count("leg_ratio") == 1
+
+
+def test_a_weight_that_rounding_leaves_above_zero_ends_the_search():
+    """The least-squares test of stationarity once ran for ever on this study."""
+    study = nd.Study(
+        constraints={"radius_ratio": (None, 2.0), "base_cone": {"max": 0.7 * math.exp(1e-4), "axis": [0, 0, 1]}},
+        objective={"poses": [{}, {"position": (0.1, 0.05, 0), "unit": "zp"}, {"rotation": (0.1, 0.05, 0)}]},
+    )
+    assert nd.optimize(study).status == "optimal"
+
+
+def test_legs_that_meet_in_one_design_only_collide():
+    """Free sides may not slip out of a clearance by letting two joints coincide; sides fixed at zero share joints."""
+    wanted = {"constraints": {"leg_clearance": {"min": 0.3, "of": "zp"}}}
+    free = nd.optimize(nd.Study(**wanted))
+    assert free.check().passed
+    assert min(free.variables[side] for side in ("a1", "a2", "b1", "b2")) > 0.05
+    coupled = nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, **wanted))
+    assert coupled.status == "optimal"
+    assert coupled.check().passed

@@ -37,7 +37,7 @@ def test_warm_starts_of_another_study(result):
         STUDY, characteristic_length="optimal", objective={"poses": [{"internal_point": "best"}]}
     )
     row = warm_starts(freer, result)[0]
-    assert row.shape == (9,)  # on the axis symmetry keeps O there: only its height is a variable
+    assert row.shape == (8,)  # at the neutral place O is placed by zs, which is a variable already
     assert np.isfinite(row).all()
     back = dict(zip(freer.problem().names, row.tolist(), strict=True))
     assert warm_starts(STUDY, back)[0].tolist() == row[:7].tolist()

@@ -49,7 +49,8 @@ struct Problem {
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
 
-  /// The length variables are measured by where a size matters: the characteristic length if it is a number, else 1.
+  /// The length variables are measured by where a size matters: the characteristic length if it is a number, the middle of its
+  /// bounds if it is free, a tenth of the smallest upper bound of a length otherwise.
   double unit() const;
 
   /// Names of everything the optimizer may move: the family's variables, "characteristic_length" if it is free or "optimal",
@@ -107,6 +108,7 @@ struct Result {
   long evaluations = 0;  ///< designs SLSQP looked at, over all starts and rounds
   int starts_done = 0;
   int stopped_early = 0;  ///< starts given up as hopeless
+  int followed = 0;  ///< starts followed to their end in the round that found the best
   bool interrupted = false;  ///< by Control::stop
 };
 

@@ -5,7 +5,7 @@
 namespace ninedof {
 
 bool Constraint::has_low() const {
-  return constraint_kind(limit_.name) == LimitKind::sign ? std::isfinite(limit_.low) : limit_.low > 0.0;
+  return limit_.low > 0.0;
 }
 
 std::pair<Side, int> Constraint::item_of(int row) const {

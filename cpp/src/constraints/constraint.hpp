@@ -22,6 +22,15 @@ class Constraint {
   double margin(const View& v, int row) const;
   void add_gradient(const View& v, int row, Row out) const;
 
+  /// Whether margins that agree at a few unrelated designs are one function: not so where they are made of pieces.
+  virtual bool analytic() const { return true; }
+
+  /// How much more is missing than a violated row says: twice, where a helping variable shares it between two rows.
+  virtual double violation_factor(int) const { return 1.0; }
+
+  /// Told of a few unrelated designs within the study's bounds: what holds in all of them holds by construction.
+  virtual void learn(const std::vector<View>&) {}
+
   /// How the margin of a row moves with the logarithm of its limit, at the limit: 1, or 0 for a row that only helps another.
   virtual double price_factor(int row) const;
 
@@ -85,6 +94,7 @@ std::unique_ptr<Constraint> make_joint_spacing(const Limit& limit, int poses, Pu
 std::unique_ptr<Constraint> make_leg_clearance(const Limit& limit, int poses, Purpose purpose);
 std::unique_ptr<Constraint> make_joint_cone(const Limit& limit, int poses, Purpose purpose);
 std::unique_ptr<Constraint> make_zs_fraction(const Limit& limit, int poses, Purpose purpose);
+std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
 std::unique_ptr<Constraint> make_singularity_free(const Limit& limit, int poses, Purpose purpose);
 
 /// Distance of a joint from z in its body's frame, and the joint of a body (0 base, 6 platform, six joints each; -1 for both)

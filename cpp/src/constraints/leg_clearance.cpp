@@ -1,5 +1,6 @@
 /// leg_clearance: distance of the axes of every two legs that share no joint, at every pose looked at. The internal legs all
-/// end in O, so that one of every two is external.
+/// end in O, so that one of every two is external. Legs share a joint if theirs coincide in every design the study allows;
+/// in one design alone, that is a collision.
 
 #include <algorithm>
 
@@ -33,6 +34,17 @@ class LegClearance : public Constraint {
  public:
   LegClearance(const Limit& limit, int poses) : Constraint(limit), poses_(std::max(poses, 1)) {}
 
+  /// Where two segments come nearest changes from design to design.
+  bool analytic() const override { return false; }
+
+  void learn(const std::vector<View>& designs) override {
+    for (int item = 0; item < pairs; ++item) {
+      const auto [a, b] = legs(item);
+      share_joint_[static_cast<std::size_t>(item)] =
+          std::ranges::all_of(designs, [&](const View& v) { return joints_coincide(v, a, b); });
+    }
+  }
+
  private:
   static constexpr int pairs = 21;  // three of external legs, eighteen of an external and an internal one
   Form form() const override { return Form::linear; }
@@ -42,8 +54,7 @@ class LegClearance : public Constraint {
     if (k < 3) return {k, (k + 1) % 3};
     return {(k - 3) / 6, 3 + (k - 3) % 6};
   }
-  /// Legs on one joint have no clearance to keep.
-  static bool share_joint(const View& v, int a, int b) {
+  static bool joints_coincide(const View& v, int a, int b) {
     const auto same = [&](int i, int j) {
       const Vec3 &x = v.blueprint.joint[static_cast<std::size_t>(i)],
                  &y = v.blueprint.joint[static_cast<std::size_t>(j)];
@@ -60,13 +71,12 @@ class LegClearance : public Constraint {
     return nearest(end(leg_ends(a).from), end(leg_ends(a).to), end(leg_ends(b).from), end(leg_ends(b).to));
   }
   double value(const View& v, Side, int item) const override {
-    const auto [a, b] = legs(item);
-    if (share_joint(v, a, b)) return exempt;
+    if (share_joint_[static_cast<std::size_t>(item % pairs)]) return exempt;
     return look(v, item).apart.norm() / unit(v);
   }
   void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+    if (share_joint_[static_cast<std::size_t>(item % pairs)]) return;
     const auto [a, b] = legs(item);
-    if (share_joint(v, a, b)) return;
     const Nearest n = look(v, item);
     const double distance = n.apart.norm(), u = unit(v);
     if (!(distance > 0.0)) return;
@@ -81,6 +91,7 @@ class LegClearance : public Constraint {
 
   static constexpr double exempt = 1e6;
   int poses_;
+  std::array<bool, pairs> share_joint_{};
 };
 
 }  // namespace

@@ -32,6 +32,10 @@ double Spread::price_factor(int row) const {
   return way_ == Way::helped && side == Side::high && item % each() < count_ ? 0.0 : 1.0;
 }
 
+double Spread::violation_factor(int row) const {
+  return way_ == Way::helped && item_of(row).first == Side::high ? 2.0 : 1.0;
+}
+
 double Spread::room() const {
   return measure_ == Measure::ratio ? std::log(limit().high) : 1.0;
 }

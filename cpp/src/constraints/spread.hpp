@@ -18,6 +18,7 @@ class Spread : public Constraint {
   Spread(const Limit& limit, Measure measure, int groups, int count, Purpose purpose);
 
   double price_factor(int row) const override;
+  double violation_factor(int row) const override;
   int helpers() const override { return way_ == Way::helped ? groups_ : 0; }
   double helper(const View& v, int group) const override;
 

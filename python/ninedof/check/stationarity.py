@@ -134,9 +134,11 @@ def nonnegative_least_squares(a: Floats, b: Floats) -> Floats:
             trial[taken] = np.linalg.lstsq(a[:, taken], b, rcond=None)[0]
             if not np.any(trial[taken] <= 0.0):
                 break
-            out = taken & (trial <= 0.0)
-            step = float(np.min(x[out] / np.maximum(x[out] - trial[out], 1e-300)))
-            x = x + step * (trial - x)
+            out = np.flatnonzero(taken & (trial <= 0.0))
+            steps = x[out] / np.maximum(x[out] - trial[out], 1e-300)
+            x = x + float(steps.min()) * (trial - x)
+            # The one that set the step is zero now, whatever rounding has left of it: else this might never end.
+            x[out[int(steps.argmin())]] = 0.0
             taken &= x > 1e-15
             if not taken.any():
                 trial = np.zeros(n)
