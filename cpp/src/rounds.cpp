@@ -69,7 +69,7 @@ void run_all(const Prepared& p, int count, const std::function<Eigen::VectorXd(i
     if (control.stop.stop_requested()) return;
     Run run = minimise(p, start(static_cast<int>(first)), Formulation::minimax, effort, control.stop);
     if (progress != nullptr) progress->finished(run.end);
-    round.runs[before + static_cast<std::size_t>(first)] = std::move(run);
+    round.runs[before + static_cast<std::size_t>(first)] = std::make_unique<Run>(std::move(run));
   });
 }
 
@@ -175,7 +175,7 @@ Round run_round(const Prepared& p, double cap, const std::vector<Eigen::VectorXd
     run_all(p, chosen, full, s, control, round);
   } else {
     run_all(p, start_count(p, s), [&](int k) { return start_at(p, s, k); }, full, s, control, &progress, round);
-    for (const auto& run : round.runs) round.done += run.has_value();
+    for (const auto& run : round.runs) round.done += run != nullptr;
   }
   round.from_starts = round.runs.size();
   std::vector<Eigen::VectorXd> more;

@@ -1,6 +1,7 @@
 #pragma once
 /// Many starts at once, and which of their ends count.
 
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -10,7 +11,7 @@ namespace ninedof {
 
 /// Runs of one round, empty where one was not begun, and what they cost.
 struct Round {
-  std::vector<std::optional<Run>> runs;
+  std::vector<std::unique_ptr<Run>> runs;
   std::size_t from_starts = 0;  ///< how many of them are starts; the others try again from ends
   long evaluations = 0;
   int done = 0;           ///< starts tried

@@ -72,7 +72,10 @@ def pareto(
     if figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits):
         screen.say("drawing the front")
         record = write_front(front, directory, tuple(path.name for path in _draw(front, directory)))
-    screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if figures else ""))
+    screen.print(
+        f"run folder {record.parent}: {record.name}"
+        + (", figure front (PNG and SVG)" if (record.parent / "front.png").exists() else "")
+    )
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:
         return INTERRUPTED

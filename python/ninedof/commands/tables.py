@@ -45,8 +45,11 @@ def price_text(result: Result) -> list[str]:
     """Return what the table does not say: which limits cost what at the best candidate, and how many starts agree."""
     if result.best is None:
         return []
-    sure = f"{100.0 * result.confidence:.0f} % of the starts ended at the best"
-    hopeless = f", {result.stopped_early} were given up as hopeless" if result.stopped_early else ""
+    which = "starts followed to their end" if result.stopped_early else "starts"
+    sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
+    hopeless = (
+        f"; {result.stopped_early} of {result.starts_done} were given up as hopeless" if result.stopped_early else ""
+    )
     return ["\n".join([*price_words(result.study, result.best), sure + hopeless])]
 
 
