@@ -8,17 +8,12 @@
 #include "ninedof/legs.hpp"
 #include "ninedof/svd6.hpp"
 #include "null_space.hpp"
+#include "rows_of.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Mat3 rows(const Triple& t) {
-  Mat3 m;
-  m << t[0].transpose(), t[1].transpose(), t[2].transpose();
-  return m;
-}
 
 }  // namespace
 
@@ -34,7 +29,7 @@ Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double chara
   }
   Mat6 m;
   m.topRows<3>() = e.topRows<3>();
-  m.bottomRows<3>().noalias() = null_space_part(rows(k.e_tilde), rows(k.e_hat)).lazyProduct(e.bottomRows<3>());
+  m.bottomRows<3>().noalias() = null_space_part(rows_of(k.e_tilde), rows_of(k.e_hat)).lazyProduct(e.bottomRows<3>());
   return m;
 }
 

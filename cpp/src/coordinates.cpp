@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "splitmix.hpp"
+
 namespace ninedof {
 namespace {
 
@@ -34,12 +36,10 @@ double golden(int n) {
   return x;
 }
 
-/// Uniform in [0, 1) from a seed and a dimension (splitmix64).
+/// Uniform in [0, 1) from a seed and a dimension.
 double shift(std::uint64_t seed, int dimension) {
-  std::uint64_t z = (seed + 1) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(dimension) * 0xD1B54A32D192ED03ULL;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  return uniform_from((seed + 1) * 0x9E3779B97F4A7C15ULL +
+                      static_cast<std::uint64_t>(dimension) * 0xD1B54A32D192ED03ULL);
 }
 
 }  // namespace

@@ -6,36 +6,42 @@
 namespace ninedof {
 namespace {
 
-/// Margins of the limit on the condition number: log(limit) less the difference of two singular values' logarithms.
-void fill_condition_margin(const Problem& problem, const PoseSpectrum& s, int row, double& value, Row gradient) {
-  const std::vector<int> tops = s.tops(), bottoms = s.bottoms();
-  const auto count = static_cast<int>(bottoms.size());
-  const int top = tops[static_cast<std::size_t>(row / count)], bottom = bottoms[static_cast<std::size_t>(row % count)];
-  value = std::log(problem.objective.condition_limit) - (s.log_sigma[top] - s.log_sigma[bottom]);
-  gradient = s.gradient.row(bottom) - s.gradient.row(top);
+/// A margin of the limit on the condition number: which singular values it compares, log(limit) less the difference of their
+/// logarithms.
+struct ConditionPair {
+  int top, bottom;
+};
+ConditionPair condition_pair(const PoseSpectrum& s, int row) {
+  const auto count = s.bottoms().size();
+  const auto k = static_cast<std::size_t>(row);
+  return {s.tops()[k / count], s.bottoms()[k % count]};
 }
 
 void look_at_margins(const Prepared& p, const Wanted* wanted, Look& out) {
   const auto count = static_cast<Eigen::Index>(p.margins.size());
   out.m.resize(count);
   out.m_gradient.resize(count, p.coordinates.size());
-  Eigen::RowVectorXd unused(p.coordinates.size());
+  const auto spectrum_of = [&](int constraint) -> const PoseSpectrum& {
+    return out.spectra[static_cast<std::size_t>(-1 - constraint)];
+  };
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
-    if (constraint < 0)
-      fill_condition_margin(p.problem, out.spectra[static_cast<std::size_t>(-1 - constraint)], row, out.m[k], unused);
-    else out.m[k] = p.constraints[static_cast<std::size_t>(constraint)]->margin(out.view, row);
+    if (constraint < 0) {
+      const PoseSpectrum& s = spectrum_of(constraint);
+      const auto [top, bottom] = condition_pair(s, row);
+      out.m[k] = std::log(p.problem.objective.condition_limit) - (s.log_sigma[top] - s.log_sigma[bottom]);
+    } else out.m[k] = p.constraints[static_cast<std::size_t>(constraint)]->margin(out.view, row);
     if (!(out.m[k] > hopeless_margin)) out.m[k] = hopeless_margin;
   }
   const auto differentiate = [&](Eigen::Index k) {
     const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
     out.m_gradient.row(k).setZero();
     if (out.m[k] <= hopeless_margin) return;
-    double value = 0.0;
-    if (constraint < 0)
-      fill_condition_margin(p.problem, out.spectra[static_cast<std::size_t>(-1 - constraint)], row, value,
-                            out.m_gradient.row(k));
-    else p.constraints[static_cast<std::size_t>(constraint)]->add_gradient(out.view, row, out.m_gradient.row(k));
+    if (constraint < 0) {
+      const PoseSpectrum& s = spectrum_of(constraint);
+      const auto [top, bottom] = condition_pair(s, row);
+      out.m_gradient.row(k) = s.gradient.row(bottom) - s.gradient.row(top);
+    } else p.constraints[static_cast<std::size_t>(constraint)]->add_gradient(out.view, row, out.m_gradient.row(k));
   };
   if (wanted == nullptr)
     for (Eigen::Index k = 0; k < count; ++k) differentiate(k);

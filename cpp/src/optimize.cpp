@@ -46,7 +46,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   const int starts_a_round = start_count(Prepared(problem, sizes.front()), settings);
   Progress progress(control, starts_a_round * static_cast<int>(sizes.size()));
   std::vector<Leader> leaders;
-  std::optional<Candidate> unsettled;  // better than every optimum, and none
+  std::optional<Candidate> unsettled;  // the best design allowed, optimum or not
   std::vector<Eigen::VectorXd> further;
   for (const double cap : sizes) {
     const Prepared p(problem, cap);
@@ -70,8 +70,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
     if (std::optional<Candidate> best = best_allowed(round))
       if (!unsettled || best->objective < unsettled->objective) unsettled = std::move(best);
     if (control.stop.stop_requested()) {
-      if (result.candidates.empty())
-        if (std::optional<Candidate> best = best_allowed(round)) result.candidates.push_back(*std::move(best));
+      if (result.candidates.empty() && unsettled) result.candidates.push_back(*std::move(unsettled));
       return interrupted(std::move(result));
     }
     if (cap == sizes.back() && leaders.empty()) explain_failure(p, round, settings, control, result);
@@ -86,8 +85,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
     result.status = Status::stopped;
     result.reason =
         "a better design than every optimum found is allowed, but is no optimum itself: the objective may still fall "
-        "from there, "
-        "or have no least value; look at which variables stand next to a bound";
+        "from there, or have no least value; look at which variables stand next to a bound";
     result.candidates.insert(result.candidates.begin(), *std::move(unsettled));
   }
   return result;

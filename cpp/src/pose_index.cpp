@@ -39,11 +39,11 @@ double frobenius(const PoseSpectrum& s, std::array<double, 6>& slope) {
 
 }  // namespace
 
-std::vector<int> PoseSpectrum::tops() const {
-  return {tops_of(closed).begin(), tops_of(closed).end()};
+std::span<const int> PoseSpectrum::tops() const {
+  return tops_of(closed);
 }
-std::vector<int> PoseSpectrum::bottoms() const {
-  return {bottoms_of(closed).begin(), bottoms_of(closed).end()};
+std::span<const int> PoseSpectrum::bottoms() const {
+  return bottoms_of(closed);
 }
 
 void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivatives) {
@@ -132,17 +132,6 @@ void fill_soft_index(Index index, const PoseSpectrum& s, double epsilon, int row
   const Vec6 down = ((s.log_min() - s.log_sigma.array()) / epsilon).exp();
   value[row] -= s.log_min() - epsilon * std::log(down.sum());
   gradient.row(row) -= down.transpose() / down.sum() * s.gradient;
-}
-
-double log_index(Index index, const PoseSpectrum& s) {
-  std::array<double, 6> slope{};
-  switch (index) {
-    case Index::frobenius: return frobenius(s, slope);
-    case Index::speed: return s.log_max();
-    case Index::condition_number:
-    case Index::six_legged: return s.log_max() - s.log_min();
-  }
-  return 0.0;
 }
 
 }  // namespace ninedof

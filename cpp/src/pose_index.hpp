@@ -2,7 +2,7 @@
 /// The index of one pose as rows: smooth functions of the design, the largest of which is the logarithm of the index.
 
 #include <array>
-#include <vector>
+#include <span>
 
 #include "ninedof/objective.hpp"
 #include "view.hpp"
@@ -18,8 +18,8 @@ struct PoseSpectrum {
   Spectrum general;   ///< behind the six
 
   /// Rows that may be the largest, the smallest one.
-  std::vector<int> tops() const;
-  std::vector<int> bottoms() const;
+  std::span<const int> tops() const;
+  std::span<const int> bottoms() const;
   double log_max() const { return closed ? std::max(log_sigma[0], log_sigma[2]) : log_sigma[0]; }
   double log_min() const { return closed ? std::min(log_sigma[1], log_sigma[3]) : log_sigma[5]; }
 };
@@ -41,8 +41,5 @@ void fill_index(Index index, const PoseSpectrum& s, int row, Eigen::VectorXd& va
 /// of the logarithms, which no meeting of singular values can make rough. One row; the others are left far below.
 void fill_soft_index(Index index, const PoseSpectrum& s, double epsilon, int row, Eigen::VectorXd& value,
                      Rows& gradient);
-
-/// log of the index in the sense of Index, given only values.
-double log_index(Index index, const PoseSpectrum& s);
 
 }  // namespace ninedof

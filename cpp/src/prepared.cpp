@@ -16,17 +16,9 @@ constexpr double caps_end = 100.0;
 
 const std::string condition_limit_name = "condition_limit";
 
-bool limits_condition(const Problem& p) {
-  return std::isfinite(p.objective.condition_limit);
-}
-
 int pair_rows(bool closed) {
   return index_rows(Index::condition_number, closed);
 }
-
-}  // namespace
-
-namespace {
 
 int count_helpers(const Problem& problem) {
   int count = 0;
@@ -104,7 +96,7 @@ void Prepared::count_rows(Purpose purpose) {
     constraints.push_back(make_between_plates(std::move(placed_poses)));
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
-  if (limits_condition(problem))
+  if (std::isfinite(o.condition_limit))
     for (int k = 0; k < poses; ++k)
       for (int pair = 0; pair < pair_rows(closed[static_cast<std::size_t>(k)]); ++pair)
         margins.push_back({-1 - k, pair});
@@ -186,7 +178,7 @@ Eigen::VectorXd Prepared::helped(const Eigen::VectorXd& y) const {
   v.unit = problem.unit();
   Eigen::VectorXd x = v.x;
   for (const auto& c : constraints)
-    for (int k = 0; k < c->helpers(); ++k) x[c->first_helper() + k] = c->helper(v, k);
+    for (int k = 0; k < c->helpers(); ++k) x[c->helper_variable() + k] = c->helper(v, k);
   return coordinates.coordinates(x);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "ninedof/parallel.hpp"
+#include "splitmix.hpp"
 
 namespace ninedof {
 namespace {
@@ -17,13 +18,10 @@ constexpr double agreed = 1e-6;  // relative difference of objectives
 constexpr int followed_at_least = 8;
 constexpr int scouting_evaluations = 40, and_for_each_variable = 4;
 
-/// A number in [0, 1) from three (splitmix64).
+/// A number in [0, 1) from three.
 double hash(std::uint64_t seed, int a, int b) {
-  std::uint64_t z = seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(a) * 0xD1B54A32D192ED03ULL +
-                    static_cast<std::uint64_t>(b) * 0x8CB92BA72F3D8DD7ULL + 0x2545F4914F6CDD1DULL;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  return uniform_from(seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(a) * 0xD1B54A32D192ED03ULL +
+                      static_cast<std::uint64_t>(b) * 0x8CB92BA72F3D8DD7ULL + 0x2545F4914F6CDD1DULL);
 }
 
 /// Allowed before not allowed, then the lower objective or violation.

@@ -7,18 +7,13 @@
 #include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/rotation.hpp"
+#include "rows_of.hpp"
 
 namespace ninedof {
 namespace {
 
-Mat3 rows(const Triple& t) {
-  Mat3 m;
-  m << t[0].transpose(), t[1].transpose(), t[2].transpose();
-  return m;
-}
-
 Mat3 row_cross(const Triple& a, const Triple& b) {
-  return rows({a[0].cross(b[0]), a[1].cross(b[1]), a[2].cross(b[2])});
+  return rows_of({a[0].cross(b[0]), a[1].cross(b[1]), a[2].cross(b[2])});
 }
 
 /// NaN throughout where m is exactly singular, never a plausible matrix.
@@ -40,10 +35,10 @@ ForwardSolve forward_solve(const Geometry& g, const Configuration& c) {
   const Legs k = legs(g, c);
   ForwardSolve f;
   f.y = c.internal_point - c.position;
-  f.external = rows(k.e);
+  f.external = rows_of(k.e);
   f.m_inverse = inverse_or_nan(row_cross({k.u[0] - f.y, k.u[1] - f.y, k.u[2] - f.y}, k.e));
-  f.b_inverse = inverse_or_nan(rows(k.e_hat));
-  f.c_inverse = inverse_or_nan(rows(k.e_tilde));
+  f.b_inverse = inverse_or_nan(rows_of(k.e_hat));
+  f.c_inverse = inverse_or_nan(rows_of(k.e_tilde));
   return f;
 }
 
@@ -53,9 +48,9 @@ VelocityMatrices velocity_matrices(const Geometry& g, const Configuration& c, do
   require_positive("characteristic_length", characteristic_length);
   const Legs k = legs(g, c);
   VelocityMatrices v;
-  v.A << row_cross(k.u, k.e) / characteristic_length, rows(k.e);
-  v.B = rows(k.e_hat);
-  v.C = rows(k.e_tilde);
+  v.A << row_cross(k.u, k.e) / characteristic_length, rows_of(k.e);
+  v.B = rows_of(k.e_hat);
+  v.C = rows_of(k.e_tilde);
   v.D = row_cross(k.u_tilde, k.e_tilde) / characteristic_length;
   v.E << v.D, v.C;
   v.F << v.A, v.E;

@@ -26,6 +26,9 @@ Threads = Annotated[
     int | None, typer.Option(help="Threads; one a processor by default. The result does not depend on it.")
 ]
 
+StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
+Out = Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")]
+Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
 Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
 
 
@@ -36,11 +39,9 @@ Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the 
     "  ninedof optimize --json --no-figures | jq .optimization.status"
 )
 def optimize(
-    study: Annotated[
-        Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")
-    ] = None,
-    out: Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")] = None,
-    starts: Annotated[int | None, typer.Option(help="Starts, in place of the study's.")] = None,
+    study: StudyFile = None,
+    out: Out = None,
+    starts: Starts = None,
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -59,9 +60,7 @@ def optimize(
     "  ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4"
 )
 def pareto(
-    study: Annotated[
-        Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")
-    ] = None,
+    study: StudyFile = None,
     against: Annotated[
         str, typer.Option(help="The limit that is swept: a constraint, or condition_limit.")
     ] = "radius_ratio",
@@ -69,8 +68,8 @@ def pareto(
         list[float] | None, typer.Option(help="A limit to solve; give it several times. Found by the tool if left out.")
     ] = None,
     points: Annotated[int, typer.Option(help="How many limits, where the tool finds them.")] = 13,
-    out: Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")] = None,
-    starts: Annotated[int | None, typer.Option(help="Starts, in place of the study's.")] = None,
+    out: Out = None,
+    starts: Starts = None,
     threads: Threads = None,
     figures: Figures = True,
     json: Json = False,

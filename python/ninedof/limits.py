@@ -100,7 +100,7 @@ def for_core(name: str, limit: Limit) -> dict[str, Any]:
 def _unit(axis: Sequence[float]) -> list[float]:
     """Return the direction of an axis; its largest entry first, so that no square over- or underflows."""
     scaled = np.array(axis) / max(abs(v) for v in axis)
-    return (scaled / np.linalg.norm(scaled)).tolist()  # type: ignore[no-any-return]
+    return [float(v) for v in scaled / np.linalg.norm(scaled)]
 
 
 def _is_angle(name: str) -> bool:

@@ -14,7 +14,7 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
     {"geometry", "configuration", "svd6", "pose"},
     {"legs", "points", "blueprint"},
     {"velocity", "acceleration", "null_space"},

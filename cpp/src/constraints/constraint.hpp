@@ -41,7 +41,7 @@ class Constraint {
     helper_variable_ = variable;
     helper_coordinate_ = coordinate;
   }
-  int first_helper() const { return helper_variable_; }
+  int helper_variable() const { return helper_variable_; }
   /// Their best values for a design.
   virtual double helper(const View&, int) const { return 0.0; }
 
@@ -68,7 +68,6 @@ class Constraint {
   /// What lengths are fractions of, and its derivatives.
   double unit(const View& v) const;
   void add_unit_gradient(const View& v, double scale, Row out) const;
-  int helper_variable() const { return helper_variable_; }
   int helper_coordinate() const { return helper_coordinate_; }
 
  private:
