@@ -30,9 +30,8 @@ struct Pose {
   ninedof::Configuration configuration;
 };
 
-/// Hexagonal robots and general ones (no symmetry, no two joints in one place), in turn, platform tilted and off the axis.
-inline std::vector<Pose> random_poses() {
-  Random random(1);
+/// A hexagonal robot, or a general one: no symmetry, no two joints in one place.
+inline ninedof::Geometry random_geometry(Random& random, bool hexagonal) {
   const auto triangle = [&](double size) {
     ninedof::Triple t;
     for (std::size_t i = 0; i < 3; ++i)
@@ -40,14 +39,34 @@ inline std::vector<Pose> random_poses() {
              random.point(0.3 * size);
     return t;
   };
+  if (!hexagonal) return {triangle(2.0), triangle(2.0), triangle(1.0), triangle(1.0)};
+  return ninedof::Geometry::hexagonal(random(0.2, 3.0), random(0.2, 3.0), random(0.2, 2.0), random(0.2, 2.0));
+}
+
+/// Platform tilted and off the axis, O somewhere between the plates.
+inline ninedof::Configuration near_home(Random& random) {
+  return {ninedof::Vec3(0.0, 0.0, 3.0) + random.point(0.7), ninedof::exp_rotation(random.point(0.5)),
+          ninedof::Vec3(0.0, 0.0, 1.5) + random.point(0.5)};
+}
+
+/// Any orientation whatever, uniformly.
+inline ninedof::Configuration any_configuration(Random& random) {
+  Eigen::Vector4d wxyz;
+  do {
+    for (double& x : wxyz) x = random(-1.0, 1.0);
+  } while (wxyz.squaredNorm() > 1.0 || wxyz.squaredNorm() < 1e-4);
+  ninedof::Configuration c = near_home(random);
+  c.rotation = ninedof::rotation_from_quaternion(wxyz);
+  return c;
+}
+
+/// Hexagonal robots and general ones in turn.
+inline std::vector<Pose> random_poses() {
+  Random random(1);
   std::vector<Pose> poses;
   while (poses.size() < blocks * block_size) {
-    const bool hexagonal = poses.size() % 2 == 0;
-    poses.push_back({hexagonal ? ninedof::Geometry::hexagonal(random(0.2, 3.0), random(0.2, 3.0), random(0.2, 2.0),
-                                                              random(0.2, 2.0))
-                               : ninedof::Geometry(triangle(2.0), triangle(2.0), triangle(1.0), triangle(1.0)),
-                     {ninedof::Vec3(0.0, 0.0, 3.0) + random.point(0.7), ninedof::exp_rotation(random.point(0.5)),
-                      ninedof::Vec3(0.0, 0.0, 1.5) + random.point(0.5)}});
+    const ninedof::Geometry g = random_geometry(random, poses.size() % 2 == 0);
+    poses.push_back({g, near_home(random)});
   }
   return poses;
 }

@@ -18,6 +18,7 @@ from ninedof.conditioning import (
     singular_values,
 )
 from ninedof.configuration import Configuration
+from ninedof.forward_position import AssemblyModes, PositionStatus, forward_position
 from ninedof.geometry import Geometry
 from ninedof.kinematics import (
     VelocityMatrices,
@@ -35,10 +36,12 @@ from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.result import Candidate, Result, Status
 from ninedof.study import Study
+from ninedof.tracking import Tracked, TrackStatus, track
 
 __version__: str = _core.version
 
 __all__ = [
+    "AssemblyModes",
     "Candidate",
     "Configuration",
     "DesignPoint",
@@ -47,15 +50,19 @@ __all__ = [
     "LowerBound",
     "Objective",
     "Pose",
+    "PositionStatus",
     "Result",
     "Status",
     "Study",
     "Trace",
+    "TrackStatus",
+    "Tracked",
     "VelocityMatrices",
     "applicable_bounds",
     "axis_singular_values",
     "characteristic_length",
     "condition_number",
+    "forward_position",
     "forward_velocity",
     "inverse_velocity",
     "isotropy_residual",
@@ -67,5 +74,6 @@ __all__ = [
     "reciprocal_condition_number",
     "singular_values",
     "trace",
+    "track",
     "velocity_matrices",
 ]

@@ -7,7 +7,7 @@ float64; characteristic lengths as one value or n.
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from numpy import float64
+from numpy import float64, intc, uint8
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
@@ -54,6 +54,15 @@ def leg_lengths(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /
 def jacobian(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 def velocity_matrices(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 def forward_velocity(g: Geometry, p: _Floats, q: _Floats, s: _Floats, rates: _Floats, threads: int, /) -> _Floats: ...
+def forward_position(
+    g: Geometry, leg_lengths: _Floats, threads: int, /
+) -> tuple[NDArray[intc], list[str], list[str], NDArray[uint8], _Floats, _Floats, NDArray[intc]]: ...
+def track(
+    g: Geometry, leg_lengths: _Floats, path: int, p: _Floats, q: _Floats, s: _Floats, threads: int, /
+) -> tuple[_Floats, NDArray[uint8]]: ...
+
+track_statuses: list[str]
+
 def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...

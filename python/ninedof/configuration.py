@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,7 +85,7 @@ class Configuration:
         return cls._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
 
     @classmethod
-    def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Configuration:
+    def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Self:
         """Take arrays that have been checked before."""
         new = cls.__new__(cls)
         new._position, new._rotation, new._internal_point = map(frozen, (position, rotation, internal_point))
@@ -141,7 +141,7 @@ class Configuration:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
         p, q, s = self._arrays()
-        return self._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
+        return Configuration._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
 
     def __bool__(self) -> bool:
         """Be true, as objects are; the length of a stack does not matter."""

@@ -14,16 +14,18 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
-    {"geometry", "configuration", "svd6", "pose"},
-    {"legs", "points", "blueprint"},
-    {"velocity", "acceleration", "null_space"},
-    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "circle_roots", "householder"},
+    {"geometry", "configuration", "svd6", "pose", "leg_length_checks", "rotation_problem", "quaternion_monomials"},
+    {"legs", "points", "blueprint", "trilateration", "assembly_modes"},
+    {"polish_rotation", "elimination", "null_space_rotations", "two_leg_rotations", "internal_point"},
+    {"velocity", "acceleration", "null_space", "branch"},
+    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "statics"},
+    {"forward_position", "tracking"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto"},
     {"batch", "workspace"},
 )
-PRIVATE_LAYER = 6
+PRIVATE_LAYER = 8
 
 # The closed form and the general path are each other's oracle: these may not meet, not even through a third file.
 CPP_INDEPENDENT = {"symmetric": {"velocity", "legs", "conditioning"}}
@@ -39,7 +41,7 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics"},
+    {"conditioning", "kinematics", "forward_position", "tracking"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -62,6 +64,8 @@ CORE_USERS = {
     "lengths",
     "conditioning",
     "kinematics",
+    "forward_position",
+    "tracking",
     "limits",
     "study",
     "optimize",

@@ -1,0 +1,140 @@
+#include "branch.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "elimination.hpp"
+#include "null_space_rotations.hpp"
+#include "polish_rotation.hpp"
+#include "two_leg_rotations.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double void_leg = 1e-9;  // of the largest length: O this near an external joint leaves the leg no direction
+constexpr double cosine_slack = 1e-9;  // rounding of c_i for a leg stretched through O
+constexpr double accepted = 1e-11;  // error of a leg length, of the largest
+constexpr double same_rotation = 1e-7;  // rad
+constexpr double double_solution = 1e-6;  // separation below which the number of modes is not sworn to
+
+PositionObstacle external_leg(std::size_t i) {
+  return static_cast<PositionObstacle>(static_cast<int>(PositionObstacle::external_leg_1) + static_cast<int>(i));
+}
+
+/// Rotations found so far, polished, none twice.
+class Collected {
+ public:
+  Collected(const ScaledRotationProblem& problem, const Vec3& lengths, double unit)
+      : problem_(problem), lengths_(lengths), unit_(unit) {}
+
+  /// Whether the candidate led to a rotation of its own.
+  bool add(const Mat3& candidate, Branch& out) const {
+    const PolishedRotation polished =
+        polish_rotation(problem_.unit, candidate, RotationResidual(problem_.unit, candidate));
+    if (!fits(polished.rotation)) return false;
+    for (int k = 0; k < out.count; ++k)
+      if ((out.mode[static_cast<std::size_t>(k)].rotation - polished.rotation).squaredNorm() <
+          2.0 * same_rotation * same_rotation)
+        return false;
+    if (out.count == static_cast<int>(out.mode.size())) return false;
+    out.mode[static_cast<std::size_t>(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
+    return true;
+  }
+
+ private:
+  bool fits(const Mat3& q) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const Vec3 x =
+          problem_.platform_distance[k] * (q * problem_.unit.w[i]) - problem_.base_distance[k] * problem_.unit.d[i];
+      if (!(std::abs(x.norm() - lengths_[k]) <= accepted * unit_)) return false;
+    }
+    return true;
+  }
+
+  const ScaledRotationProblem& problem_;
+  const Vec3& lengths_;
+  double unit_;
+};
+
+/// The leg with c_i next to zero: its two frames stand most across each other.
+int best_pivot(const Vec3& c) {
+  Eigen::Index k;
+  c.cwiseAbs().minCoeff(&k);
+  return static_cast<int>(k);
+}
+
+bool eliminate(const RotationProblem& problem, const Collected& collected, Branch& out) {
+  const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
+  bool own = found.reliable;
+  for (int k = 0; k < found.count; ++k) own &= collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  return own;
+}
+
+/// Legs that O on an external joint leaves without direction: they fit, or no rotation helps. True where that settles the branch.
+bool settled_by_void_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
+  std::array<bool, 3> is_void{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    is_void[i] = std::min(p.base_distance[k], p.platform_distance[k]) < void_leg * unit;
+    if (!is_void[i]) continue;
+    const double length = std::max(p.base_distance[k], p.platform_distance[k]);
+    if (std::abs(length - lengths[k]) <= 2.0 * void_leg * unit) out.self_motion = true;
+    else out.obstacle = external_leg(i);
+  }
+  if (!out.self_motion) return out.obstacle != PositionObstacle::none;
+  if (out.obstacle == PositionObstacle::none) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!is_void[i] && std::abs(p.unit.c[static_cast<Eigen::Index>(i)]) > 1.0 + cosine_slack)
+        out.obstacle = external_leg(i);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      if (is_void[i] && !is_void[j] && !is_void[k] && !two_legs_fit(p.unit, j, k))
+        out.obstacle = PositionObstacle::external_legs;
+    }
+  }
+  out.self_motion = out.obstacle == PositionObstacle::none;
+  return true;
+}
+
+}  // namespace
+
+Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
+                    RotationMethod method) {
+  Branch out;
+  ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
+  if (settled_by_void_legs(p, external_lengths, unit, out)) return out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& c = p.unit.c[static_cast<Eigen::Index>(i)];
+    if (std::abs(c) > 1.0 + cosine_slack) {
+      out.obstacle = external_leg(i);
+      return out;
+    }
+    c = std::clamp(c, -1.0, 1.0);
+  }
+
+  const Collected collected(p, external_lengths, unit);
+  if (method != RotationMethod::null_space) {
+    out.certain = eliminate(p.unit, collected, out);
+    if (out.certain || method == RotationMethod::elimination) {
+      if (out.count == 0) out.obstacle = PositionObstacle::external_legs;
+      return out;
+    }
+  }
+  out.null_space = true;
+  const RotationCandidates found = null_space_rotations(p.unit);
+  if (found.self_motion) {
+    out.count = 0;
+    out.self_motion = true;
+    return out;
+  }
+  // What elimination found stays: every mode has the nine lengths, so none can be wrong.
+  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  out.certain = found.reliable && out.count % 2 == 0;
+  for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;
+  if (out.count == 0) out.obstacle = PositionObstacle::external_legs;
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,28 @@
+#pragma once
+/// One branch of the direct position problem: O fixed in both plates, all rotations that fit the external legs.
+
+#include "internal_point.hpp"
+#include "ninedof/assembly_modes.hpp"
+
+namespace ninedof {
+
+/// A solution of the rotation problem and how far it is from meeting another.
+struct BranchMode {
+  Mat3 rotation;
+  double separation;
+};
+
+struct Branch {
+  int count = 0;
+  std::array<BranchMode, 8> mode;
+  PositionObstacle obstacle = PositionObstacle::none;
+  bool self_motion = false;
+  bool certain = true;
+  bool null_space = false;  ///< the fast elimination was not enough
+};
+
+/// `unit` is the largest of all leg lengths.
+Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
+                    RotationMethod method);
+
+}  // namespace ninedof
