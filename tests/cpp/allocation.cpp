@@ -10,11 +10,13 @@
 
 #include "ninedof/conditioning.hpp"
 #include "ninedof/design.hpp"
+#include "ninedof/forward_position.hpp"
 #include "ninedof/hexapod.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/sensitivity.hpp"
 #include "ninedof/svd6.hpp"
 #include "ninedof/symmetric.hpp"
+#include "ninedof/tracking.hpp"
 #include "ninedof/velocity.hpp"
 #include "support.hpp"
 
@@ -127,6 +129,16 @@ TEST_SUITE("allocation") {
     }
     const Mat6 m = random.matrix<Mat6>();
     CHECK(allocations_of([&] { keep(singular_values_6x6(m)); }) == 0);
+  }
+
+  TEST_CASE("direct position analysis, by either method" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(184);
+    const auto [g, c] = random_robot(random);
+    const Vec9 lengths = leg_lengths(g, plus(c, 0.01 * random.matrix<Vec9>()));
+    for (const RotationMethod method : {RotationMethod::elimination, RotationMethod::null_space})
+      CHECK(allocations_of([&] { keep(forward_position(g, lengths, method)); }) == 0);
+    const Tracker tracker(g);
+    CHECK(allocations_of([&] { keep(tracker(lengths, c)); }) == 0);
   }
 
   TEST_CASE("closed form, plain and with gradients" * doctest::skip(!NINEDOF_COUNTS)) {
