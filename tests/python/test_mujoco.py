@@ -249,6 +249,4 @@ def test_measured_slides_give_the_pose_under_gravity(robot):
     measured = data.qpos[slides(engine)[0]]
     assert np.abs(measured - nd.leg_lengths(g, target)).max() > 1e-4
     assert_allclose(nd.leg_lengths(g, reached), measured, rtol=0.0, atol=1e-7)
-    if not hasattr(nd, "track"):
-        pytest.skip("direct kinematics is not there yet")
     assert_same_pose(nd.track(g, measured, start), reached, 1e-6)
