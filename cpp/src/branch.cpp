@@ -18,10 +18,6 @@ constexpr double accepted = 1e-11;  // error of a leg length, of the largest
 constexpr double same_rotation = 1e-7;  // rad
 constexpr double double_solution = 1e-6;  // separation below which the number of modes is not sworn to
 
-PositionObstacle external_leg(std::size_t i) {
-  return static_cast<PositionObstacle>(static_cast<int>(PositionObstacle::external_leg_1) + static_cast<int>(i));
-}
-
 /// Rotations found so far, polished, none twice.
 class Collected {
  public:
@@ -72,29 +68,26 @@ bool eliminate(const RotationProblem& problem, const Collected& collected, Branc
   return own;
 }
 
-/// Legs that O on an external joint leaves without direction: they fit, or no rotation helps. True where that settles the branch.
-bool settled_by_void_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
+/// Legs that O on an external joint leaves without direction fit or do not, whatever the rotation; the others can only be too long or
+/// too short. True where that, or a family of rotations, settles the branch.
+bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
   std::array<bool, 3> is_void{};
+  bool any_void = false, any_misfit = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     is_void[i] = std::min(p.base_distance[k], p.platform_distance[k]) < void_leg * unit;
-    if (!is_void[i]) continue;
     const double length = std::max(p.base_distance[k], p.platform_distance[k]);
-    if (std::abs(length - lengths[k]) <= 2.0 * void_leg * unit) out.self_motion = true;
-    else out.obstacle = external_leg(i);
+    out.misfit[i] = is_void[i] ? std::abs(length - lengths[k]) > 2.0 * void_leg * unit
+                               : !(std::abs(p.unit.c[k]) <= 1.0 + cosine_slack);
+    any_void |= is_void[i];
+    any_misfit |= out.misfit[i];
   }
-  if (!out.self_motion) return out.obstacle != PositionObstacle::none;
-  if (out.obstacle == PositionObstacle::none) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (!is_void[i] && std::abs(p.unit.c[static_cast<Eigen::Index>(i)]) > 1.0 + cosine_slack)
-        out.obstacle = external_leg(i);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      if (is_void[i] && !is_void[j] && !is_void[k] && !two_legs_fit(p.unit, j, k))
-        out.obstacle = PositionObstacle::external_legs;
-    }
+  if (any_misfit || !any_void) return any_misfit;
+  out.self_motion = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    if (is_void[i] && !is_void[j] && !is_void[k]) out.self_motion = two_legs_fit(p.unit, j, k);
   }
-  out.self_motion = out.obstacle == PositionObstacle::none;
   return true;
 }
 
@@ -104,23 +97,13 @@ Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& ext
                     RotationMethod method) {
   Branch out;
   ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
-  if (settled_by_void_legs(p, external_lengths, unit, out)) return out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double& c = p.unit.c[static_cast<Eigen::Index>(i)];
-    if (std::abs(c) > 1.0 + cosine_slack) {
-      out.obstacle = external_leg(i);
-      return out;
-    }
-    c = std::clamp(c, -1.0, 1.0);
-  }
+  if (settled_by_single_legs(p, external_lengths, unit, out)) return out;
+  p.unit.c = p.unit.c.cwiseMax(-1.0).cwiseMin(1.0);
 
   const Collected collected(p, external_lengths, unit);
   if (method != RotationMethod::null_space) {
     out.certain = eliminate(p.unit, collected, out);
-    if (out.certain || method == RotationMethod::elimination) {
-      if (out.count == 0) out.obstacle = PositionObstacle::external_legs;
-      return out;
-    }
+    if (out.certain || method == RotationMethod::elimination) return out;
   }
   out.null_space = true;
   const RotationCandidates found = null_space_rotations(p.unit);
@@ -133,7 +116,6 @@ Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& ext
   for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
   out.certain = found.reliable && out.count % 2 == 0;
   for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;
-  if (out.count == 0) out.obstacle = PositionObstacle::external_legs;
   return out;
 }
 

@@ -15,7 +15,7 @@ struct BranchMode {
 struct Branch {
   int count = 0;
   std::array<BranchMode, 8> mode;
-  PositionObstacle obstacle = PositionObstacle::none;
+  std::array<bool, 3> misfit{};  ///< external legs too long or too short for O where it is: each alone leaves no mode
   bool self_motion = false;
   bool certain = true;
   bool null_space = false;  ///< the fast elimination was not enough

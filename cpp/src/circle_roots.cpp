@@ -26,11 +26,21 @@ int sign_changes(const Octic& b) {
   return changes;
 }
 
-/// Whether no coefficient stands out of the noise: the signs say nothing.
-bool all_below(const Octic& b, double level) {
+double largest_of(const Octic& b) {
   double largest = 0.0;
   for (const double x : b) largest = std::max(largest, std::abs(x));
-  return largest <= level;
+  return largest;
+}
+
+/// Whether the signs say nothing: no coefficient stands out of the noise, or a double root may sit on an end, where value and slope
+/// are both noise and it would hide between two pieces.
+bool in_noise(const Octic& b, double level) {
+  const double largest = largest_of(b);
+  if (largest <= level) return true;
+  const auto touches = [&](double end, double next) {
+    return std::abs(end) <= level && next * next <= level * largest;
+  };
+  return touches(b[0], b[1]) || touches(b[degree], b[degree - 1]);
 }
 
 /// de Casteljau at the middle; `right` replaces the whole. Sums only, and an exact power of two at the end.
@@ -81,8 +91,7 @@ double refine(const Octic& p, double low, double high, double start, bool negati
 
 CircleRoots circle_roots(const Octic& p, double error) {
   CircleRoots out;
-  double largest = 0.0;
-  for (const double a : p) largest = std::max(largest, std::abs(a));
+  const double largest = largest_of(p);
   if (!(largest > error) || !std::isfinite(largest)) {
     out.certain = false;
     return out;
@@ -102,7 +111,7 @@ CircleRoots circle_roots(const Octic& p, double error) {
       Piece piece = stack[--height];
       const int changes = sign_changes(piece.b);
       if (changes == 0 || changes == 1) {
-        if (all_below(piece.b, level)) out.certain = false;
+        if (in_noise(piece.b, level)) out.certain = false;
         if (changes == 0) continue;
         if (piece.halvings > 0) {
           if (out.count == degree) {

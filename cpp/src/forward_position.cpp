@@ -42,9 +42,11 @@ void append(AssemblyModes& out, const Place& s, const Place& o, const Mat3& rota
   out.mode[static_cast<std::size_t>(out.count++)] = {c, s.side, o.side, separation};
 }
 
-/// One reason for all branches, or that there are several.
-PositionObstacle joint_obstacle(PositionObstacle a, PositionObstacle b) {
-  if (a == PositionObstacle::none || a == b) return b;
+/// The external leg that fits in no branch, or all of them together.
+PositionObstacle external_obstacle(const std::array<bool, 3>& misfit) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (misfit[i])
+      return static_cast<PositionObstacle>(static_cast<int>(PositionObstacle::external_leg_1) + static_cast<int>(i));
   return PositionObstacle::external_legs;
 }
 
@@ -69,7 +71,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
     return p.side == 0 ? p : Place{plate.mirrored(p.point), -p.side};
   };
   const Places on_base = places(base, lower), on_platform = places(platform, upper);
-  PositionObstacle obstacle = PositionObstacle::none;
+  std::array<bool, 3> misfit{true, true, true};  // in every branch so far
   bool self_motion = false, double_mode = lower.kind == Meeting::touching || upper.kind == Meeting::touching;
   for (std::size_t i = 0; i < on_base.count; ++i)
     for (std::size_t j = 0; j < on_platform.count; ++j) {
@@ -80,7 +82,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
       out.certain &= branch.certain;
       out.null_space_branches += branch.null_space ? 1 : 0;
       self_motion |= branch.self_motion;
-      if (branch.obstacle != PositionObstacle::none) obstacle = joint_obstacle(obstacle, branch.obstacle);
+      for (std::size_t leg = 0; leg < 3; ++leg) misfit[leg] &= branch.misfit[leg];
       for (int k = 0; k < branch.count; ++k) {
         const BranchMode& mode = branch.mode[static_cast<std::size_t>(k)];
         double_mode |= mode.separation < meeting;
@@ -97,7 +99,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
   } else if (out.count > 0) {
     out.status = double_mode ? PositionStatus::tangent : PositionStatus::found;
   } else {
-    out.obstacle = obstacle;
+    out.obstacle = external_obstacle(misfit);
   }
   return out;
 }

@@ -47,7 +47,7 @@ TEST_SUITE("tracking") {
       }
       CHECK(within == 1);
     }
-    CHECK(certified > 1000);
+    CHECK(certified > 600);
   }
 
   TEST_CASE("a path there and back ends where it began") {
