@@ -34,6 +34,7 @@ from ninedof.optimize import Trace, optimize, trace
 from ninedof.pareto import Front, pareto
 from ninedof.point import DesignPoint
 from ninedof.pose import Pose
+from ninedof.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.result import Candidate, Result, Status
 from ninedof.study import Study
 from ninedof.tracking import Tracked, TrackStatus, track
@@ -47,6 +48,8 @@ __all__ = [
     "DesignPoint",
     "Front",
     "Geometry",
+    "InternalPoint",
+    "InternalPointStatus",
     "LowerBound",
     "Objective",
     "Pose",
@@ -60,6 +63,8 @@ __all__ = [
     "VelocityMatrices",
     "applicable_bounds",
     "axis_singular_values",
+    "best_internal_path",
+    "best_internal_point",
     "characteristic_length",
     "condition_number",
     "forward_position",

@@ -63,6 +63,30 @@ def track(
 
 track_statuses: list[str]
 
+def best_internal_point(
+    g: Geometry,
+    position: _Floats,
+    rotation: _Floats,
+    start: _Floats,
+    criterion: str,
+    low: _Floats,
+    high: _Floats,
+    length: float,
+    threads: int,
+    /,
+) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
+def best_internal_path(
+    g: Geometry,
+    position: _Floats,
+    rotation: _Floats,
+    start: _Floats,
+    criterion: str,
+    low: _Floats,
+    high: _Floats,
+    length: float,
+    smoothness: float,
+    /,
+) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
 def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...

@@ -22,7 +22,7 @@ CPP_LAYERS = (
     {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "statics"},
     {"forward_position", "tracking"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
-    {"optimize", "pareto"},
+    {"optimize", "pareto", "redundancy", "redundancy_path"},
     {"batch", "workspace"},
 )
 PRIVATE_LAYER = 8
@@ -41,7 +41,7 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics", "forward_position", "tracking"},
+    {"conditioning", "kinematics", "forward_position", "tracking", "redundancy"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -66,6 +66,7 @@ CORE_USERS = {
     "kinematics",
     "forward_position",
     "tracking",
+    "redundancy",
     "limits",
     "study",
     "optimize",

@@ -1,0 +1,36 @@
+#pragma once
+/// Newton's method along a path of ever sharper functions, from one start to one local minimum.
+
+#include <functional>
+#include <span>
+
+#include "redundancy/jet.hpp"
+#include "redundancy/scene.hpp"
+
+namespace ninedof {
+
+/// A function of O softened by epsilon; false where it is not defined.
+using Soft = std::function<bool(const Vec3& x, double epsilon, Jet& out)>;
+
+/// How a descent may end.
+enum class Ending {
+  minimum,   ///< the last decrement is small in epsilons, and no direction curves down
+  stuck,     ///< one of the two is not so
+  away,      ///< O has left the surroundings of the robot
+  in_joint,  ///< a leg has shrunk to nothing: without a direction the function has no value there
+};
+
+struct Descent {
+  Vec3 x;                          ///< the minimum at the last epsilon
+  Vec3 limit;                      ///< where it goes as epsilon goes to zero
+  Jet at;                          ///< the function at x
+  double decrement = 0.0;          ///< what a Newton step from x would still take off, twice over
+  Ending ending = Ending::stuck;
+  int leg = -1;                    ///< the internal leg that has shrunk
+};
+
+/// Minimises from `start`, where the function must be defined, for each epsilon in turn. From one to the next the minimum moves
+/// almost along a line, which is followed ahead.
+Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons);
+
+}  // namespace ninedof
