@@ -34,6 +34,16 @@ from ninedof.pareto import Front, pareto
 from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.result import Candidate, Result, Status
+from ninedof.singularity import (
+    Mechanism,
+    Singularity,
+    SingularityDistance,
+    SingularityMargins,
+    distance_to_singularity,
+    singularity,
+    singularity_margins,
+    uncontrolled_motions,
+)
 from ninedof.study import Study
 
 __version__: str = _core.version
@@ -45,9 +55,13 @@ __all__ = [
     "Front",
     "Geometry",
     "LowerBound",
+    "Mechanism",
     "Objective",
     "Pose",
     "Result",
+    "Singularity",
+    "SingularityDistance",
+    "SingularityMargins",
     "Status",
     "Study",
     "Trace",
@@ -56,6 +70,7 @@ __all__ = [
     "axis_singular_values",
     "characteristic_length",
     "condition_number",
+    "distance_to_singularity",
     "forward_velocity",
     "inverse_velocity",
     "isotropy_residual",
@@ -66,6 +81,9 @@ __all__ = [
     "pareto",
     "reciprocal_condition_number",
     "singular_values",
+    "singularity",
+    "singularity_margins",
     "trace",
+    "uncontrolled_motions",
     "velocity_matrices",
 ]

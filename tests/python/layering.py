@@ -14,11 +14,13 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"}
+    | {"enclosure", "enclosed_motion", "first_root"},
     {"geometry", "configuration", "svd6", "pose"},
     {"legs", "points", "blueprint"},
     {"velocity", "acceleration", "null_space"},
-    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
+    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"}
+    | {"singularity", "singularity_distance"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto"},
     {"batch", "workspace"},
@@ -39,7 +41,7 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics"},
+    {"conditioning", "kinematics", "singularity"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -62,6 +64,7 @@ CORE_USERS = {
     "lengths",
     "conditioning",
     "kinematics",
+    "singularity",
     "limits",
     "study",
     "optimize",
