@@ -12,6 +12,7 @@ void bind_kinematics(py::module_& m);
 void bind_position(py::module_& m);
 void bind_redundancy(py::module_& m);
 void bind_conditioning(py::module_& m);
+void bind_singularity(py::module_& m);
 void bind_design(py::module_& m);
 void bind_optimize(py::module_& m);
 

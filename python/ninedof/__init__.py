@@ -36,6 +36,16 @@ from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.result import Candidate, Result, Status
+from ninedof.singularity import (
+    Mechanism,
+    Singularity,
+    SingularityDistance,
+    SingularityMargins,
+    distance_to_singularity,
+    singularity,
+    singularity_margins,
+    uncontrolled_motions,
+)
 from ninedof.study import Study
 from ninedof.tracking import Tracked, TrackStatus, track
 
@@ -51,10 +61,14 @@ __all__ = [
     "InternalPoint",
     "InternalPointStatus",
     "LowerBound",
+    "Mechanism",
     "Objective",
     "Pose",
     "PositionStatus",
     "Result",
+    "Singularity",
+    "SingularityDistance",
+    "SingularityMargins",
     "Status",
     "Study",
     "Trace",
@@ -67,6 +81,7 @@ __all__ = [
     "best_internal_point",
     "characteristic_length",
     "condition_number",
+    "distance_to_singularity",
     "forward_position",
     "forward_velocity",
     "inverse_velocity",
@@ -78,7 +93,10 @@ __all__ = [
     "pareto",
     "reciprocal_condition_number",
     "singular_values",
+    "singularity",
+    "singularity_margins",
     "trace",
     "track",
+    "uncontrolled_motions",
     "velocity_matrices",
 ]

@@ -14,6 +14,7 @@
 #include "ninedof/hexapod.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/sensitivity.hpp"
+#include "ninedof/singularity.hpp"
 #include "ninedof/svd6.hpp"
 #include "ninedof/symmetric.hpp"
 #include "ninedof/tracking.hpp"
@@ -124,6 +125,9 @@ TEST_SUITE("allocation") {
       CHECK(allocations_of([&] { keep(condition_number(g, c, 0.7, Norm::frobenius)); }) == 0);
       CHECK(allocations_of([&] { keep(manipulability(g, c)); }) == 0);
       CHECK(allocations_of([&] { keep(isotropy_residual(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(singularity_margins(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(singularity(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(distance_to_singularity(g, c, rates)); }) == 0);
       CHECK(allocations_of([&] { keep(plus(c, rates)); }) == 0);
       CHECK(allocations_of([&] { keep(minus(c, plus(c, rates))); }) == 0);
     }

@@ -14,13 +14,16 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "circle_roots", "householder"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "circle_roots", "householder"}
+    | {"enclosure", "enclosed_motion", "first_root", "cramer", "three_blocks", "eliminate", "negligible"},
     {"geometry", "configuration", "svd6", "pose", "leg_length_checks", "rotation_problem", "quaternion_monomials"},
     {"legs", "points", "blueprint", "trilateration", "assembly_modes"},
-    {"polish_rotation", "elimination", "null_space_rotations", "two_leg_rotations", "internal_point"},
-    {"velocity", "acceleration", "null_space", "branch"},
-    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "statics"},
-    {"forward_position", "tracking"},
+    {"polish_rotation", "elimination", "null_space_rotations", "two_leg_rotations", "internal_point", "closure"}
+    | {"jacobian_blocks"},
+    {"velocity", "acceleration", "null_space", "branch", "rate_matrix"},
+    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "statics", "ellipsoid"}
+    | {"singularity", "singularity_distance"},
+    {"forward_position", "tracking", "accuracy"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path"},
     {"batch", "workspace"},
@@ -41,7 +44,8 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics", "forward_position", "tracking", "redundancy"},
+    {"conditioning", "kinematics", "velocity", "acceleration", "forward_position", "tracking", "redundancy"}
+    | {"singularity", "statics", "accuracy", "ellipsoid"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -67,6 +71,12 @@ CORE_USERS = {
     "forward_position",
     "tracking",
     "redundancy",
+    "velocity",
+    "acceleration",
+    "singularity",
+    "statics",
+    "accuracy",
+    "ellipsoid",
     "limits",
     "study",
     "optimize",
