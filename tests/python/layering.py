@@ -15,8 +15,8 @@ from pathlib import PurePosixPath
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
     {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
-    {"geometry", "configuration", "svd6", "pose"},
-    {"legs", "points", "blueprint"},
+    {"geometry", "configuration", "svd6", "pose", "rotation_problem", "quaternion_monomials", "householder"},
+    {"legs", "points", "blueprint", "null_space_rotations", "polish_rotation"},
     {"velocity", "acceleration", "null_space"},
     {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
