@@ -15,6 +15,8 @@ namespace {
 constexpr double void_leg = 1e-9;  // of the largest length: O this near an external joint leaves the leg no direction
 constexpr double cosine_slack = 1e-9;  // rounding of c_i for a leg stretched through O
 constexpr double accepted = 1e-11;  // error of a leg length, of the largest
+constexpr double between = 1e-14;  // residual halfway between two copies of a double solution
+constexpr double double_rotation = 1e-4;  // rad: such copies are no farther apart
 constexpr double same_rotation = 1e-7;  // rad
 constexpr double double_solution = 1e-6;  // separation below which the number of modes is not sworn to
 
@@ -30,9 +32,7 @@ class Collected {
         polish_rotation(problem_.unit, candidate, RotationResidual(problem_.unit, candidate));
     if (!fits(polished.rotation)) return false;
     for (int k = 0; k < out.count; ++k)
-      if ((out.mode[static_cast<std::size_t>(k)].rotation - polished.rotation).squaredNorm() <
-          2.0 * same_rotation * same_rotation)
-        return false;
+      if (same(out.mode[static_cast<std::size_t>(k)].rotation, polished.rotation)) return false;
     if (out.count == static_cast<int>(out.mode.size())) return false;
     out.mode[static_cast<std::size_t>(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
     return true;
@@ -49,10 +49,34 @@ class Collected {
     return true;
   }
 
+  /// Two copies of one mode. At a double solution they may be 1e-6 apart, but then what lies between them is as good as they are.
+  bool same(const Mat3& a, const Mat3& b) const {
+    const double squared = 0.5 * (a - b).squaredNorm();  // of the angle, where it is small
+    if (squared < same_rotation * same_rotation) return true;
+    if (squared > double_rotation * double_rotation) return false;
+    const Mat3 halfway = Eigen::Quaterniond(a).slerp(0.5, Eigen::Quaterniond(b)).toRotationMatrix();
+    return RotationResidual(problem_.unit, halfway).largest() <= between;
+  }
+
   const ScaledRotationProblem& problem_;
   const Vec3& lengths_;
   double unit_;
 };
+
+/// The 24 rotations of a cube, none farther than a radian or so from any rotation.
+std::array<Mat3, 24> all_around() {
+  std::array<Mat3, 24> out;
+  std::size_t count = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (const double a : {1.0, -1.0})
+        for (const double b : {1.0, -1.0})
+          if (i != j) {
+            const Vec3 x = a * Vec3::Unit(i), y = b * Vec3::Unit(j);
+            out[count++] << x, y, x.cross(y);
+          }
+  return out;
+}
 
 /// The leg with c_i next to zero: its two frames stand most across each other.
 int best_pivot(const Vec3& c) {
@@ -108,8 +132,11 @@ Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& ext
   out.null_space = true;
   const RotationCandidates found = null_space_rotations(p.unit);
   if (found.self_motion) {
+    // A family, perhaps of complex rotations only. A real one is met from all sides.
+    for (const Mat3& start : all_around()) collected.add(start, out);
+    out.self_motion = out.count > 0;
     out.count = 0;
-    out.self_motion = true;
+    out.certain = false;
     return out;
   }
   // What elimination found stays: every mode has the nine lengths, so none can be wrong.

@@ -1,6 +1,6 @@
 #pragma once
-/// Householder reflections of small matrices, every loop of a length known to the compiler: twice as fast as Eigen's, which
-/// learn their lengths at run time.
+/// Householder reflections of small matrices. Every loop has a length known to the compiler, which makes them twice as
+/// fast as Eigen's.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace ninedof {
 
-/// The reflection 1 - beta v v^T, made to take rows k and below of a column to (image, 0, 0, ...) and to leave the rows above.
+/// The reflection 1 - beta v v^T that takes rows k and below of a column to (image, 0, 0, ...) and leaves those above.
 template <int Rows>
 struct Reflection {
   static_assert(Rows % 4 == 0, "pad with rows of zeros");

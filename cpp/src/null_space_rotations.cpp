@@ -24,12 +24,12 @@ constexpr auto linear_by_cubic = monomials::products<1, 3>();
 constexpr auto quadratic_by_quadratic = monomials::products<2, 2>();
 
 constexpr int rank = 27;                   // three of the thirty products follow from the others: K_i K_j = K_j K_i
-constexpr double rank_gap = 1e-10;  // between pivots: some 1e-16 where solutions form a curve, else above 1e-3
+constexpr double rank_gap = 1e-10;         // of pivots: 1e-16 where solutions form a curve, 1e-2 far from that
 constexpr double smallest_divisor = 1e-9;  // singular value of SG; below it a solution lies almost on g = 0
-constexpr double nearly_real = 0.05;  // |Im z| / |z|; generous on purpose, the polished residual decides
+constexpr double nearly_real = 0.05;       // |Im z| / |z|; generous on purpose, the polished residual decides
 
-/// Linear forms in general position; Mx has the eigenvalue f(z) / g(z) at the solution z. The rows of g are orthogonal: no z
-/// lies on g = 0 for all four.
+/// Linear forms in general position; Mx has the eigenvalue f(z) / g(z) at the solution z. The rows of g are orthogonal:
+/// no z lies on g = 0 for all four.
 struct Forms {
   Vec4 f;
   Mat4 g;
@@ -69,7 +69,8 @@ Macaulay macaulay(const RotationProblem& p) {
   return out;
 }
 
-/// Orthonormal basis of all that is orthogonal to the columns, by QR with column pivoting; nothing if their rank is below 27.
+/// Orthonormal basis of all that is orthogonal to the columns, by QR with column pivoting; nothing if their rank is
+/// below 27.
 std::optional<NullSpace> null_space(Macaulay a) {
   std::array<Reflection<36>, rank> reflections;
   double first = 0.0;
@@ -90,8 +91,8 @@ std::optional<NullSpace> null_space(Macaulay a) {
   return n;
 }
 
-/// Mx of SG Mx = SF, least squares: SF and SG are the rows of f m and g m in N for the twenty cubic monomials m. Nothing where
-/// SG is nearly singular.
+/// Mx of SG Mx = SF, least squares: SF and SG are the rows of f m and g m in N for the twenty cubic monomials m. Nothing
+/// where SG is nearly singular.
 std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4& g) {
   Eigen::Matrix<double, 20, 16> s = Eigen::Matrix<double, 20, 16>::Zero();  // [SG SF]
   for (int j = 0; j < 8; ++j)
@@ -112,8 +113,8 @@ std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4
   return inverse.triangularView<Eigen::Upper>() * s.topRightCorner<8, 8>();
 }
 
-/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made 1, which
-/// makes it real where it can be.
+/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made 1,
+/// which makes it real where it can be.
 Eigen::Vector4cd quaternion(const Eigen::Matrix<std::complex<double>, 16, 1>& v) {
   Eigen::Index k = 0;
   Vec4(std::norm(v[0]), std::norm(v[5]), std::norm(v[10]), std::norm(v[15])).maxCoeff(&k);
@@ -125,8 +126,8 @@ void add(const Vec4& z, RotationCandidates& out) {
       Eigen::Quaterniond(z[0], z[1], z[2], z[3]).normalized().toRotationMatrix();
 }
 
-/// For each eigenvector x of Mx, N x holds the values of all monomials at a solution, up to a factor. False if the eigenvalues
-/// did not converge.
+/// For each eigenvector x of Mx, N x holds the values of all monomials at a solution, up to a factor. False if the
+/// eigenvalues did not converge.
 bool add_real_solutions(const NullSpace& n, const Mat8& mx, RotationCandidates& out) {
   const Eigen::EigenSolver<Mat8> eigen(mx);
   if (eigen.info() != Eigen::Success) return false;

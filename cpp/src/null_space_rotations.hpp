@@ -9,8 +9,8 @@ namespace ninedof {
 /// points. These are the eigenvectors of an 8x8 matrix, found in the null space of all products of the quadrics with
 /// quadratic monomials (Macaulay's matrix). Half turns are ordinary points; so are symmetric robots and coinciding joints.
 ///
-/// Candidates are good to 1e-10 in general position, to some 1e-8 at a double root; polish_rotation does the rest. Expects
-/// |c_i| <= 1 up to rounding: beyond that no rotation is real. Does not allocate.
+/// Candidates are good to 1e-10 in general position, to some 1e-8 at a double root and to 1e-4 where eight merge;
+/// polish_rotation does the rest. Expects |c_i| <= 1 up to rounding: beyond that no rotation is real. Does not allocate.
 RotationCandidates null_space_rotations(const RotationProblem& problem);
 
 }  // namespace ninedof

@@ -11,11 +11,14 @@
 namespace ninedof {
 namespace {
 
-constexpr double longest_step = 0.5;       // rad
-constexpr double settled = 4.0 * std::numeric_limits<double>::epsilon();
-constexpr double last_step = 1e-8;         // rad: the square of such a step is below rounding
-constexpr double negligible_step = 1e-15;  // rad
-constexpr double least_damping = 1e-6, most_damping = 1e3;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double rounding = 4.0 * eps;    // of d . Q w - c: no step lowers this but by chance
+constexpr double settled = 16.0 * eps;    // below it Newton's steps alone are tried
+constexpr double longest_step = 0.5;      // rad
+constexpr double last_step = 1e-8;        // rad: the square of such a step is below rounding
+constexpr double natural = 0.75;          // of |J^-1 f|, where that must fall in place of |f|
+constexpr double least_progress = 0.999;  // of |f|^2
+constexpr int patience = 5;               // steps without progress
 
 /// A quaternion of any length but zero: turning it needs no square root.
 struct FreeQuaternion {
@@ -50,10 +53,54 @@ Vec3 shortened(const Vec3& step) {
   return squared > longest_step * longest_step ? Vec3(step * (longest_step / std::sqrt(squared))) : step;
 }
 
-Vec3 levenberg_step(const RotationResidual& at, double damping) {
+/// -(J^T J + mu)^-1 J^T f: downhill, and the shorter the larger mu.
+Vec3 levenberg_step(const RotationResidual& at, double mu) {
   const Mat3 j = rows_of(at.row);
-  const Mat3 normal = j.transpose() * j + damping * Mat3::Identity();
+  const Mat3 normal = j.transpose() * j + mu * Mat3::Identity();
   return -(normal.inverse() * (j.transpose() * at.value));
+}
+
+/// Where the iteration stands, and how it came there.
+struct State {
+  FreeQuaternion quaternion;
+  PolishedRotation here;
+  double squared;  ///< |f|^2
+  double step2;    ///< squared length of the last step
+
+  State(const RotationProblem& problem, const FreeQuaternion& q, double last) : State(q, q.matrix(), problem, last) {}
+  State(const FreeQuaternion& q, const PolishedRotation& p)
+      : quaternion(q), here(p), squared(p.at.value.squaredNorm()), step2(1.0) {}
+
+ private:
+  State(const FreeQuaternion& q, const Mat3& rotation, const RotationProblem& problem, double last)
+      : quaternion(q), here{rotation, {problem, rotation}}, squared(here.at.value.squaredNorm()), step2(last) {}
+};
+
+State moved(const RotationProblem& problem, const State& s, const Vec3& step) {
+  const Vec3 allowed = shortened(step);
+  return {problem, s.quaternion.turned(allowed), allowed.squaredNorm()};
+}
+
+/// Newton's step where it lowers |f| or, in a curved valley, |J^-1 f|; else the longest of Levenberg's that lowers |f|. False where none
+/// does.
+bool improve(const RotationProblem& problem, State& s) {
+  const Vec3 newton = s.here.at.newton_step();
+  if (newton.allFinite()) {
+    const State next = moved(problem, s, newton);
+    const bool lower = next.squared < s.squared;
+    if (!lower && s.here.residual() <= settled) return false;
+    if (lower || s.here.at.newton_step(next.here.at.value).norm() < natural * std::min(newton.norm(), longest_step)) {
+      s = next;
+      return true;
+    }
+  }
+  for (double mu = 1e-3 * std::sqrt(s.squared); mu > 0.0 && mu < 10.0; mu *= 10.0) {
+    const State next = moved(problem, s, levenberg_step(s.here.at, mu));
+    if (!(next.squared < s.squared)) continue;
+    s = next;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -88,25 +135,20 @@ double RotationResidual::inverse_norm() const {
 
 PolishedRotation polish_rotation(const RotationProblem& problem, const Mat3& start, const RotationResidual& at_start,
                                  int most_steps) {
-  FreeQuaternion q = quaternion(start);
-  PolishedRotation best{start, at_start};
-  double residual = at_start.largest(), damping = 0.0;
-  for (int k = 0; k < most_steps && damping < most_damping; ++k) {
-    const Vec3 step = shortened(damping == 0.0 ? best.at.newton_step() : levenberg_step(best.at, damping));
-    const FreeQuaternion candidate = q.turned(step);
-    const Mat3 rotation = candidate.matrix();
-    const RotationResidual at(problem, rotation);
-    const double now = at.largest();
-    if (now < residual || (k == 0 && now <= settled)) {  // the first step also makes the matrix orthogonal
-      q = candidate;
-      best = {rotation, at};
-      residual = now;
-      damping = 0.0;
-      if (step.squaredNorm() < last_step * last_step) break;
-    } else {
-      if (residual <= settled || step.squaredNorm() < negligible_step * negligible_step) break;
-      damping = damping == 0.0 ? least_damping : 10.0 * damping;
+  const FreeQuaternion q = quaternion(start);
+  State s(q, {start, at_start});
+  if (!(s.here.residual() > settled)) return State(problem, q, 0.0).here;  // orthogonal now, if it was not
+  PolishedRotation best = s.here;
+  double least = s.squared;
+  int stalled = 0;
+  for (int k = 0; k < most_steps && stalled < patience && s.here.residual() > rounding; ++k) {
+    if (!improve(problem, s)) break;
+    stalled = s.squared < least_progress * least ? 0 : stalled + 1;
+    if (s.squared < least) {
+      best = s.here;
+      least = s.squared;
     }
+    if (s.step2 < last_step * last_step) break;
   }
   return best;
 }

@@ -19,6 +19,7 @@
 #include "ninedof/symmetric.hpp"
 #include "ninedof/tracking.hpp"
 #include "ninedof/velocity.hpp"
+#include "rotation_problems.hpp"
 #include "support.hpp"
 
 using namespace ninedof;
@@ -170,6 +171,16 @@ TEST_SUITE("allocation") {
           }) == 0);
     const Mat6 m = random.matrix<Mat6>();
     CHECK(allocations_of([&] { keep(right_svd_6x6(m)); }) == 0);
+  }
+
+  TEST_CASE("rotation problems" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(184);
+    const Triple d = random_directions(random), w = random_directions(random);
+    const Mat3 q = random.rotation();
+    for (const RotationProblem& p : {solved_by(q, d, w), solved_by(q, d, {w[0], w[0], w[0]})}) {
+      CHECK(allocations_of([&] { keep(null_space_rotations(p)); }) == 0);
+      CHECK(allocations_of([&] { keep(polish_rotation(p, Mat3::Identity())); }) == 0);
+    }
   }
 
   TEST_CASE("design families: blueprints and the axis" * doctest::skip(!NINEDOF_COUNTS)) {
