@@ -8,6 +8,9 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_geometry(m);
   ninedof::python::bind_kinematics(m);
   ninedof::python::bind_conditioning(m);
+  ninedof::python::bind_statics(m);
+  ninedof::python::bind_accuracy(m);
+  ninedof::python::bind_ellipsoid(m);
   ninedof::python::bind_design(m);
   ninedof::python::bind_optimize(m);
 }

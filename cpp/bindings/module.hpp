@@ -10,6 +10,9 @@ namespace py = pybind11;
 void bind_geometry(py::module_& m);
 void bind_kinematics(py::module_& m);
 void bind_conditioning(py::module_& m);
+void bind_statics(py::module_& m);
+void bind_accuracy(py::module_& m);
+void bind_ellipsoid(py::module_& m);
 void bind_design(py::module_& m);
 void bind_optimize(py::module_& m);
 

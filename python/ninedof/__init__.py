@@ -8,6 +8,7 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
@@ -18,6 +19,7 @@ from ninedof.conditioning import (
     singular_values,
 )
 from ninedof.configuration import Configuration
+from ninedof.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.geometry import Geometry
 from ninedof.kinematics import (
     VelocityMatrices,
@@ -34,6 +36,7 @@ from ninedof.pareto import Front, pareto
 from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.result import Candidate, Result, Status
+from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
 
 __version__: str = _core.version
@@ -42,8 +45,11 @@ __all__ = [
     "Candidate",
     "Configuration",
     "DesignPoint",
+    "Ellipsoid",
+    "ErrorBounds",
     "Front",
     "Geometry",
+    "LegForces",
     "LowerBound",
     "Objective",
     "Pose",
@@ -56,16 +62,24 @@ __all__ = [
     "axis_singular_values",
     "characteristic_length",
     "condition_number",
+    "error_bounds",
+    "error_map",
+    "error_samples",
+    "force_ellipsoid",
     "forward_velocity",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
+    "leg_forces",
     "leg_lengths",
     "manipulability",
     "optimize",
     "pareto",
     "reciprocal_condition_number",
+    "self_stress",
     "singular_values",
+    "stiffness",
     "trace",
+    "velocity_ellipsoid",
     "velocity_matrices",
 ]

@@ -14,11 +14,12 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "negligible", "eliminate"},
     {"geometry", "configuration", "svd6", "pose"},
     {"legs", "points", "blueprint"},
-    {"velocity", "acceleration", "null_space"},
-    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
+    {"velocity", "acceleration", "null_space", "rate_matrix", "three_blocks", "solve_near"},
+    {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"}
+    | {"accuracy", "error_sample", "ellipsoid"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto"},
     {"batch", "workspace"},
@@ -39,7 +40,7 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics"},
+    {"conditioning", "kinematics", "statics", "accuracy", "ellipsoid"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -62,6 +63,9 @@ CORE_USERS = {
     "lengths",
     "conditioning",
     "kinematics",
+    "statics",
+    "accuracy",
+    "ellipsoid",
     "limits",
     "study",
     "optimize",
@@ -70,6 +74,7 @@ CORE_USERS = {
 # Figures are drawn from records and never compute.
 PYTHON_FORBIDDEN = {
     "plot": {"_core", "conditioning", "kinematics", "result", "optimize", "sweep", "pareto", "workspace"}
+    | {"statics", "accuracy", "ellipsoid"}
 }
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
