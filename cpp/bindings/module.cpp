@@ -11,6 +11,9 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_redundancy(m);
   ninedof::python::bind_conditioning(m);
   ninedof::python::bind_singularity(m);
+  ninedof::python::bind_statics(m);
+  ninedof::python::bind_accuracy(m);
+  ninedof::python::bind_ellipsoid(m);
   ninedof::python::bind_design(m);
   ninedof::python::bind_optimize(m);
 }

@@ -13,6 +13,9 @@ void bind_position(py::module_& m);
 void bind_redundancy(py::module_& m);
 void bind_conditioning(py::module_& m);
 void bind_singularity(py::module_& m);
+void bind_statics(py::module_& m);
+void bind_accuracy(py::module_& m);
+void bind_ellipsoid(py::module_& m);
 void bind_design(py::module_& m);
 void bind_optimize(py::module_& m);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "negligible.hpp"
 #include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/svd6.hpp"
@@ -34,10 +35,6 @@ Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double chara
 }
 
 namespace {
-
-/// Below this fraction of the largest, a singular value of M is rounding: double precision cannot tell the configuration
-/// from a singular one, and it is called singular.
-constexpr double negligible = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Singular values of M, descending, negligible ones set to zero.
 Vec6 inverse_singular_values(const Geometry& g, const Configuration& c, double characteristic_length) {

@@ -8,6 +8,7 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
@@ -18,6 +19,7 @@ from ninedof.conditioning import (
     singular_values,
 )
 from ninedof.configuration import Configuration
+from ninedof.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.forward_position import AssemblyModes, PositionStatus, forward_position
 from ninedof.geometry import Geometry
 from ninedof.kinematics import (
@@ -46,6 +48,7 @@ from ninedof.singularity import (
     singularity_margins,
     uncontrolled_motions,
 )
+from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
 from ninedof.tracking import Tracked, TrackStatus, track
 
@@ -56,10 +59,13 @@ __all__ = [
     "Candidate",
     "Configuration",
     "DesignPoint",
+    "Ellipsoid",
+    "ErrorBounds",
     "Front",
     "Geometry",
     "InternalPoint",
     "InternalPointStatus",
+    "LegForces",
     "LowerBound",
     "Mechanism",
     "Objective",
@@ -82,21 +88,29 @@ __all__ = [
     "characteristic_length",
     "condition_number",
     "distance_to_singularity",
+    "error_bounds",
+    "error_map",
+    "error_samples",
+    "force_ellipsoid",
     "forward_position",
     "forward_velocity",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
+    "leg_forces",
     "leg_lengths",
     "manipulability",
     "optimize",
     "pareto",
     "reciprocal_condition_number",
+    "self_stress",
     "singular_values",
     "singularity",
     "singularity_margins",
+    "stiffness",
     "trace",
     "track",
     "uncontrolled_motions",
+    "velocity_ellipsoid",
     "velocity_matrices",
 ]

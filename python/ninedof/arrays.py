@@ -26,6 +26,12 @@ def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:
     return array
 
 
+def one_or_each(name: str, value: ArrayLike, count: int) -> Floats:
+    """Return one number for all of `count` things, or an array (..., count), as an array (..., count)."""
+    array = as_floats(name, value, ())
+    return np.full(count, array) if array.ndim == 0 else as_floats(name, array, (count,))
+
+
 def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int, ...], list[Floats]]:
     """Broadcast the leading dimensions of named arrays, each given with its number of trailing ones."""
     leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]

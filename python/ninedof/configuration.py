@@ -179,3 +179,22 @@ def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry
         raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
     p, q, s = configuration.position, configuration.rotation, configuration.internal_point
     return geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+
+
+def operands_with(
+    geometry: Geometry, configuration: Configuration, others: dict[str, Floats]
+) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
+    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands and the arrays."""
+    operands(geometry, configuration)
+    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
+    named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
+    shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
+    return shape, (geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest
+
+
+def single(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+    """Return what the core takes of one configuration; a stack is refused."""
+    flat = operands(geometry, configuration)
+    if configuration.shape:
+        raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
+    return flat

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, broadcast_leading
-from ninedof.configuration import Configuration, operands
+from ninedof.arrays import Floats, as_floats
+from ninedof.configuration import Configuration, operands, operands_with
 from ninedof.geometry import Geometry
 from ninedof.lengths import resolve_length
 
@@ -149,7 +149,7 @@ def forward_velocity(
 
     """
     rates = as_floats("leg_rates", leg_rates, (9,))
-    shape, flat, (rates,) = _with_configuration(geometry, configuration, {"leg_rates": rates})
+    shape, flat, (rates,) = operands_with(geometry, configuration, {"leg_rates": rates})
     out = _core.forward_velocity(*flat, rates.reshape(-1, 9), 0).reshape(*shape, 3, 3)
     return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
 
@@ -179,16 +179,6 @@ def inverse_velocity(
         "pdot": as_floats("pdot", pdot, (3,)),
         "sdot": as_floats("sdot", sdot, (3,)),
     }
-    shape, flat, velocity = _with_configuration(geometry, configuration, parts)
+    shape, flat, velocity = operands_with(geometry, configuration, parts)
     stacked = np.ascontiguousarray(np.concatenate([v.reshape(-1, 3) for v in velocity], axis=1))
     return _core.inverse_velocity(*flat, stacked, 0).reshape(*shape, 9)
-
-
-def _with_configuration(
-    g: Geometry, c: Configuration, others: dict[str, Floats]
-) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
-    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands and the arrays."""
-    operands(g, c)
-    named = {"position": (c.position, 1), "rotation": (c.rotation, 2), "internal_point": (c.internal_point, 1)}
-    shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
-    return shape, (g, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest

@@ -8,13 +8,16 @@
 #include <cstdlib>
 #include <vector>
 
+#include "ninedof/accuracy.hpp"
 #include "ninedof/conditioning.hpp"
 #include "ninedof/design.hpp"
+#include "ninedof/ellipsoid.hpp"
 #include "ninedof/forward_position.hpp"
 #include "ninedof/hexapod.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/sensitivity.hpp"
 #include "ninedof/singularity.hpp"
+#include "ninedof/statics.hpp"
 #include "ninedof/svd6.hpp"
 #include "ninedof/symmetric.hpp"
 #include "ninedof/tracking.hpp"
@@ -144,6 +147,24 @@ TEST_SUITE("allocation") {
       CHECK(allocations_of([&] { keep(forward_position(g, lengths, method)); }) == 0);
     const Tracker tracker(g);
     CHECK(allocations_of([&] { keep(tracker(lengths, c)); }) == 0);
+  }
+
+  TEST_CASE("statics, accuracy and ellipsoids, singular or not" * doctest::skip(!NINEDOF_COUNTS)) {
+    Random random(184);
+    Robot singular = random_robot(random);
+    singular.configuration.internal_point = singular.geometry.base_internal()[0];
+    Tolerances t;
+    t.legs.setConstant(1e-3);
+    for (const Robot& robot : {random_robot(random), singular}) {
+      const auto& [g, c] = robot;
+      const Load load{Vec3::Ones(), Vec3::Ones(), Vec3::Ones()};
+      CHECK(allocations_of([&] { keep(leg_forces(g, c, load)); }) == 0);
+      CHECK(allocations_of([&] { keep(self_stress(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(stiffness(g, c, Vec9::Ones())); }) == 0);
+      CHECK(allocations_of([&] { keep(error_bounds(g, c, t)); }) == 0);
+      CHECK(allocations_of([&] { keep(velocity_ellipsoid(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(velocity_ellipsoid(g, c, TwistPart::rotation)); }) == 0);
+    }
   }
 
   TEST_CASE("closed form, plain and with gradients" * doctest::skip(!NINEDOF_COUNTS)) {

@@ -15,15 +15,15 @@ from pathlib import PurePosixPath
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
     {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "circle_roots", "householder"}
-    | {"enclosure", "enclosed_motion", "first_root", "cramer", "three_blocks", "eliminate", "negligible"},
+    | {"enclosure", "enclosed_motion", "first_root", "cramer", "eliminate", "negligible"},
     {"geometry", "configuration", "svd6", "pose", "leg_length_checks", "rotation_problem", "quaternion_monomials"},
     {"legs", "points", "blueprint", "trilateration", "assembly_modes"},
     {"polish_rotation", "elimination", "null_space_rotations", "two_leg_rotations", "internal_point", "closure"}
     | {"jacobian_blocks"},
-    {"velocity", "acceleration", "null_space", "branch", "rate_matrix"},
+    {"velocity", "acceleration", "null_space", "branch", "rate_matrix", "three_blocks"},
     {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "statics", "ellipsoid"}
     | {"singularity", "singularity_distance"},
-    {"forward_position", "tracking", "accuracy"},
+    {"forward_position", "tracking", "accuracy", "error_sample"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path"},
     {"batch", "workspace"},

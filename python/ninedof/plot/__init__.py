@@ -4,6 +4,7 @@ Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no
 """
 
 from ninedof.plot.convergence import convergence
+from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.front import Sketch, front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
@@ -12,12 +13,14 @@ from ninedof.plot.style import save
 
 __all__ = [
     "DesignCurves",
+    "EllipsoidPanel",
     "Mechanism",
     "PoseConditions",
     "Sketch",
     "condition_curves",
     "convergence",
     "draw_mechanism",
+    "ellipsoids",
     "front",
     "mechanisms",
     "poses",

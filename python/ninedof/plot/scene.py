@@ -50,11 +50,11 @@ def frame(axes: Any, unit: str, extent: Limits) -> None:
     axes.text(half, half, high + 0.04 * (high - low), style.with_unit("z", unit), ha="center", va="bottom", **text)
 
 
-def towards_eye() -> Floats:
-    """Return the unit vector from the scene to who looks at it."""
-    elevation, azimuth = np.radians([ELEVATION, AZIMUTH])
-    flat = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    return np.asarray(np.cos(elevation) * flat + np.array([0.0, 0.0, np.sin(elevation)]))
+def towards_eye(elevation: float = ELEVATION, azimuth: float = AZIMUTH) -> Floats:
+    """Return the unit vector from the scene to who looks at it; angles in degrees."""
+    rise, turn = np.radians([elevation, azimuth])
+    flat = np.array([np.cos(turn), np.sin(turn), 0.0])
+    return np.asarray(np.cos(rise) * flat + np.array([0.0, 0.0, np.sin(rise)]))
 
 
 def to_the_left() -> Floats:

@@ -1,0 +1,350 @@
+"""Effect of leg and joint errors: first-order bounds, covariance, samples.
+
+Oracles: numpy's inverse of a matrix built elsewhere; all 512 corners one by one; scipy's root finder on leg lengths of
+robots whose joints have really been moved; the leg lengths that samples have, which no first order enters."""
+
+from itertools import product
+
+import numpy as np
+import numpy_model as model
+import pytest
+import robots
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.optimize import fsolve
+from scipy.stats import kstest
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+KINDS = pytest.mark.parametrize("kind", robots.SINGULAR)
+CORNERS = np.array(list(product([-1.0, 1.0], repeat=9)))
+TRIPLES = ("r", "rh", "u", "ut")
+LEG_OF_JOINT = [0, 1, 2, 6, 7, 8, 0, 1, 2, 3, 4, 5]
+"""In the order of `joint_errors`: base external and internal, platform external and internal."""
+
+
+def bounds(m, legs=0.0, joints=0.0):
+    return nd.error_bounds(m.geometry(), m.configuration(), legs, joints)
+
+
+def samples(m, legs=0.0, joints=0.0, **options):
+    return nd.error_samples(m.geometry(), m.configuration(), legs, joints, **options)
+
+
+def inverse(m):
+    return np.linalg.inv(robots.rates(m))
+
+
+def solved(m, lengths):
+    """Tangent to where `m` has these lengths, by scipy; joints may have been moved since."""
+    g, c = m.geometry(), m.configuration()
+    found, _, status, message = fsolve(
+        lambda t: nd.leg_lengths(g, c.moved(t)) - lengths, np.zeros(9), xtol=1e-14, full_output=True
+    )
+    residual = np.abs(nd.leg_lengths(g, c.moved(found)) - lengths).max()
+    assert residual < 1e-12, (status, message)
+    return found
+
+
+def moved_joint(m, joint, d):
+    name, row = TRIPLES[joint // 3], joint % 3
+    triple = getattr(m, name).copy()
+    triple[row] += d
+    return m._replace(**{name: triple})
+
+
+# --- The map ----------------------------------------------------------------------------------------------------------
+
+
+@given(SEEDS)
+def test_map_inverts_the_leg_rates(seed):
+    m, _ = robots.regular(seed)
+    expected = inverse(m)
+    found = nd.error_map(m.geometry(), m.configuration())
+    assert_allclose(found, expected, atol=1e-14 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
+    assert_array_equal(found[:6], nd.jacobian(m.geometry(), m.configuration()))
+
+
+@pytest.mark.parametrize("joint", range(12))
+def test_a_joint_that_is_off_is_a_leg_of_another_length(joint):
+    """Signs as documented: longer where the leg begins, shorter where it ends."""
+    m, rng = robots.regular(11)
+    d = 1e-5 * rng.normal(size=3)
+    leg = LEG_OF_JOINT[joint]
+    along = np.concatenate([v / np.linalg.norm(v, axis=1, keepdims=True) for v in model.legs(m)[:3]])[leg]
+    in_base = d if joint < 6 else m.Q @ d
+    expected = nd.error_map(m.geometry(), m.configuration())[:, leg] * (along @ in_base) * (-1 if 6 <= joint < 9 else 1)
+    found = solved(moved_joint(m, joint, d), model.lengths(m))
+    assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
+
+
+def test_map_of_legs_against_a_root_finder():
+    m, rng = robots.regular(12)
+    d = 1e-5 * rng.normal(size=9)
+    expected = nd.error_map(m.geometry(), m.configuration()) @ d
+    assert_allclose(solved(m, model.lengths(m) + d), expected, atol=3e-4 * np.abs(expected).max())
+
+
+# --- Bounds -----------------------------------------------------------------------------------------------------------
+
+
+@given(SEEDS)
+def test_bounds_are_the_worst_of_all_corners(seed):
+    m, rng = robots.regular(seed)
+    legs, joints = rng.uniform(0.0, 1e-3, size=9), rng.uniform(0.0, 1e-3, size=12)
+    box = legs.copy()
+    np.add.at(box, LEG_OF_JOINT, joints)
+    motions = (CORNERS * box) @ inverse(m).T
+    found = bounds(m, legs, joints)
+    rtol = 1e-13 * np.linalg.cond(robots.rates(m))
+    assert_allclose(found.components, np.abs(motions).max(axis=0), rtol=rtol)
+    for k, name in enumerate(("rotation", "position", "internal_point")):
+        expected = np.linalg.norm(motions[:, 3 * k : 3 * k + 3], axis=1).max()
+        assert getattr(found, name) == pytest.approx(expected, rel=rtol)
+
+
+@given(SEEDS)
+def test_covariance_of_independent_errors(seed):
+    m, rng = robots.regular(seed)
+    legs, joints = rng.uniform(0.0, 1e-3, size=9), rng.uniform(0.0, 1e-3, size=12)
+    variance = legs**2 / 3.0
+    np.add.at(variance, LEG_OF_JOINT, joints**2 / 5.0)
+    expected = (inverse(m) * variance) @ inverse(m).T
+    found = bounds(m, legs, joints).covariance
+    assert_allclose(found, expected, atol=1e-13 * np.linalg.cond(robots.rates(m)) * np.abs(expected).max())
+
+
+def test_worst_corner_is_reached_by_a_real_robot():
+    """Legs set to the worst corner, solved without linearization: halving the error halves the gap."""
+    m, _ = robots.regular(13)
+    motions = CORNERS @ inverse(m).T
+    for block, name in ((slice(0, 3), "rotation"), (slice(3, 6), "position"), (slice(6, 9), "internal_point")):
+        corner = CORNERS[np.linalg.norm(motions[:, block], axis=1).argmax()]
+        gaps = []
+        for size in (1e-4, 0.5e-4):
+            reached = np.linalg.norm(solved(m, model.lengths(m) + size * corner)[block])
+            gaps.append(abs(reached / getattr(bounds(m, size), name) - 1.0))
+        assert gaps[1] < 0.6 * gaps[0] < 1e-2
+
+
+@given(SEEDS, st.floats(1e-6, 1e6))
+def test_bounds_in_another_length_unit(seed, unit):
+    m, _ = robots.regular(seed)
+    found, expected = bounds(robots.scaled(m, unit), 1e-3 * unit, 2e-3 * unit), bounds(m, 1e-3, 2e-3)
+    rtol = 1e-13 * np.linalg.cond(robots.rates(m))
+    change = np.repeat([1.0, unit, unit], 3)
+    assert_allclose(found.components, expected.components * change, rtol=rtol)
+    assert_allclose([found.rotation, found.position], [expected.rotation, expected.position * unit], rtol=rtol)
+    size = np.abs(expected.covariance).max()
+    assert_allclose(found.covariance / np.outer(change, change), expected.covariance, atol=rtol * size)
+
+
+@KINDS
+@pytest.mark.parametrize("where", ["flat", "tilted"])
+def test_singular_configurations_have_no_bound(kind, where):
+    """det B = 0 leaves nothing determined, det C = 0 and det M = 0 leave O: three spheres say where it is."""
+    m = robots.flat(kind) if where == "flat" else robots.singular(kind, 3)[0]
+    found = bounds(m, 1e-3, 1e-3)
+    known = 0 if kind == "lower plane" else 3
+    assert np.isinf([found.rotation, found.position]).all()
+    assert np.isinf(found.components[: 9 - known]).all()
+    assert np.isinf(found.covariance.diagonal()[: 9 - known]).all()
+    assert np.isnan(found.covariance[~np.eye(9, dtype=bool)].reshape(9, 8)[: 9 - known]).all()
+    if known:
+        B_inverse = np.linalg.inv(model.matrices(m)[1])
+        assert_allclose(found.components[6:], 2e-3 * np.abs(B_inverse).sum(axis=1), rtol=1e-9)
+        assert_allclose(found.covariance[6:, 6:], (1e-6 / 3 + 1e-6 / 5) * B_inverse @ B_inverse.T, rtol=1e-9)
+        assert 0.0 < found.internal_point < 2e-3 * np.sqrt(3.0) * np.linalg.norm(B_inverse, 2) * (1 + 1e-12)
+    else:
+        assert np.isinf(found.internal_point)
+    gain = nd.error_map(m.geometry(), m.configuration())
+    assert np.isinf(gain[: 9 - known]).all()
+    assert np.isfinite(gain[9 - known :]).all()
+    still = bounds(m)  # no error at all, and yet nothing holds the platform
+    assert np.isinf(still.position)
+
+
+def test_leg_of_no_length_has_no_bound(published):
+    for s, known in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
+        found = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
+        assert np.isinf(found.rotation)
+        assert np.isfinite(found.internal_point) == known
+
+
+def test_rows_are_alone_and_broadcast(published, stack):
+    rng = np.random.default_rng(4)
+    legs, joints = rng.uniform(size=(3, 1, 9)), rng.uniform(size=(5, 12))
+    found = nd.error_bounds(published, stack, legs, joints)
+    assert found.components.shape == (3, 5, 9)
+    assert found.rotation.shape == found.position.shape == found.internal_point.shape == (3, 5)
+    assert found.covariance.shape == (3, 5, 9, 9)
+    for i in range(3):
+        for k in range(5):
+            alone = nd.error_bounds(published, stack[k], legs[i, 0], joints[k])
+            for part, whole in zip(alone, found, strict=True):
+                assert_array_equal(part, whole[i, k])
+    assert nd.error_map(published, stack).shape == (5, 9, 9)
+    assert nd.error_bounds(published, stack[:0], 1.0).covariance.shape == (0, 9, 9)
+    assert isinstance(nd.error_bounds(published, stack[0], 1.0).rotation, float)
+
+
+def test_missing_rows_stay_alone(published):
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    legs = np.array([[1.0], [1.0], [np.nan], [1.0]]) * np.ones(9)
+    for part in nd.error_bounds(published, c, legs):
+        assert np.isnan(part[1:3]).all()
+        assert np.isfinite(part[[0, 3]]).all()
+    assert np.isnan(nd.error_map(published, c)[1]).all()
+
+
+# --- Samples ----------------------------------------------------------------------------------------------------------
+
+
+def test_samples_have_the_covariance_and_keep_the_bounds():
+    m, rng = robots.regular(14)
+    legs, joints = rng.uniform(1e-5, 1e-4, size=9), rng.uniform(1e-5, 1e-4, size=12)
+    found, limit = samples(m, legs, joints, samples=40_000), bounds(m, legs, joints)
+    assert np.isfinite(found).all()
+    second_order = 0.01
+    assert (np.abs(found) <= limit.components * (1.0 + second_order)).all()
+    for k, name in enumerate(("rotation", "position", "internal_point")):
+        assert np.linalg.norm(found[:, 3 * k : 3 * k + 3], axis=1).max() <= getattr(limit, name) * (1.0 + second_order)
+    deviation = np.sqrt(limit.covariance.diagonal())
+    assert_allclose(found.mean(axis=0) / deviation, 0.0, atol=0.03)
+    assert_allclose(
+        np.cov(found.T) / np.outer(deviation, deviation), limit.covariance / np.outer(deviation, deviation), atol=0.03
+    )
+
+
+def test_one_error_alone_comes_close_to_its_bound():
+    m, _ = robots.regular(15)
+    for k in range(21):
+        legs, joints = np.split(1e-5 * np.eye(21)[k], [9])
+        found, limit = samples(m, legs, joints, samples=2000), bounds(m, legs, joints)
+        moves = limit.components > 0.0  # O knows only the lower legs
+        assert_allclose(found[:, ~moves], 0.0, atol=1e-13)
+        share = np.abs(found).max(axis=0)[moves] / limit.components[moves]
+        assert ((share > (0.99 if k < 9 else 0.8)) & (share < 1.001)).all()
+
+
+def test_samples_have_the_leg_lengths_they_were_told(published, neutral):
+    """Errors of 4 %, far from linear: the legs of every robot lie within their tolerances, spread evenly."""
+    rest = nd.leg_lengths(published, neutral)
+    legs = 0.04 * rest * np.linspace(0.2, 1.0, 9)
+    found = nd.error_samples(published, neutral, legs, samples=4000)
+    assert np.isfinite(found).all()
+    off = (nd.leg_lengths(published, neutral.moved(found)) - rest) / legs
+    assert np.abs(off).max() <= 1.0 + 1e-9
+    for k in range(9):
+        assert kstest(off[:, k], "uniform", args=(-1.0, 2.0)).pvalue > 1e-3
+    assert np.abs(np.corrcoef(off.T) - np.eye(9)).max() < 0.06
+    linear = (off * legs) @ nd.error_map(published, neutral).T
+    assert np.abs(found - linear).max() > 0.05 * np.abs(found).max()  # the case is not linear
+
+
+@pytest.mark.parametrize("joint", [0, 4, 8, 9])
+def test_joints_err_in_a_ball(joint):
+    """One joint of each kind: its leg, measured to where the joint should be, is off as points of a ball are."""
+    m, _ = robots.regular(17)
+    radius, leg = 1e-3, LEG_OF_JOINT[joint]
+    found = samples(m, 0.0, radius * np.eye(12)[joint], samples=8000, seed=5)
+    off = nd.leg_lengths(m.geometry(), m.configuration().moved(found)) - model.lengths(m)
+    assert np.abs(np.delete(off, leg, axis=1)).max() < 1e-12
+    height = off[:, leg] / radius  # a coordinate of a point in the unit ball, but for 0.1 % of curvature
+    assert np.abs(height).max() < 1.001
+    # Its distribution function: (2 + 3 h - h^3) / 4.
+    assert kstest(height, lambda h: np.clip((2 + 3 * h - h**3) / 4, 0, 1)).pvalue > 1e-3
+
+
+def test_no_error_no_motion(published, neutral):
+    assert np.abs(nd.error_samples(published, neutral, samples=5)).max() < 1e-14
+    assert nd.error_samples(published, neutral, 1e-3, samples=0).shape == (0, 9)
+
+
+def test_same_bits_for_any_threads_and_run_length(published, neutral):
+    one = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=25_000, seed=7, threads=1)
+    for threads in (2, 3, 8, None):
+        found = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=25_000, seed=7, threads=threads)
+        assert_array_equal(found, one)
+    assert_array_equal(nd.error_samples(published, neutral, 1e-3, 1e-3, samples=10, seed=7), one[:10])
+    assert len(np.unique(one[:, 0])) == 25_000
+    other = nd.error_samples(published, neutral, 1e-3, 1e-3, samples=25_000, seed=8)
+    assert not np.intersect1d(one[:, 0], other[:, 0]).size
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1e-3, 1e6])
+def test_samples_in_another_length_unit(unit):
+    m, _ = robots.regular(18)
+    expected = samples(m, 1e-2, 1e-2, samples=200) * np.repeat([1.0, unit, unit], 3)
+    found = samples(robots.scaled(m, unit), 1e-2 * unit, 1e-2 * unit, samples=200)
+    assert_allclose(found, expected, atol=0, rtol=1e-9)
+
+
+def test_samples_stand_far_from_the_origin_as_near_it():
+    m, _ = robots.regular(19)
+    shift = np.array([1e5, -2e5, 3e5])
+    far = m._replace(r=m.r + shift, rh=m.rh + shift, p=m.p + shift, s=m.s + shift)
+    assert_allclose(samples(far, 1e-2, 1e-2, samples=200), samples(m, 1e-2, 1e-2, samples=200), atol=1e-7)
+
+
+def test_great_errors_lose_the_way_and_say_so(published, neutral):
+    """Some robots cannot be put together; what can be has its lengths and is on the side of O where it began."""
+    rest = nd.leg_lengths(published, neutral)
+    found = nd.error_samples(published, neutral, 0.25 * rest, samples=2000)
+    stands = np.isfinite(found).all(axis=1)
+    assert_array_equal(np.isnan(found).all(axis=1), ~stands)
+    assert 0.2 < stands.mean() < 0.8
+    c = neutral.moved(found[stands])
+    off = nd.leg_lengths(published, c) - rest
+    assert (np.abs(off) <= 0.25 * rest * (1.0 + 1e-12)).all()
+    assert (c.internal_point[:, 2] > 0.0).all()
+    assert (np.einsum("ni,ni->n", c.position - c.internal_point, c.rotation[:, :, 2]) > 0.0).all()
+
+
+@KINDS
+@pytest.mark.parametrize("where", ["flat", "tilted"])
+def test_no_samples_from_a_singular_configuration(kind, where):
+    m = robots.flat(kind) if where == "flat" else robots.singular(kind, 4)[0]
+    assert np.isnan(samples(m, 1e-4, 1e-4, samples=50)).all()
+
+
+def test_joints_that_fall_on_a_line_make_no_robot():
+    """Errors so great that the geometry itself may be none are no exception; whatever stands has its lengths."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
+    found = nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=5.0, samples=500)
+    assert np.isnan(found).any()
+    assert np.isnan(nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=np.nan, samples=3)).all()
+
+
+# --- Bad input --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("function", [nd.error_bounds, nd.error_samples])
+@pytest.mark.parametrize("name", ["leg_errors", "joint_errors"])
+@pytest.mark.parametrize("bad", [-1e-9, np.inf, None, "fine", [1.0] * 8, [[1.0, 2.0], [1.0]], 1j], ids=str)
+def test_bad_tolerances_are_named(published, neutral, function, name, bad):
+    with pytest.raises(ValueError, match=f"^{name}: got"):
+        function(published, neutral, **{name: bad})
+
+
+@pytest.mark.parametrize(
+    ("bad", "name"),
+    [
+        ({"samples": -1}, "samples"),
+        ({"samples": 2.5}, "samples"),
+        ({"seed": -1}, "seed"),
+        ({"seed": "x"}, "seed"),
+        ({"threads": 0}, "threads"),
+        ({"leg_errors": np.zeros((2, 9))}, "leg_errors, joint_errors"),
+    ],
+)
+def test_bad_sampling_is_named(published, neutral, bad, name):
+    with pytest.raises(ValueError, match=f"^{name}: got"):
+        nd.error_samples(published, neutral, **bad)
+
+
+def test_samples_of_a_stack_are_refused(published, stack):
+    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
+        nd.error_samples(published, stack, 1e-3)

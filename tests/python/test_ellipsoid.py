@@ -1,0 +1,228 @@
+"""Velocity and force ellipsoids (Fig. 4).
+
+Oracles: numpy's SVD of a J' assembled and inverted by LAPACK; sampled leg rates; leg forces solved for by `leg_forces`;
+at singular configurations, where there is no J', numpy's null space and the limit from configurations nearby."""
+
+import numpy as np
+import numpy_model as model
+import pytest
+import robots
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+KINDS = pytest.mark.parametrize("kind", robots.SINGULAR)
+PARTS = {"rotation": slice(0, 3), "translation": slice(3, 6), "twist": slice(0, 6)}
+EACH_PART = pytest.mark.parametrize("part", PARTS)
+
+
+def velocity(m, part, lc=1.0):
+    return nd.velocity_ellipsoid(m.geometry(), m.configuration(), part, lc)
+
+
+def force(m, part, lc=1.0):
+    return nd.force_ellipsoid(m.geometry(), m.configuration(), part, lc)
+
+
+def shape_matrix(e):
+    """E with E E^T = J' J'^T: the ellipsoid without the choice of its axes."""
+    return (e.directions * e.semi_axes**2) @ e.directions.T
+
+
+def lost(m, lc=1.0):
+    return 1e-13 * np.linalg.cond(robots.rates(m, lc)) ** 2
+
+
+# --- Values -----------------------------------------------------------------------------------------------------------
+
+
+@EACH_PART
+@given(seed=SEEDS, lc=st.floats(0.1, 10.0))
+def test_velocity_ellipsoid_is_the_image_of_the_unit_ball(part, seed, lc):
+    m, _ = robots.regular(seed)
+    J = model.jacobian(m, lc)[PARTS[part]]
+    found = velocity(m, part, lc)
+    assert_allclose(found.semi_axes, np.linalg.svd(J, compute_uv=False), rtol=lost(m, lc))
+    assert_allclose(shape_matrix(found), J @ J.T, atol=lost(m, lc) * found.semi_axes[0] ** 2)
+    assert (np.diff(found.semi_axes) <= 0.0).all()
+
+
+@EACH_PART
+@given(seed=SEEDS)
+def test_leg_rates_of_norm_one_end_inside_and_touch(part, seed):
+    m, rng = robots.regular(seed)
+    J = model.jacobian(m)[PARTS[part]]
+    directions, semi_axes = velocity(m, part)
+    rates = rng.normal(size=(200, 9))
+    motions = rates / np.linalg.norm(rates, axis=1, keepdims=True) @ J.T
+    assert (np.linalg.norm(motions @ directions / semi_axes, axis=1) <= 1.0 + lost(m)).all()
+    for k, axis in enumerate(directions.T):
+        best = J.T @ axis
+        assert axis @ J @ best / np.linalg.norm(best) == pytest.approx(semi_axes[k], rel=lost(m))
+
+
+@EACH_PART
+@given(seed=SEEDS, lc=st.floats(0.1, 10.0))
+def test_loads_on_the_force_ellipsoid_take_leg_forces_of_norm_one(part, seed, lc):
+    m, rng = robots.regular(seed)
+    directions, semi_axes = force(m, part, lc)
+    ball = rng.normal(size=len(semi_axes))
+    w = np.zeros(6)
+    w[PARTS[part]] = directions @ (semi_axes * ball / np.linalg.norm(ball))
+    answer = nd.leg_forces(m.geometry(), m.configuration(), lc * w[:3], w[3:])
+    assert np.linalg.norm(answer.forces) == pytest.approx(1.0, rel=lost(m, lc))
+
+
+@EACH_PART
+def test_forces_are_fast_where_velocities_are_slow(part, published, stack):
+    fast, strong = nd.velocity_ellipsoid(published, stack, part), nd.force_ellipsoid(published, stack, part)
+    assert_allclose(strong.semi_axes, 1.0 / fast.semi_axes[:, ::-1], rtol=1e-15)
+    assert_array_equal(strong.directions, fast.directions[:, :, ::-1])
+
+
+@given(SEEDS)
+def test_axes_are_orthonormal_with_a_sign_of_their_own(seed):
+    m, _ = robots.regular(seed)
+    for part, n in (("rotation", 3), ("translation", 3), ("twist", 6)):
+        V = velocity(m, part).directions
+        assert_allclose(V.T @ V, np.eye(n), atol=1e-14)
+        assert (np.take_along_axis(V, np.abs(V).argmax(axis=0)[None], axis=0) > 0.0).all()
+
+
+def test_twist_axes_are_the_singular_values(published, stack):
+    lc = np.array([0.3, 1.0, 2.0, 5.0, 0.01])
+    found = nd.velocity_ellipsoid(published, stack, "twist", lc).semi_axes
+    assert_allclose(found, nd.singular_values(published, stack, lc), rtol=1e-12)
+    found = nd.velocity_ellipsoid(published, stack, "twist", "optimal").semi_axes
+    assert_allclose(found[:, 0] / found[:, 5], nd.condition_number(published, stack, "optimal"), rtol=1e-12)
+
+
+def test_characteristic_length_scales_rotation_alone(published, neutral):
+    one, two = (nd.velocity_ellipsoid(published, neutral, "rotation", lc).semi_axes for lc in (1.0, 2.5))
+    assert_allclose(two, 2.5 * one, rtol=1e-14)
+    one, two = (nd.velocity_ellipsoid(published, neutral, "translation", lc).semi_axes for lc in (1.0, 2.5))
+    assert_allclose(two, one, rtol=1e-14)
+
+
+@EACH_PART
+@given(seed=SEEDS, unit=st.floats(1e-6, 1e6))
+def test_ellipsoids_know_no_length_unit(part, seed, unit):
+    m, _ = robots.regular(seed)
+    other = robots.scaled(m, unit)
+    assert_allclose(velocity(other, part, 0.7 * unit).semi_axes, velocity(m, part, 0.7).semi_axes, rtol=lost(m, 0.7))
+
+
+def test_octahedral_robot_is_a_sphere_in_each_half():
+    """Theory of position and velocity, section 5: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
+    c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
+    found = nd.velocity_ellipsoid(g, c, "twist", np.sqrt(2.0) / 3.0).semi_axes
+    assert_allclose(found**2, [4.0] * 3 + [2.0 / 9.0] * 3, rtol=1e-13)
+
+
+# --- Singular configurations ------------------------------------------------------------------------------------------
+
+
+def singular_robots(kind):
+    return [robots.flat(kind), *(robots.singular(kind, seed)[0] for seed in range(40))]
+
+
+@KINDS
+@EACH_PART
+def test_a_free_motion_has_no_end(kind, part):
+    for m in singular_robots(kind):
+        free = np.linalg.svd(robots.rates(m))[2][-1, PARTS[part]]
+        directions, semi_axes = velocity(m, part)
+        assert np.isinf(semi_axes[0])
+        assert np.isfinite(semi_axes[1:]).all()
+        assert abs(directions[:, 0] @ free) == pytest.approx(np.linalg.norm(free), rel=1e-9)
+        strong = force(m, part)
+        assert strong.semi_axes[-1] == 0.0
+        assert_array_equal(strong.directions[:, -1], directions[:, 0])
+
+
+@KINDS
+@EACH_PART
+def test_the_other_axes_are_those_of_configurations_nearby(kind, part):
+    rng = np.random.default_rng(9)
+    for m in singular_robots(kind)[:10]:
+        found = velocity(m, part).semi_axes[1:]
+        near = m._replace(s=m.s + 1e-6 * rng.normal(size=3))
+        assert_allclose(np.linalg.svd(model.jacobian(near)[PARTS[part]], compute_uv=False)[1:], found, rtol=1e-2)
+
+
+def test_a_platform_that_turns_about_its_origin_goes_nowhere():
+    """O at p on an external leg's line: a turn is free that moves no p, so no translation is."""
+    m = robots.flat("leg through O")
+    # The same robot in platform axes whose origin is at O.
+    shift = m.Q.T @ (m.s - m.p)
+    m = m._replace(u=m.u - shift, ut=m.ut - shift, p=m.s)
+    assert np.isinf(velocity(m, "rotation").semi_axes[0])
+    found = velocity(m, "translation")
+    # B and C tell what the internal legs need. Leg 1 feels p whatever the platform turns; turning keeps 2 and 3 still.
+    _, B, C, _ = model.matrices(m)
+    of_o = np.hstack([np.linalg.inv(C), np.linalg.inv(B)])
+    e = model.legs(m)[0][0] / model.lengths(m)[0]
+    stretch = np.linalg.eigvalsh(np.linalg.inv(of_o @ of_o.T) + np.outer(e, e))
+    assert_allclose(found.semi_axes, 1.0 / np.sqrt(stretch), rtol=1e-12)
+    # Nearby all three can be kept still: the ellipsoid is not continuous here, and this is the smaller one.
+    near = model.jacobian(m._replace(s=m.s + np.array([1e-6, 2e-6, -1e-6])))[3:]
+    assert (found.semi_axes < 0.96 * np.linalg.svd(near, compute_uv=False)).any()
+
+
+def test_all_internal_legs_in_a_plane():
+    """Three motions out of the plane are free; the rest is what numpy's projection of the leg rates says."""
+    g = nd.Geometry.hexagonal(a1=0.5, a2=4.0, b1=2.5, b2=0.25)
+    m = model.robot(g, nd.Configuration([0.25, 0.125, 0.0], np.eye(3), [0.5, -0.25, 0.0]))
+    h = robots.rates(m)
+    of_o = h[:, 6:]
+    least = (np.eye(9) - of_o @ np.linalg.pinv(of_o, rcond=1e-13)) @ h[:, :6]
+    expected = np.linalg.svd(least, compute_uv=False)
+    found = velocity(m, "twist").semi_axes
+    assert np.isinf(found[:3]).all()
+    assert_allclose(1.0 / found[3:], expected[2::-1], rtol=1e-13)
+
+
+def test_leg_of_no_length_and_similar_hexagons(published):
+    c = nd.Configuration([0, 0, 4.0], np.eye(3), published.base_internal[1])
+    assert np.isinf(nd.velocity_ellipsoid(published, c).semi_axes[0])
+    turning = nd.velocity_ellipsoid(
+        nd.Geometry.hexagonal(1.0, 4.0, 0.5, 2.0), nd.Configuration.neutral(3.0, 1.5), "rotation"
+    )
+    assert np.isinf(turning.semi_axes[0])
+    assert_allclose(turning.directions[:, 0], [0.0, 0.0, 1.0], atol=1e-12)
+
+
+# --- Arrays -----------------------------------------------------------------------------------------------------------
+
+
+@EACH_PART
+@pytest.mark.parametrize("function", [nd.velocity_ellipsoid, nd.force_ellipsoid])
+def test_rows_are_alone(published, stack, function, part):
+    n = 6 if part == "twist" else 3
+    found = function(published, stack, part, 1.7)
+    assert found.directions.shape == (5, n, n)
+    for k in range(5):
+        alone = function(published, stack[k], part, 1.7)
+        assert_array_equal(alone.directions, found.directions[k])
+        assert_array_equal(alone.semi_axes, found.semi_axes[k])
+    assert function(published, stack[:0], part).semi_axes.shape == (0, n)
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    for rows in function(published, c, part):
+        assert np.isnan(rows[1]).all()
+        assert np.isfinite(rows[[0, 2]]).all()
+
+
+@pytest.mark.parametrize("function", [nd.velocity_ellipsoid, nd.force_ellipsoid])
+def test_bad_input_is_named(published, stack, function):
+    for bad in ("translations", None, 3, ["twist"]):
+        with pytest.raises(ValueError, match=r"^part: got"):
+            function(published, stack, bad)
+    for bad in (0.0, -1.0, np.nan, [1.0, 2.0]):
+        with pytest.raises(ValueError, match=r"^characteristic_length: got"):
+            function(published, stack, "twist", bad)
+    with pytest.raises(ValueError, match=r"^geometry: got"):
+        function(stack, published)

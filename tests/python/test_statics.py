@@ -1,0 +1,357 @@
+"""Leg forces, self-stress and stiffness.
+
+Oracles: Newton's balance of forces and moments, joint by joint; finite differences of leg lengths (virtual work); a
+spring energy minimised over the place of O by scipy on leg lengths alone; numpy's least squares on a matrix built
+elsewhere."""
+
+import numpy as np
+import numpy_model as model
+import pytest
+import robots
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.linalg import null_space, subspace_angles
+from scipy.optimize import least_squares
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+KINDS = pytest.mark.parametrize("kind", robots.SINGULAR)
+
+
+def newton(m, f, load):
+    """What is left over on the platform (moment about p, force) and on O when the legs push with f."""
+    x, y, z, u, ut = model.legs(m)
+    push = [f[k : k + 3, None] * v / np.linalg.norm(v, axis=-1, keepdims=True) for k, v in ((0, x), (3, y), (6, z))]
+    moment = np.cross(u, push[0]).sum(axis=0) - np.cross(ut, push[1]).sum(axis=0)
+    force = push[0].sum(axis=0) - push[1].sum(axis=0)
+    at_o = push[1].sum(axis=0) + push[2].sum(axis=0)
+    return np.concatenate([moment, force, at_o]) + load
+
+
+def forces(m, load):
+    return nd.leg_forces(m.geometry(), m.configuration(), load[:3], load[3:6], load[6:])
+
+
+def stiffness(m, k, **options):
+    return nd.stiffness(m.geometry(), m.configuration(), k, **options)
+
+
+def lost(m):
+    return 1e-14 * np.linalg.cond(robots.rates(m))
+
+
+# --- Leg forces -------------------------------------------------------------------------------------------------------
+
+
+@given(SEEDS)
+def test_forces_and_moments_are_in_balance(seed):
+    m, rng = robots.regular(seed)
+    load = rng.normal(size=9)
+    found, unbalanced = forces(m, load)
+    assert_allclose(newton(m, found, load), 0.0, atol=lost(m) * np.abs(found).max())
+    assert_array_equal(unbalanced, np.zeros(9))
+
+
+@given(SEEDS)
+def test_virtual_work(seed):
+    """In every small motion the work of the legs and of the load sum to zero; central differences of leg lengths."""
+    m, rng = robots.regular(seed)
+    load, motion = rng.normal(size=(2, 9))
+    c, h = m.configuration(), 1e-3
+    d1, d2 = (nd.leg_lengths(m.geometry(), c.moved(k * h * motion)) for k in (1, 2))
+    e1, e2 = (nd.leg_lengths(m.geometry(), c.moved(-k * h * motion)) for k in (1, 2))
+    rates = (8.0 * (d1 - e1) - (d2 - e2)) / (12.0 * h)
+    found = forces(m, load).forces
+    shortest = model.lengths(m).min()
+    assert found @ rates + load @ motion == pytest.approx(0.0, abs=1e-9 * np.abs(found).sum() / min(shortest, 1.0) ** 4)
+
+
+def test_a_weight_on_the_platform_is_pushed_up(published, neutral):
+    """By hand: on the axis, no moment about O leaves the external legs idle; the six others share the weight evenly."""
+    found, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, -12.0])
+    lengths = nd.leg_lengths(published, neutral)
+    assert_allclose(found[:3], 0.0, atol=1e-14)
+    assert_allclose(found[3:6], 4.0 * lengths[3:6] / (3.9828 - 2.3745), rtol=1e-14)
+    assert_allclose(found[6:], 4.0 * lengths[6:] / 2.3745, rtol=1e-14)
+    assert (found[3:] > 0.0).all()
+    only_at_o, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, 0], [0, 0, -12.0])
+    assert_allclose(only_at_o[:6], 0.0, atol=1e-14)
+    assert_allclose(only_at_o[6:], found[6:], rtol=1e-14)
+
+
+def test_forces_broadcast_and_rows_are_alone(published, stack):
+    rng = np.random.default_rng(1)
+    moment, force, at_o = rng.normal(size=(4, 1, 3)), rng.normal(size=(5, 3)), rng.normal(size=3)
+    found, unbalanced = nd.leg_forces(published, stack, moment, force, at_o)
+    assert found.shape == unbalanced.shape == (4, 5, 9)
+    for i in range(4):
+        for k in range(5):
+            assert_array_equal(found[i, k], nd.leg_forces(published, stack[k], moment[i, 0], force[k], at_o).forces)
+    assert nd.leg_forces(published, stack[:0], [0, 0, 0], [0, 0, 1]).forces.shape == (0, 9)
+
+
+def test_a_missing_row_stays_alone(published):
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    force = np.array([[0, 0, -1], [0, 0, -1], [0, np.nan, -1], [0, 0, -1.0]])
+    found, unbalanced = nd.leg_forces(published, c, [0, 0, 0], force)
+    for rows in (found, unbalanced):
+        assert np.isnan(rows[1:3]).all()
+        assert np.isfinite(rows[[0, 3]]).all()
+    K = nd.stiffness(published, c, np.array([[1.0], [1.0], [np.nan], [1.0]]) * np.ones(9))
+    assert np.isnan(K[1:3]).all()
+    assert np.isfinite(K[[0, 3]]).all()
+    assert np.isnan(nd.self_stress(published, c[1])).all()
+
+
+@given(SEEDS, st.floats(1e-6, 1e6))
+def test_forces_know_no_length_unit(seed, unit):
+    m, rng = robots.regular(seed)
+    load = rng.normal(size=9)
+    change = np.repeat([unit, 1.0, 1.0], 3)
+    found = forces(m, load).forces
+    assert_allclose(forces(robots.scaled(m, unit), load * change).forces, found, atol=lost(m) * np.abs(found).max())
+
+
+# --- Singular configurations ------------------------------------------------------------------------------------------
+
+
+def singular_robots(kind):
+    return [robots.flat(kind), *(robots.singular(kind, seed)[0] for seed in range(40))]
+
+
+@KINDS
+def test_singular_load_is_balanced_as_far_as_can_be(kind):
+    rng = np.random.default_rng(5)
+    for m in singular_robots(kind):
+        load = rng.normal(size=9)
+        found, unbalanced = forces(m, load)
+        assert_allclose(newton(m, found, load - unbalanced), 0.0, atol=1e-9 * np.abs(found).max())
+        # numpy: the least-norm least-squares solution, moments measured by the platform radius.
+        weigh = np.repeat([1.0 / robots.radius(m), 1.0, 1.0], 3)
+        h = robots.rates(m, robots.radius(m))
+        expected, _, rank, _ = np.linalg.lstsq(h.T, -load * weigh, rcond=1e-13)
+        assert rank == 8
+        assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
+        assert_allclose(unbalanced * weigh, load * weigh + h.T @ expected, atol=1e-9)
+        assert np.abs(unbalanced).max() > 1e-6
+        # It cannot be carried because it works on a motion without leg rates.
+        free = np.linalg.svd(h)[2][-1]
+        assert_allclose(subspace_angles((unbalanced * weigh)[:, None], free[:, None]), 0.0, atol=1e-6)
+
+
+@KINDS
+def test_singular_load_that_legs_can_carry_leaves_nothing(kind):
+    rng = np.random.default_rng(6)
+    for m in singular_robots(kind):
+        pushed = rng.normal(size=9)
+        load = -robots.rates(m).T @ pushed
+        found, unbalanced = forces(m, load)
+        assert_array_equal(unbalanced, np.zeros(9))
+        stress = nd.self_stress(m.geometry(), m.configuration())
+        assert_allclose(found, pushed - stress @ (stress.T @ pushed), atol=1e-9 * np.abs(found).max())
+
+
+@KINDS
+def test_self_stress_is_the_null_space(kind):
+    for m in singular_robots(kind):
+        stress = nd.self_stress(m.geometry(), m.configuration())
+        assert stress.shape == (9, 1)
+        assert_allclose(stress.T @ stress, np.eye(1), atol=1e-14)
+        assert_allclose(newton(m, stress[:, 0], np.zeros(9)), 0.0, atol=1e-13 * (1.0 + robots.radius(m)))
+        assert stress[np.abs(stress[:, 0]).argmax(), 0] > 0.0
+
+
+@KINDS
+@pytest.mark.parametrize("unit", [1e-6, 1e-3, 1e6])
+def test_singular_answers_know_no_length_unit(kind, unit):
+    rng = np.random.default_rng(7)
+    change = np.repeat([unit, 1.0, 1.0], 3)
+    for m in singular_robots(kind)[:10]:
+        other, load = robots.scaled(m, unit), rng.normal(size=9)
+        assert nd.self_stress(other.geometry(), other.configuration()).shape == (9, 1)
+        found, expected = forces(other, load * change), forces(m, load)
+        size = np.abs(expected.forces).max()
+        assert_allclose(found.forces, expected.forces, atol=1e-9 * size)
+        assert_allclose(found.unbalanced / change, expected.unbalanced, atol=1e-9 * np.abs(load).max())
+
+
+def test_several_free_motions():
+    """Similar hexagons, the platform half turned: the external legs cross in O, about which it turns freely."""
+    g = nd.Geometry.hexagonal(a1=1.0, a2=4.0, b1=0.5, b2=2.0)
+    for c, count in ((nd.Configuration.neutral(3.0, 2.0, np.pi), 3), (nd.Configuration.neutral(0.0, 0.0, 0.1), 4)):
+        expected = null_space(robots.rates(model.robot(g, c)).T, rcond=1e-13)
+        found = nd.self_stress(g, c)
+        assert found.shape == expected.shape == (9, count)
+        assert_allclose(subspace_angles(found, expected), 0.0, atol=1e-12)
+        assert_allclose(found.T @ found, np.eye(count), atol=1e-14)
+        _, unbalanced = nd.leg_forces(g, c, [0.0, 0.0, 1.0], [0.3, 0.2, 0.1])
+        assert np.abs(unbalanced).max() > 0.1
+
+
+def test_leg_of_no_length_carries_nothing(published):
+    c = nd.Configuration([0, 0, 4.0], np.eye(3), published.base_internal[1])
+    found, unbalanced = nd.leg_forces(published, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0])
+    assert found[7] == 0.0
+    assert np.isfinite(found).all()
+    assert np.abs(unbalanced).max() > 0.1
+    stress = nd.self_stress(published, c)
+    assert_allclose(np.linalg.norm(stress[7]), 1.0, rtol=1e-14)
+
+
+def test_forces_grow_towards_a_singularity(published):
+    """O one tenth as high above the base, ten times the force in the legs that carry the weight."""
+    heights = 10.0 ** -np.arange(1.0, 10.0)
+    found, unbalanced = nd.leg_forces(published, nd.Configuration.neutral(4.0, heights), [0, 0, 0], [0, 0, -1.0])
+    assert_allclose(found[:, 6] * heights, np.hypot(heights, 5.8124 / np.sqrt(3.0)) / 3.0, rtol=1e-7)
+    assert_array_equal(unbalanced, 0.0)
+
+
+# --- Stiffness --------------------------------------------------------------------------------------------------------
+
+
+@given(SEEDS)
+def test_stiffness_inverts_the_compliance(seed):
+    m, rng = robots.regular(seed)
+    k = rng.uniform(0.1, 10.0, size=9)
+    J = model.jacobian(m)
+    K = stiffness(m, k)
+    assert_allclose(K @ (J / k @ J.T), np.eye(6), atol=1e-11 * np.linalg.cond(J) ** 2)
+    assert_array_equal(K, K.T)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stiffness_is_the_least_spring_energy(seed):
+    """Springs between joints, O free: the energy, minimised over s on lengths alone, rises as t K t / 2."""
+    m, rng = robots.regular(seed)
+    g, c, k = m.geometry(), m.configuration(), rng.uniform(0.5, 2.0, size=9)
+    rest = nd.leg_lengths(g, c)
+    h = 1e-4 * min(1.0, rest.min())
+    t = rng.normal(size=6)
+
+    def least(motion):
+        def strain(s):
+            return np.sqrt(k) * (nd.leg_lengths(g, c.moved(h * np.concatenate([motion, s]))) - rest) / h
+
+        return least_squares(strain, np.zeros(3), method="lm").cost
+
+    # Odd orders cancel between t and -t.
+    assert 0.5 * (least(t) + least(-t)) == pytest.approx(0.5 * t @ stiffness(m, k) @ t, rel=1e-5)
+
+
+@given(SEEDS)
+def test_deflection_under_load_gives_the_leg_forces(seed):
+    """Whatever the springs are: legs pressed by x = K9^-1 load push with -k H x, which is what balances the load."""
+    m, rng = robots.regular(seed)
+    k, load = rng.uniform(0.1, 10.0, size=9), rng.normal(size=9)
+    K9 = stiffness(m, k, internal=True)
+    pushed = -k * (robots.rates(m) @ np.linalg.solve(K9, load))
+    assert_allclose(pushed, forces(m, load).forces, atol=1e-14 * np.linalg.cond(K9) * np.abs(pushed).max())
+
+
+@given(SEEDS)
+def test_stiffness_with_o_held(seed):
+    m, rng = robots.regular(seed)
+    k = rng.uniform(0.1, 10.0, size=9)
+    h, K9 = robots.rates(m), stiffness(m, k, internal=True)
+    assert_allclose(K9, h.T @ (k[:, None] * h), atol=1e-13 * np.abs(K9).max())
+    assert_array_equal(K9, K9.T)
+    schur = K9[:6, :6] - K9[:6, 6:] @ np.linalg.solve(K9[6:, 6:], K9[6:, :6])
+    assert_allclose(stiffness(m, k), schur, atol=1e-13 * np.linalg.cond(K9[6:, 6:]) * np.abs(K9).max())
+
+
+def test_pseudo_inverse_is_no_substitute():
+    """J^+T diag(k) J^+ agrees for equal springs and is too stiff otherwise, as the documentation says."""
+    m, rng = robots.regular(3)
+    inverse = np.linalg.pinv(model.jacobian(m))
+    assert_allclose(stiffness(m, 2.5), 2.5 * inverse.T @ inverse, atol=1e-11)
+    k = rng.uniform(0.1, 10.0, size=9)
+    excess = np.linalg.eigvalsh(inverse.T @ (k[:, None] * inverse) - stiffness(m, k))
+    assert excess.min() > -1e-11
+    assert excess.max() > 0.1
+
+
+@KINDS
+def test_singular_stiffness_is_finite_and_yields_in_the_free_motion(kind):
+    rng = np.random.default_rng(8)
+    for m in singular_robots(kind):
+        k = rng.uniform(0.5, 2.0, size=9)
+        K, h = stiffness(m, k), robots.rates(m)
+        K9 = h.T @ (k[:, None] * h)
+        schur = K9[:6, :6] - K9[:6, 6:] @ np.linalg.pinv(K9[6:, 6:], rcond=1e-13) @ K9[6:, :6]
+        assert_allclose(K, schur, atol=1e-9 * np.abs(K9).max())
+        values = np.linalg.eigvalsh(K)
+        assert abs(values[0]) < 1e-13 * values[-1]
+        assert values[1] > 1e-9 * values[-1]
+        free = np.linalg.svd(h)[2][-1, :6]
+        assert_allclose(K @ free, 0.0, atol=1e-12 * values[-1])
+
+
+def test_all_internal_legs_in_a_plane():
+    """O itself is loose there; the platform is held within the plane and not against leaving it."""
+    g = nd.Geometry.hexagonal(a1=0.5, a2=4.0, b1=2.5, b2=0.25)
+    m = model.robot(g, nd.Configuration([0.25, 0.125, 0.0], np.eye(3), [0.5, -0.25, 0.0]))
+    k = np.arange(1.0, 10.0)
+    K9 = robots.rates(m).T @ (k[:, None] * robots.rates(m))
+    schur = K9[:6, :6] - K9[:6, 6:] @ np.linalg.pinv(K9[6:, 6:], rcond=1e-13) @ K9[6:, :6]
+    assert_allclose(stiffness(m, k), schur, atol=1e-13 * np.abs(K9).max())
+    assert np.linalg.matrix_rank(schur, tol=1e-12) == 3
+
+
+def test_missing_legs():
+    m, rng = robots.regular(4)
+    k = rng.uniform(0.5, 2.0, size=9)
+    without = k.copy()
+    without[[1, 4]] = 0.0
+    K = stiffness(m, without)
+    assert np.linalg.matrix_rank(K, tol=1e-10) == 4
+    weak = np.where(without == 0.0, 1e-9, without)
+    assert_allclose(K, stiffness(m, weak), atol=1e-7)
+    only_external = np.concatenate([k[:3], np.zeros(6)])
+    A = model.matrices(m)[0]
+    assert_allclose(stiffness(m, only_external), A.T @ (k[:3, None] * A), atol=1e-13)
+    assert_array_equal(stiffness(m, 0.0), np.zeros((6, 6)))
+
+
+@given(SEEDS, st.floats(1e-6, 1e6))
+def test_stiffness_in_another_length_unit(seed, unit):
+    m, rng = robots.regular(seed)
+    k, change = rng.uniform(0.5, 2.0, size=9), np.repeat([unit, 1.0], 3)
+    K = stiffness(m, k)
+    found = stiffness(robots.scaled(m, unit), k) / np.outer(change, change)
+    assert_allclose(found, K, atol=1e-13 * np.abs(K).max())
+
+
+def test_stiffness_of_a_stack(published, stack):
+    k = np.random.default_rng(2).uniform(1.0, 2.0, size=(3, 1, 9))
+    K = nd.stiffness(published, stack, k)
+    assert K.shape == (3, 5, 6, 6)
+    assert nd.stiffness(published, stack, 1.0, internal=True).shape == (5, 9, 9)
+    for i in range(3):
+        for n in range(5):
+            assert_array_equal(K[i, n], nd.stiffness(published, stack[n], k[i, 0]))
+
+
+# --- Bad input --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("bad", [-1.0, np.inf, None, "stiff", [1.0] * 8, [[1.0] * 9] * 3, [[1.0], [1.0, 2.0]]], ids=str)
+def test_bad_stiffness_is_named(published, stack, bad):
+    with pytest.raises(ValueError, match=r"leg_stiffness.* ?got|leading dimensions.*leg_stiffness"):
+        nd.stiffness(published, stack, bad)
+
+
+@pytest.mark.parametrize("name", ["moment", "force", "force_at_o"])
+@pytest.mark.parametrize("bad", [1.0, [1.0, 2.0], None, "up", [[0.0] * 3] * 3], ids=str)
+def test_bad_load_is_named(published, stack, name, bad):
+    load = {key: [0.0, 0.0, 1.0] for key in ("moment", "force", "force_at_o")} | {name: bad}
+    with pytest.raises(ValueError, match=rf"\b{name}\b"):
+        nd.leg_forces(published, stack, **load)
+
+
+def test_self_stress_of_a_stack_is_refused(published, stack):
+    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
+        nd.self_stress(published, stack)
+    with pytest.raises(ValueError, match=r"^geometry: got"):
+        nd.self_stress(stack, published)
