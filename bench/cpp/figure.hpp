@@ -50,6 +50,7 @@ struct Figures {
 
 Figures legs();
 Figures velocity();
+Figures acceleration();
 Figures conditioning();
 Figures sensitivity();
 Figures symmetric();

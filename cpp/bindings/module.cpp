@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.attr("version") = NINEDOF_VERSION;
   ninedof::python::bind_geometry(m);
   ninedof::python::bind_kinematics(m);
+  ninedof::python::bind_acceleration(m);
   ninedof::python::bind_conditioning(m);
   ninedof::python::bind_design(m);
   ninedof::python::bind_optimize(m);

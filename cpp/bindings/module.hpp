@@ -9,6 +9,7 @@ namespace py = pybind11;
 
 void bind_geometry(py::module_& m);
 void bind_kinematics(py::module_& m);
+void bind_acceleration(py::module_& m);
 void bind_conditioning(py::module_& m);
 void bind_design(py::module_& m);
 void bind_optimize(py::module_& m);

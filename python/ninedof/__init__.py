@@ -8,6 +8,7 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+from ninedof.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
@@ -19,14 +20,7 @@ from ninedof.conditioning import (
 )
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
-from ninedof.kinematics import (
-    VelocityMatrices,
-    forward_velocity,
-    inverse_velocity,
-    jacobian,
-    leg_lengths,
-    velocity_matrices,
-)
+from ninedof.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
 from ninedof.lengths import characteristic_length
 from ninedof.objective import Objective
 from ninedof.optimize import Trace, optimize, trace
@@ -35,6 +29,7 @@ from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.result import Candidate, Result, Status
 from ninedof.study import Study
+from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
 
 __version__: str = _core.version
 
@@ -56,12 +51,17 @@ __all__ = [
     "axis_singular_values",
     "characteristic_length",
     "condition_number",
+    "forward_acceleration",
     "forward_velocity",
+    "internal_velocity",
+    "inverse_acceleration",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
+    "jacobian_rate",
     "leg_lengths",
     "manipulability",
+    "null_motion",
     "optimize",
     "pareto",
     "reciprocal_condition_number",

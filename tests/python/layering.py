@@ -14,10 +14,10 @@ from pathlib import PurePosixPath
 
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
-    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of"},
+    {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "cramer"},
     {"geometry", "configuration", "svd6", "pose"},
     {"legs", "points", "blueprint"},
-    {"velocity", "acceleration", "null_space"},
+    {"velocity", "acceleration", "closure", "jacobian_blocks", "null_space"},
     {"conditioning", "sensitivity", "characteristic_length", "symmetric", "hexapod", "forward_position", "statics"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto"},
@@ -39,7 +39,7 @@ PYTHON_LAYERS = (
     {"arrays", "checks"},
     {"geometry", "configuration"},
     {"lengths"},
-    {"conditioning", "kinematics"},
+    {"conditioning", "kinematics", "velocity", "acceleration"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -62,6 +62,8 @@ CORE_USERS = {
     "lengths",
     "conditioning",
     "kinematics",
+    "velocity",
+    "acceleration",
     "limits",
     "study",
     "optimize",
@@ -69,7 +71,18 @@ CORE_USERS = {
 
 # Figures are drawn from records and never compute.
 PYTHON_FORBIDDEN = {
-    "plot": {"_core", "conditioning", "kinematics", "result", "optimize", "sweep", "pareto", "workspace"}
+    "plot": {
+        "_core",
+        "conditioning",
+        "kinematics",
+        "velocity",
+        "acceleration",
+        "result",
+        "optimize",
+        "sweep",
+        "pareto",
+        "workspace",
+    }
 }
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
