@@ -15,7 +15,11 @@ smooth = nd.best_internal_path(geometry, position, smoothness=0.05)
 rank = np.linalg.matrix_rank(nd.null_motion(geometry, middle))
 print(f"motions of O that the platform does not notice: {rank.min()}")
 print(f"{'O':24}{'condition number: mean':>24}{'worst':>8}{'longest step of O':>20}")
-for name, c in (("half way up", middle), ("best at each pose", best.configuration), ("best, smooth", smooth.configuration)):
+for name, c in (
+    ("half way up", middle),
+    ("best at each pose", best.configuration),
+    ("best, smooth", smooth.configuration),
+):
     kappa = nd.condition_number(geometry, c)
     step = np.linalg.norm(np.diff(c.internal_point, axis=0), axis=1).max()
     print(f"{name:24}{kappa.mean():24.4f}{kappa.max():8.4f}{step:20.4f}")

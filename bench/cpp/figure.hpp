@@ -51,6 +51,7 @@ struct Figures {
 Figures legs();
 Figures velocity();
 Figures position();
+Figures acceleration();
 Figures conditioning();
 Figures sensitivity();
 Figures symmetric();

@@ -71,6 +71,23 @@ Array array_from(const Eigen::MatrixBase<Derived>& m) {
   return a;
 }
 
+/// Writes a matrix row-major at `to`; returns the place after it.
+template <class Derived>
+double* write(const Eigen::MatrixBase<Derived>& m, double* to) {
+  using RowMajor = Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime,
+                                 Derived::ColsAtCompileTime == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+  Eigen::Map<RowMajor> view(to);
+  view = m;
+  return to + m.size();
+}
+
+/// `columns` numbers for each of `count` configurations, or InvalidArgument naming the argument.
+inline const double* rows(const std::string& name, const Array& a, long count, long columns) {
+  if (a.size() != columns * count)
+    throw InvalidArgument(name, std::to_string(a.size()) + " numbers", std::to_string(columns * count));
+  return a.data();
+}
+
 /// n configurations as three arrays (n, 3), (n, 3, 3), (n, 3). Python has checked and broadcast them.
 class ConfigurationStack {
  public:

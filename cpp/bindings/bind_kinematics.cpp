@@ -1,27 +1,10 @@
-#include "arrays.hpp"
 #include "lengths.hpp"
 #include "module.hpp"
+#include "motion.hpp"
 #include "ninedof/legs.hpp"
-#include "ninedof/velocity.hpp"
 
 namespace ninedof::python {
 namespace {
-
-/// Writes a matrix row-major at `to`; returns the place after it.
-template <class Derived>
-double* write(const Eigen::MatrixBase<Derived>& m, double* to) {
-  using RowMajor = Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime,
-                                 Derived::ColsAtCompileTime == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-  Eigen::Map<RowMajor> view(to);
-  view = m;
-  return to + m.size();
-}
-
-/// Nine numbers for each configuration.
-void require_rows(const std::string& name, const Array& a, long count) {
-  if (a.size() != 9 * count)
-    throw InvalidArgument(name, std::to_string(a.size()) + " numbers", std::to_string(9 * count));
-}
 
 /// A..G of every configuration, one after the other: 18 + 9 + 9 + 9 + 18 + 36 + 54 doubles.
 constexpr py::ssize_t matrices_size = 153;
@@ -59,23 +42,33 @@ void bind_kinematics(py::module_& m) {
   m.def("forward_velocity",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& rates, int threads) {
           const ConfigurationStack c(p, q, s);
-          require_rows("leg_rates", rates, c.count());
-          const double* r = rates.data();
+          const double* r = rows("leg_rates", rates, c.count(), 9);
           return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
-            const Velocity v = forward_velocity(g, c[i], Eigen::Map<const Vec9>(r + 9 * i));
-            write(v.sdot, write(v.pdot, write(v.omega, out)));
+            write(forward_velocity(g, c[i], Eigen::Map<const Vec9>(r + 9 * i)), out);
           });
         });
-  m.def("inverse_velocity", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& velocity,
-                               int threads) {
+  m.def("inverse_velocity",
+        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& velocity, int threads) {
+          const ConfigurationStack c(p, q, s);
+          const double* v = rows("velocity", velocity, c.count(), 9);
+          return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
+            write(inverse_velocity(g, c[i], velocity_at(v + 9 * i)), out);
+          });
+        });
+  m.def("internal_velocity", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& twist,
+                                const Array& weights, int threads) {
     const ConfigurationStack c(p, q, s);
-    const double* v = velocity.data();
-    return for_each_row(c.count(), 9, threads, py::none(), [&](long i, double* out) {
-      const double* at = v + 9 * i;
-      write(inverse_velocity(
-                g, c[i], {Eigen::Map<const Vec3>(at), Eigen::Map<const Vec3>(at + 3), Eigen::Map<const Vec3>(at + 6)}),
-            out);
+    const double* t = rows("twist", twist, c.count(), 6);
+    const double* w = rows("weights", weights, c.count(), 9);
+    return for_each_row(c.count(), 3, threads, py::none(), [&](long i, double* out) {
+      const Eigen::Map<const Vec3> omega(t + 6 * i), pdot(t + 6 * i + 3);
+      write(internal_velocity(g, c[i], omega, pdot, Eigen::Map<const Vec9>(w + 9 * i)), out);
     });
+  });
+  m.def("null_motion", [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads) {
+    const ConfigurationStack c(p, q, s);
+    return for_each_row(c.count(), 27, threads, py::none(),
+                        [&](long i, double* out) { write(null_motion(g, c[i]), out); });
   });
 }
 

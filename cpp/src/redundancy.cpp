@@ -1,6 +1,5 @@
 #include "ninedof/redundancy.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +10,6 @@
 
 namespace ninedof {
 namespace {
-
-/// Singular values of null_motion below it count as zero: its rows are unit vectors.
-constexpr double negligible = 1e-12;
 
 const char* leg_names[] = {"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
 const char* determinant_names[] = {"det B", "det C", "det M"};
@@ -94,23 +90,6 @@ InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const
     if (!best || better(problem.criterion, found, *best)) best = found;
   }
   return *best;
-}
-
-Eigen::Matrix<double, 9, 3> null_motion(const Geometry& g, const Configuration& c) {
-  const Legs k = legs(g, c);
-  Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
-  for (int i = 0; i < 3; ++i) {
-    out.row(3 + i) = k.e_tilde[static_cast<std::size_t>(i)];
-    out.row(6 + i) = k.e_hat[static_cast<std::size_t>(i)];
-  }
-  return out;
-}
-
-int null_motion_rank(const Geometry& g, const Configuration& c) {
-  const Eigen::Matrix<double, 9, 3> m = null_motion(g, c);
-  if (m.hasNaN()) return 0;
-  const Vec3 sigma = m.jacobiSvd().singularValues();
-  return static_cast<int>((sigma.array() > negligible).count());
 }
 
 }  // namespace ninedof

@@ -2,11 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
+#include "closure.hpp"
+#include "jacobian_blocks.hpp"
 #include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
-#include "ninedof/rotation.hpp"
 #include "rows_of.hpp"
 
 namespace ninedof {
@@ -20,26 +25,6 @@ Mat3 row_cross(const Triple& a, const Triple& b) {
 Mat3 inverse_or_nan(const Mat3& m) {
   const Mat3 inverse = m.inverse();
   return inverse.allFinite() ? inverse : Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
-}
-
-/// What the three 3x3 solves of the forward velocity problem need. With y = s - p and v_O = pdot + omega x y:
-/// B sdot = rdot,  C v_O = C sdot - qdot,  M omega = ldot - Ee v_O,  pdot = v_O + y x omega.
-struct ForwardSolve {
-  Vec3 y;
-  Mat3 external;     ///< Ee: rows e_i
-  Mat3 m_inverse;    ///< M: rows w_i x e_i, w_i from O to the platform joint
-  Mat3 b_inverse, c_inverse;
-};
-
-ForwardSolve forward_solve(const Geometry& g, const Configuration& c) {
-  const Legs k = legs(g, c);
-  ForwardSolve f;
-  f.y = c.internal_point - c.position;
-  f.external = rows_of(k.e);
-  f.m_inverse = inverse_or_nan(row_cross({k.u[0] - f.y, k.u[1] - f.y, k.u[2] - f.y}, k.e));
-  f.b_inverse = inverse_or_nan(rows_of(k.e_hat));
-  f.c_inverse = inverse_or_nan(rows_of(k.e_tilde));
-  return f;
 }
 
 }  // namespace
@@ -63,27 +48,15 @@ VelocityMatrices velocity_matrices(const Geometry& g, const Configuration& c, do
 
 Mat69 jacobian(const Geometry& g, const Configuration& c, double characteristic_length) {
   require_positive("characteristic_length", characteristic_length);
-  const ForwardSolve f = forward_solve(g, c);
-  // omega = W udot with W = M^-1 [1, Ee C^-1, -Ee B^-1];  pdot = [0, -C^-1, B^-1] udot + y x omega.
-  Eigen::Matrix<double, 3, 9> w;
-  w << f.m_inverse, f.m_inverse * (f.external * f.c_inverse), -(f.m_inverse * (f.external * f.b_inverse));
-  Mat69 j;
-  j.topRows<3>() = characteristic_length * w;
-  j.bottomRows<3>() = skew(f.y) * w;
-  j.block<3, 3>(3, 3) -= f.c_inverse;
-  j.block<3, 3>(3, 6) += f.b_inverse;
-  if (!j.allFinite()) j.setConstant(std::numeric_limits<double>::quiet_NaN());
-  return j;
+  const ClosureSolver solver(g, c);
+  const JacobianBlocks blocks = jacobian_blocks(solver.legs, ClosureMatrices(solver));
+  return all_or_nothing(assembled(blocks, vec3(solver.legs.y), characteristic_length));
 }
 
 Velocity forward_velocity(const Geometry& g, const Configuration& c, const Vec9& leg_rates) {
-  const ForwardSolve f = forward_solve(g, c);
-  Velocity v;
-  v.sdot = f.b_inverse * leg_rates.tail<3>();
-  const Vec3 at_o = v.sdot - f.c_inverse * leg_rates.segment<3>(3);
-  v.omega = f.m_inverse * (leg_rates.head<3>() - f.external * at_o);
-  v.pdot = at_o + f.y.cross(v.omega);
-  return v;
+  const ClosureSolver solver(g, c);
+  const ClosureSolver::Solution v = solver.velocity(leg_rates);
+  return {vec3(v.angular), vec3(v.at_o + cross(solver.legs.y, v.angular)), vec3(v.o)};
 }
 
 Vec9 inverse_velocity(const Geometry& g, const Configuration& c, const Velocity& v) {
@@ -96,6 +69,36 @@ Vec9 inverse_velocity(const Geometry& g, const Configuration& c, const Velocity&
     rates[row + 6] = k.e_hat[i].dot(v.sdot);                                           // (25)
   }
   return rates;
+}
+
+Mat93 null_motion(const Geometry& g, const Configuration& c) {
+  const Legs k = legs(g, c);
+  Mat93 rates;
+  rates << Mat3::Zero(), rows_of(k.e_tilde), rows_of(k.e_hat);
+  return rates;
+}
+
+Vec3 internal_velocity(const Geometry& g, const Configuration& c, const Vec3& omega, const Vec3& pdot,
+                       const Vec9& weights) {
+  for (const double weight : weights) require_positive("weights", weight);
+  const Legs k = legs(g, c);
+  // Least squares: the six internal rates [C; B] sdot - [E t; 0], times the roots of their weights. Heavy rows go first, which
+  // keeps each row accurate in its own size however different the weights are.
+  std::array<Eigen::Index, 6> order{3, 4, 5, 6, 7, 8};
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
+  Eigen::Matrix<double, 6, 3> rows;
+  Vec6 wanted;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    const Eigen::Index leg = order[static_cast<std::size_t>(row)];
+    const auto i = static_cast<std::size_t>(leg % 3);
+    const double root = std::sqrt(weights[leg] / weights[order[0]]);
+    const bool upper = leg < 6;
+    rows.row(row) = root * (upper ? k.e_tilde : k.e_hat)[i];
+    wanted[row] = upper ? rows.row(row).dot(pdot + omega.cross(k.u_tilde[i])) : 0.0;
+  }
+  if (!rows.allFinite() || !wanted.allFinite()) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return rows.completeOrthogonalDecomposition().solve(wanted);
 }
 
 }  // namespace ninedof

@@ -8,6 +8,7 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
+from ninedof.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
@@ -22,14 +23,7 @@ from ninedof.configuration import Configuration
 from ninedof.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.forward_position import AssemblyModes, PositionStatus, forward_position
 from ninedof.geometry import Geometry
-from ninedof.kinematics import (
-    VelocityMatrices,
-    forward_velocity,
-    inverse_velocity,
-    jacobian,
-    leg_lengths,
-    velocity_matrices,
-)
+from ninedof.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
 from ninedof.lengths import characteristic_length
 from ninedof.objective import Objective
 from ninedof.optimize import Trace, optimize, trace
@@ -51,6 +45,7 @@ from ninedof.singularity import (
 from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
 from ninedof.tracking import Tracked, TrackStatus, track
+from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
 
 __version__: str = _core.version
 
@@ -92,14 +87,19 @@ __all__ = [
     "error_map",
     "error_samples",
     "force_ellipsoid",
+    "forward_acceleration",
     "forward_position",
     "forward_velocity",
+    "internal_velocity",
+    "inverse_acceleration",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
+    "jacobian_rate",
     "leg_forces",
     "leg_lengths",
     "manipulability",
+    "null_motion",
     "optimize",
     "pareto",
     "reciprocal_condition_number",

@@ -91,6 +91,23 @@ def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...
 
+# (n, 3), (n, 27)
+def internal_velocity(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, twist: _Floats, weights: _Floats, threads: int, /
+) -> _Floats: ...
+def null_motion(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
+
+# (n, 9), (n, 9), (n, 54)
+def forward_acceleration(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, rates: _Floats, accelerations: _Floats, threads: int, /
+) -> _Floats: ...
+def inverse_acceleration(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, acceleration: _Floats, threads: int, /
+) -> _Floats: ...
+def jacobian_rate(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, length: _Floats, threads: int, /
+) -> _Floats: ...
+
 # (n, 6), (n, 6), and (n, 1) for the indices, which write into `out` if it is not None
 def singular_values(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 def axis_singular_values(

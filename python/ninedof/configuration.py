@@ -184,12 +184,13 @@ def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry
 def operands_with(
     geometry: Geometry, configuration: Configuration, others: dict[str, Floats]
 ) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
-    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands and the arrays."""
+    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands, and (n, k) arrays."""
     operands(geometry, configuration)
     p, q, s = configuration.position, configuration.rotation, configuration.internal_point
     named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
     shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
-    return shape, (geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)), rest
+    flat = geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+    return shape, flat, [a.reshape(-1, a.shape[-1]) for a in rest]
 
 
 def single(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:

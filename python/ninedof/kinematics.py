@@ -1,4 +1,4 @@
-"""Positions and velocities: leg lengths, the matrices of eqs. (30)-(36), forward and inverse velocity."""
+"""Leg lengths, and the matrices of eqs. (30)-(36)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats
-from ninedof.configuration import Configuration, operands, operands_with
+from ninedof.arrays import Floats
+from ninedof.configuration import Configuration, operands
 from ninedof.geometry import Geometry
 from ninedof.lengths import resolve_length
 
 __all__ = [
     "VelocityMatrices",
-    "forward_velocity",
-    "inverse_velocity",
     "jacobian",
     "leg_lengths",
     "velocity_matrices",
@@ -122,63 +120,3 @@ def jacobian(geometry: Geometry, configuration: Configuration, characteristic_le
     lc = resolve_length(geometry, configuration, characteristic_length)
     flat = _core.jacobian(*operands(geometry, configuration), lc, 0)
     return flat.reshape(*configuration.shape, 6, 9)
-
-
-def forward_velocity(
-    geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike
-) -> tuple[Floats, Floats, Floats]:
-    """Return the velocity that given leg rates produce.
-
-    Parameters
-    ----------
-    geometry : Geometry
-    configuration : Configuration
-        Shape (...).
-    leg_rates : array_like, shape (..., 9)
-        ldot, qdot, rdot in the order of `leg_lengths`, length/time. Broadcasts against the configuration.
-
-    Returns
-    -------
-    omega : numpy.ndarray, shape (..., 3)
-        Angular velocity of the platform, rad/time, base frame.
-    pdot : numpy.ndarray, shape (..., 3)
-        Velocity of the platform origin, length/time.
-    sdot : numpy.ndarray, shape (..., 3)
-        Velocity of the internal point, length/time.
-        NaN in whatever the leg rates do not determine at a singular configuration.
-
-    """
-    rates = as_floats("leg_rates", leg_rates, (9,))
-    shape, flat, (rates,) = operands_with(geometry, configuration, {"leg_rates": rates})
-    out = _core.forward_velocity(*flat, rates.reshape(-1, 9), 0).reshape(*shape, 3, 3)
-    return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
-
-
-def inverse_velocity(
-    geometry: Geometry, configuration: Configuration, omega: ArrayLike, pdot: ArrayLike, sdot: ArrayLike
-) -> Floats:
-    """Return the leg rates of a given velocity, eqs. (24)-(26).
-
-    Parameters
-    ----------
-    geometry : Geometry
-    configuration : Configuration
-        Shape (...).
-    omega, pdot, sdot : array_like, shape (..., 3)
-        Angular velocity of the platform (rad/time), velocities of its origin and of O (length/time), base frame.
-        They broadcast against the configuration.
-
-    Returns
-    -------
-    numpy.ndarray, shape (..., 9)
-        ldot, qdot, rdot in the order of `leg_lengths`. Defined everywhere; 0 for a leg of zero length.
-
-    """
-    parts = {
-        "omega": as_floats("omega", omega, (3,)),
-        "pdot": as_floats("pdot", pdot, (3,)),
-        "sdot": as_floats("sdot", sdot, (3,)),
-    }
-    shape, flat, velocity = operands_with(geometry, configuration, parts)
-    stacked = np.ascontiguousarray(np.concatenate([v.reshape(-1, 3) for v in velocity], axis=1))
-    return _core.inverse_velocity(*flat, stacked, 0).reshape(*shape, 9)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, broadcast_leading, thread_argument
-from ninedof.configuration import Configuration, operands
+from ninedof.arrays import Floats, as_floats, thread_argument
+from ninedof.configuration import Configuration, operands, operands_with, single
 from ninedof.geometry import Geometry
 
 __all__ = [
@@ -193,10 +193,7 @@ def uncontrolled_motions(geometry: Geometry, configuration: Configuration, toler
     (4, 9)
 
     """
-    g, p, q, s = operands(geometry, configuration)
-    if configuration.shape:
-        raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
-    return _core.uncontrolled_motions(g, p, q, s, float(as_floats("tolerance", tolerance, ())))
+    return _core.uncontrolled_motions(*single(geometry, configuration), float(as_floats("tolerance", tolerance, ())))
 
 
 def distance_to_singularity(
@@ -250,30 +247,14 @@ def distance_to_singularity(
     (2.4432, <Mechanism.B: 'b'>)
 
     """
-    operands(geometry, configuration)
-    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
-    shape, (p, q, s, t) = broadcast_leading(
-        {
-            "position": (p, 1),
-            "rotation": (q, 2),
-            "internal_point": (s, 1),
-            "direction": (as_floats("direction", direction, (9,)), 1),
-        }
-    )
-    flat = _core.distance_to_singularity(
-        geometry,
-        p.reshape(-1, 3),
-        q.reshape(-1, 3, 3),
-        s.reshape(-1, 3),
-        t.reshape(-1, 9),
-        float(as_floats("most", most, ())),
-        thread_argument(threads),
-    )
+    t = as_floats("direction", direction, (9,))
+    shape, flat, (t,) = operands_with(geometry, configuration, {"direction": t})
+    out = _core.distance_to_singularity(*flat, t, float(as_floats("most", most, ())), thread_argument(threads))
     return SingularityDistance(
-        flat[:, 0].reshape(shape)[()],
-        _words(flat[:, 1], shape),
-        flat[:, 3:].reshape(*shape, 3),
-        (flat[:, 2] == 1.0).reshape(shape)[()],
+        out[:, 0].reshape(shape)[()],
+        _words(out[:, 1], shape),
+        out[:, 3:].reshape(*shape, 3),
+        (out[:, 2] == 1.0).reshape(shape)[()],
     )
 
 

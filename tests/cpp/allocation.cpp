@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "ninedof/acceleration.hpp"
 #include "ninedof/accuracy.hpp"
 #include "ninedof/conditioning.hpp"
 #include "ninedof/design.hpp"
@@ -109,11 +110,12 @@ TEST_SUITE("allocation") {
     CHECK(allocations_of([] { keep(Vec9::Zero().eval()); }) == 0);
   }
 
-  TEST_CASE("general path: legs, Jacobian, velocity, conditioning, singular or not" * doctest::skip(!NINEDOF_COUNTS)) {
+  TEST_CASE("general path: legs, Jacobian, velocity, acceleration, conditioning, singular or not" *
+            doctest::skip(!NINEDOF_COUNTS)) {
     Random random(181);
     Robot singular = random_robot(random);
     singular.configuration.internal_point = singular.geometry.base_internal()[0];
-    const Vec9 rates = random.matrix<Vec9>();
+    const Vec9 rates = random.matrix<Vec9>(), weights = rates.cwiseAbs();
     for (const Robot& robot : {random_robot(random), random_symmetric_robot(random), singular}) {
       const auto& [g, c] = robot;
       CHECK(allocations_of([&] { keep(legs(g, c)); }) == 0);
@@ -121,8 +123,13 @@ TEST_SUITE("allocation") {
       CHECK(allocations_of([&] { keep(jacobian(g, c, 0.7)); }) == 0);
       CHECK(allocations_of([&] { keep(velocity_matrices(g, c, 0.7)); }) == 0);
       CHECK(allocations_of([&] { keep(forward_velocity(g, c, rates)); }) == 0);
-      CHECK(allocations_of(
-                [&] { keep(inverse_velocity(g, c, {rates.head<3>(), rates.segment<3>(3), rates.tail<3>()})); }) == 0);
+      const Velocity v{rates.head<3>(), rates.segment<3>(3), rates.tail<3>()};
+      CHECK(allocations_of([&] { keep(inverse_velocity(g, c, v)); }) == 0);
+      CHECK(allocations_of([&] { keep(internal_velocity(g, c, v.omega, v.pdot, weights)); }) == 0);
+      CHECK(allocations_of([&] { keep(null_motion(g, c)); }) == 0);
+      CHECK(allocations_of([&] { keep(forward_acceleration(g, c, rates, weights)); }) == 0);
+      CHECK(allocations_of([&] { keep(inverse_acceleration(g, c, v, {v.omega, v.pdot, v.sdot})); }) == 0);
+      CHECK(allocations_of([&] { keep(jacobian_rate(g, c, v, 0.7)); }) == 0);
       CHECK(allocations_of([&] { keep(conditioning_matrix(g, c, 0.7)); }) == 0);
       CHECK(allocations_of([&] { keep(singular_values(g, c, 0.7)); }) == 0);
       CHECK(allocations_of([&] { keep(condition_number(g, c, 0.7)); }) == 0);

@@ -149,6 +149,24 @@ TEST_SUITE("velocity") {
     }
   }
 
+  TEST_CASE("powers of two as units of length round nothing, from 1e-90 to 1e90") {
+    Random random(72);
+    for (int n = 0; n < 20; ++n) {
+      const Robot robot = random_robot(random);
+      const Vec9 rates = random.matrix<Vec9>();
+      const Velocity one = forward_velocity(robot.geometry, robot.configuration, rates);
+      const Mat69 j = jacobian(robot.geometry, robot.configuration);
+      for (const double scale : {0x1p-300, 0x1p-20, 0x1p20, 0x1p300}) {
+        const auto [g, c] = scaled(robot, scale);
+        const Velocity v = forward_velocity(g, c, scale * rates);
+        CHECK(v.omega == one.omega);
+        CHECK(v.pdot == scale * one.pdot);
+        CHECK(v.sdot == scale * one.sdot);
+        CHECK(jacobian(g, c, scale) == j);
+      }
+    }
+  }
+
   TEST_CASE("forward velocity is where the robot goes: differences of leg lengths along it give the rates back") {
     Random random(67);
     for (int n = 0; n < 100; ++n) {
@@ -179,6 +197,16 @@ TEST_SUITE("velocity") {
     }
   }
 
+  TEST_CASE("O within the joints of an oblique plane, met exactly: NaN, where a division would give infinity") {
+    const Triple oblique{Vec3(2, -1, -1), Vec3(-1, 2, -1), Vec3(-1, -1, 2)};
+    const Triple plate{Vec3(3, 0, 0), Vec3(-1, 2, 0), Vec3(-1, -2, 0)};
+    const Geometry g(plate, oblique, plate, plate);
+    const Velocity v = forward_velocity(g, {Vec3(0, 0, 3), Mat3::Identity(), Vec3::Zero()}, Vec9::Ones());
+    CHECK(v.sdot.array().isNaN().all());
+    CHECK(v.omega.array().isNaN().all());
+    CHECK(v.pdot.array().isNaN().all());
+  }
+
   TEST_CASE("O in the plane of the platform joints (det C = 0): the platform's velocity is lost, that of O is not") {
     const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     const Configuration exact{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0)};
@@ -204,6 +232,19 @@ TEST_SUITE("velocity") {
       const Velocity v = forward_velocity(g, c, random.matrix<Vec9>());
       CHECK(v.sdot.allFinite());
       CHECK(implausible(v.omega));
+    }
+  }
+
+  TEST_CASE("closer and closer to det C = 0: sdot keeps its digits, the platform's velocity grows as 1 / distance") {
+    const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
+    const auto at = [&](double distance) {
+      return forward_velocity(flat, {Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0 - distance)},
+                              Vec9::Unit(3));
+    };
+    const double expected = at(1e-4).pdot.norm() * 1e-4;
+    for (const double distance : {0x1p-20, 0x1p-30, 0x1p-40, 0x1p-50}) {  // what 2 - distance still holds exactly
+      CHECK(at(distance).sdot.norm() == 0.0);
+      CHECK(at(distance).pdot.norm() * distance == doctest::Approx(expected).epsilon(1e-2));
     }
   }
 

@@ -157,7 +157,6 @@ def test_jacobian_and_forward_velocity_undo_tendon_rates(robot):
         assert_allclose(found, inverse, rtol=0.0, atol=ROUNDING * np.abs(inverse).max())
 
 
-@pytest.mark.skipif(not hasattr(nd, "inverse_acceleration"), reason="accelerations are not there yet")
 @EVERY_ROBOT
 def test_accelerations_are_differences_of_tendon_velocities(robot):
     """d/dt of H(t) v(t) along any path with the right velocity, by central differences with three steps, order h^6."""

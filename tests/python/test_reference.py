@@ -131,6 +131,46 @@ def test_inverse_velocity(case):
     assert_allclose(rates, vector(case, "ldot", "qdot", "rdot"), rtol=0.0, atol=20 * EPS * terms)
 
 
+def motion(case, *names):
+    return [np.array(case[name]) for name in names]
+
+
+def leg_accelerations_bound(case):
+    """Rounding of what is added up: accelerations of joints, and squared speeds over the shortest leg of a kind."""
+    omega, pdot, sdot, alpha, pddot, sddot = map(
+        np.linalg.norm, motion(case, "omega", "pdot", "sdot", "alpha", "pddot", "sddot")
+    )
+    size = np.abs([case["joints"]["u"], case["joints"]["ut"]]).max()
+    speed = pdot + sdot + omega * size
+    return pddot + sddot + (alpha + omega**2) * size + speed**2 / np.min(case["l"] + case["q"] + case["r"])
+
+
+def test_inverse_acceleration(case):
+    found = nd.inverse_acceleration(
+        geometry(case), configuration(case), *motion(case, "omega", "pdot", "sdot", "alpha", "pddot", "sddot")
+    )
+    expected = vector(case, "lddot", "qddot", "rddot")
+    assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * leg_accelerations_bound(case))
+
+
+def test_forward_acceleration(case):
+    rates, accelerations = vector(case, "ldot", "qdot", "rdot"), vector(case, "lddot", "qddot", "rddot")
+    alpha, pddot, sddot = nd.forward_acceleration(geometry(case), configuration(case), rates, accelerations)
+    # As in forward velocity. B is met twice: sddot comes from squares of an sdot that was itself computed.
+    J, reach = np.abs(case["J"]), leg_accelerations_bound(case)
+    assert np.abs(alpha - case["alpha"]).max() <= case["rel_tol_J"] * reach * J[:3].max() / case["lc"]
+    assert np.abs(pddot - case["pddot"]).max() <= case["rel_tol_J"] * reach * J[3:].max()
+    assert np.abs(sddot - case["sddot"]).max() <= 20 * EPS * reach * case["kappa_B"] ** 2
+
+
+def test_jacobian_rate(case, call):
+    velocity = motion(case, "omega", "pdot", "sdot")
+    rate = call(case, lambda g, c, lc: nd.jacobian_rate(g, c, *velocity, lc), case["lc"])
+    expected = np.array(case["Jdot"])
+    for rows in (slice(0, 3), slice(3, 6)):
+        assert np.abs(rate[rows] - expected[rows]).max() <= case["rel_tol_J"] * np.abs(expected[rows]).max()
+
+
 def test_poses_of_one_robot_in_one_call():
     """The four poses that share a geometry, at condition numbers from 30 to 3e8, side by side."""
     group = [c for c in CASES.values() if "O near base plane" in c["tags"]]

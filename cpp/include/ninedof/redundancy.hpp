@@ -93,10 +93,4 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start = {});
 
-/// d(leg lengths) / ds with the platform still, [0; C; B]: the null motions. Its rank is 3 unless O is singular for both B and C.
-Eigen::Matrix<double, 9, 3> null_motion(const Geometry& g, const Configuration& c);
-
-/// Rank of null_motion: how many independent ways O can go with the platform still and legs that notice.
-int null_motion_rank(const Geometry& g, const Configuration& c);
-
 }  // namespace ninedof

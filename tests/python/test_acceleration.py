@@ -1,0 +1,243 @@
+"""Accelerations and the derivative of J' by their definition: what leg lengths do along a motion that curves.
+
+The oracle moves the robot in time with scipy rotations and measures it with numpy_model: distances between joints, and
+J' by a general inverse. It knows no acceleration of a joint and no derivative of a direction.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+FLAT = nd.Geometry.hexagonal(0.4, 3.0, 2.0, 0.3)
+
+
+def random_robot(seed):
+    """One general robot that is not near a singularity; its numpy model."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
+
+
+def at_time(m, motion, t):
+    """The model at p + t pdot + t^2 pddot / 2 and so on; exp(t omega + t^2 alpha / 2) Q has these derivatives."""
+    omega, pdot, sdot, alpha, pddot, sddot = motion
+    turn = Rotation.from_rotvec(t * omega + 0.5 * t**2 * alpha).as_matrix()
+    return m._replace(p=m.p + t * pdot + 0.5 * t**2 * pddot, Q=turn @ m.Q, s=m.s + t * sdot + 0.5 * t**2 * sddot)
+
+
+def second_derivative(function, h):
+    """Central differences of the sixth order."""
+    pair = [function(k * h) + function(-k * h) for k in (1, 2, 3)]
+    return (270 * pair[0] - 27 * pair[1] + 2 * pair[2] - 490 * function(0.0)) / (180 * h**2)
+
+
+def derivative(function, h):
+    pair = [function(k * h) - function(-k * h) for k in (1, 2, 3)]
+    return (45 * pair[0] - 9 * pair[1] + pair[2]) / (60 * h)
+
+
+@given(SEEDS)
+def test_inverse_acceleration_is_the_second_derivative_of_leg_lengths(seed):
+    m, rng = random_robot(seed)
+    motion = 0.5 * rng.normal(size=(6, 3))
+    found = nd.inverse_acceleration(m.geometry(), m.configuration(), *motion)
+    scale = 1.0 / model.lengths(m).min() ** 3
+    expected = second_derivative(lambda t: model.lengths(at_time(m, motion, t)), 1e-2)
+    assert_allclose(found, expected, rtol=0.0, atol=1e-8 * max(1.0, scale))
+
+
+@given(SEEDS)
+def test_leg_accelerations_differentiate_leg_rates(seed):
+    """One derivative instead of two: leg rates at configurations in time, with the velocities they have there."""
+    m, rng = random_robot(seed)
+    g, motion = m.geometry(), 0.5 * rng.normal(size=(6, 3))
+    motion[3] = rng.normal() * motion[0]  # so that the angular velocity along the motion is known in closed form
+    omega, pdot, sdot, alpha, pddot, sddot = motion
+
+    def rates(t):
+        c = at_time(m, motion, t).configuration()
+        return nd.inverse_velocity(g, c, omega + t * alpha, pdot + t * pddot, sdot + t * sddot)
+
+    scale = 1.0 / model.lengths(m).min() ** 3
+    found = nd.inverse_acceleration(g, m.configuration(), *motion)
+    assert_allclose(found, derivative(rates, 3e-3), rtol=0.0, atol=1e-9 * max(1.0, scale))
+
+
+@given(SEEDS)
+def test_forward_and_inverse_acceleration_undo_each_other(seed):
+    m, rng = random_robot(seed)
+    g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
+    rates = nd.inverse_velocity(g, c, *motion[:3])
+    accelerations = nd.inverse_acceleration(g, c, *motion)
+    lost = 1e-13 * (model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])) ** 2
+    assert_allclose(nd.forward_acceleration(g, c, rates, accelerations), motion[3:], rtol=0.0, atol=lost)
+
+
+@given(SEEDS, st.floats(0.1, 10.0))
+def test_the_derivative_of_the_jacobian(seed, lc):
+    m, rng = random_robot(seed)
+    motion = 0.5 * rng.normal(size=(6, 3))
+    motion[3:] = 0.0
+    found = nd.jacobian_rate(m.geometry(), m.configuration(), *motion[:3], lc)
+    kappa = model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])
+    expected = derivative(lambda t: model.jacobian(at_time(m, motion, t), lc), 0.03 / kappa)
+    assert_allclose(found, expected, rtol=0.0, atol=1e-8 * kappa * np.abs(expected).max())
+
+
+@given(SEEDS, st.floats(0.1, 10.0))
+def test_the_twist_changes_as_both_derivatives_say(seed, lc):
+    """Dt/dt = J' uddot + Jdot' udot, for whatever O does."""
+    m, rng = random_robot(seed)
+    g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
+    rates, accelerations = nd.inverse_velocity(g, c, *motion[:3]), nd.inverse_acceleration(g, c, *motion)
+    found = nd.jacobian(g, c, lc) @ accelerations + nd.jacobian_rate(g, c, *motion[:3], lc) @ rates
+    lost = 1e-13 * (model.condition_number(m) * np.linalg.cond(model.matrices(m)[1])) ** 2
+    assert_allclose(found[:3] / lc, motion[3], rtol=0.0, atol=lost)
+    assert_allclose(found[3:], motion[4], rtol=0.0, atol=lost)
+
+
+@pytest.mark.parametrize("unit", [2.0**-20, 2.0**20])
+def test_the_unit_of_length(published, neutral, unit):
+    """Accelerations are lengths over times squared; a power of two as unit of length rounds nothing."""
+    rng = np.random.default_rng(1)
+    motion = rng.normal(size=(6, 3))
+    joints = (
+        published.base_external,
+        published.base_internal,
+        published.platform_external,
+        published.platform_internal,
+    )
+    g = nd.Geometry(*(unit * j for j in joints))
+    c = nd.Configuration(unit * neutral.position, neutral.rotation, unit * neutral.internal_point)
+    other = motion * np.array([1.0, unit, unit, 1.0, unit, unit])[:, None]
+    accelerations = nd.inverse_acceleration(published, neutral, *motion)
+    assert_array_equal(nd.inverse_acceleration(g, c, *other), unit * accelerations)
+    rate = nd.jacobian_rate(published, neutral, *motion[:3], 1.0)
+    assert_array_equal(nd.jacobian_rate(g, c, *other[:3], unit), rate)
+
+
+def test_a_circle_at_constant_speed():
+    """The platform turns about its axis, O at rest on it: hand-made accelerations of the external legs, none inside."""
+    g, c, w = nd.Geometry.hexagonal(0.0, 3.0, 2.0, 0.0), nd.Configuration.neutral(2.0, 1.0, 0.3), 1.7
+    zero = np.zeros(3)
+    found = nd.inverse_acceleration(g, c, [0, 0, w], zero, zero, zero, zero, zero)
+    # l^2 = R^2 + U^2 - 2 R U cos(phi + w t) + h^2
+    r, u = g.base_external[0], g.platform_external[0]
+    R, U = np.hypot(*r[:2]), np.hypot(*u[:2])
+    phi = np.arctan2(u[1], u[0]) + 0.3 - np.arctan2(r[1], r[0])
+    length = np.sqrt(R**2 + U**2 - 2 * R * U * np.cos(phi) + 4.0)
+    rate = R * U * np.sin(phi) * w / length
+    assert_allclose(found[:3], (R * U * np.cos(phi) * w**2 - rate**2) / length, rtol=1e-14)
+    assert_allclose(found[3:], 0.0, atol=1e-15)
+
+
+def test_singular_configurations():
+    ones = np.ones(9)
+    in_base = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, 0.0])
+    assert np.isnan(nd.forward_acceleration(FLAT, in_base, ones, ones)).all()
+    in_platform = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, 2.0])
+    alpha, pddot, sddot = nd.forward_acceleration(FLAT, in_platform, ones, ones)
+    assert np.isnan([alpha, pddot]).all()
+    assert np.isfinite(sddot).all()
+    e = np.eye(3)
+    for c in (in_base, in_platform):
+        assert np.isnan(nd.jacobian_rate(FLAT, c, *e)).all()
+        assert np.isfinite(nd.inverse_acceleration(FLAT, c, *e, *e)).all()
+
+
+def test_a_leg_of_zero_length_is_nan_alone():
+    c = nd.Configuration([0.1, 0.2, 2.0], None, FLAT.base_internal[1])
+    found = nd.inverse_acceleration(FLAT, c, *np.eye(3), *np.eye(3))
+    assert np.isnan(found).nonzero()[0].tolist() == [7]
+
+
+def test_stack_equals_one_by_one(published, stack):
+    rng = np.random.default_rng(3)
+    rates, accelerations = rng.normal(size=(2, 5, 9))
+    motion, lc = rng.normal(size=(6, 5, 3)), rng.uniform(0.5, 2.0, size=5)
+    singles = list(stack)
+    forward = [nd.forward_acceleration(published, *row) for row in zip(singles, rates, accelerations, strict=True)]
+    assert_array_equal(np.stack(nd.forward_acceleration(published, stack, rates, accelerations), axis=1), forward)
+    inverse = [nd.inverse_acceleration(published, c, *motion[:, k]) for k, c in enumerate(singles)]
+    assert_array_equal(nd.inverse_acceleration(published, stack, *motion), inverse)
+    rate = [nd.jacobian_rate(published, c, *motion[:3, k], lc[k]) for k, c in enumerate(singles)]
+    assert_array_equal(nd.jacobian_rate(published, stack, *motion[:3], lc), rate)
+
+
+def test_a_large_stack_holds_the_bits_of_its_rows():
+    """Beyond one block of work, on however many threads."""
+    rng = np.random.default_rng(9)
+    c = model.random_robots(rng, 3000).configuration()
+    motion = rng.normal(size=(6, 3000, 3))
+    accelerations = nd.inverse_acceleration(FLAT, c, *motion)
+    rate = nd.jacobian_rate(FLAT, c, *motion[:3])
+    for k in range(0, 3000, 250):
+        assert_array_equal(accelerations[k], nd.inverse_acceleration(FLAT, c[k], *motion[:, k]))
+        assert_array_equal(rate[k], nd.jacobian_rate(FLAT, c[k], *motion[:3, k]))
+
+
+def test_broadcasting(published, stack, neutral):
+    alpha, pddot, sddot = nd.forward_acceleration(published, stack, np.ones((4, 1, 9)), np.ones(9))
+    assert alpha.shape == pddot.shape == sddot.shape == (4, 5, 3)
+    v = [np.ones((2, 1, 3)), [0, 0, 1], np.zeros((6, 3))]
+    assert nd.inverse_acceleration(published, neutral, *v, *v).shape == (2, 6, 9)
+    lc = np.array([0.5, 1.0, 2.0, 3.0, 0.1])
+    rate = nd.jacobian_rate(published, stack, np.ones((2, 1, 3)), [0, 0, 1], [1, 0, 0], lc)
+    assert rate.shape == (2, 5, 6, 9)
+    assert_array_equal(rate[1], nd.jacobian_rate(published, stack, np.ones(3), [0, 0, 1], [1, 0, 0], lc))
+    assert nd.jacobian_rate(published, stack[:0], *np.eye(3)).shape == (0, 6, 9)
+    assert nd.forward_acceleration(published, stack[:0], np.ones(9), np.ones(9))[0].shape == (0, 3)
+
+
+def test_a_length_by_its_kind_is_held(published, neutral):
+    """The derivative of J' is taken with the length of this configuration, whatever that length would become."""
+    motion, lc = np.eye(3), nd.characteristic_length(published, neutral, "natural")
+    found = nd.jacobian_rate(published, neutral, *motion, "natural")
+    assert_array_equal(found, nd.jacobian_rate(published, neutral, *motion, lc))
+
+
+def test_missing_pose_stays_alone(published):
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    e = np.eye(3)
+    for result in (
+        nd.inverse_acceleration(published, c, *e, *e)[..., :6],
+        nd.jacobian_rate(published, c, *e),
+        nd.forward_acceleration(published, c, np.ones(9), np.ones(9))[0],
+    ):
+        assert np.isfinite(result[[0, 2]]).all()
+        assert np.isnan(result[1]).all()
+
+
+NAMES = ("omega", "pdot", "sdot", "alpha", "pddot", "sddot")
+
+
+@pytest.mark.parametrize("bad", [np.ones(2), np.ones((2, 3)), None, 1j * np.ones(3)], ids=range(4))
+@pytest.mark.parametrize("name", NAMES)
+def test_bad_motion(published, stack, name, bad):
+    motion = dict.fromkeys(NAMES, np.zeros(3)) | {name: bad}
+    with pytest.raises(ValueError, match=name):
+        nd.inverse_acceleration(published, stack, **motion)
+    if name in NAMES[:3]:
+        with pytest.raises(ValueError, match=name):
+            nd.jacobian_rate(published, stack, *(motion[n] for n in NAMES[:3]))
+
+
+@pytest.mark.parametrize("name", ["leg_rates", "leg_accelerations"])
+@pytest.mark.parametrize("bad", [np.ones(8), np.ones((2, 9)), None, "abc"], ids=range(4))
+def test_bad_leg_arguments(published, stack, name, bad):
+    legs = {"leg_rates": np.zeros(9), "leg_accelerations": np.zeros(9)} | {name: bad}
+    with pytest.raises(ValueError, match=name):
+        nd.forward_acceleration(published, stack, **legs)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "metre", None, 1j, [1.0, 2.0]], ids=str)
+def test_bad_characteristic_length(published, stack, bad):
+    with pytest.raises(ValueError, match=r"(characteristic_length|kind): got"):
+        nd.jacobian_rate(published, stack, *np.eye(3), bad)

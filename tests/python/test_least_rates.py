@@ -1,0 +1,179 @@
+"""The three motions to spare: null motions, the least leg rates of a platform velocity.
+
+Oracle: numpy's pseudo-inverse and least squares on the matrices of numpy_model, and the definition itself: no other
+velocity of O has smaller leg rates.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+import ninedof as nd
+
+SEEDS = st.integers(0, 2**32 - 1)
+FLAT = nd.Geometry.hexagonal(0.4, 3.0, 2.0, 0.3)
+
+
+def random_robot(seed):
+    """One general robot that is not near a singularity; its numpy model."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    return robots.at(int(np.argmin(model.condition_number(robots)))), rng
+
+
+def least(m, omega, pdot, weights=1.0):
+    """Sdot by least squares, SVD inside: all nine leg rates as an affine function of sdot."""
+    A, B, C, D = model.matrices(m)
+    t = np.concatenate([omega, pdot])
+    fixed = np.concatenate([A @ t, -np.hstack([D, C]) @ t, np.zeros(3)])
+    free = np.vstack([np.zeros((3, 3)), C, B])
+    root = np.sqrt(weights) * np.ones(9)
+    return np.linalg.lstsq(root[:, None] * free, -root * fixed, rcond=1e-14)[0]
+
+
+@given(SEEDS)
+def test_least_leg_rates_are_the_pseudo_inverse_of_the_jacobian(seed):
+    m, rng = random_robot(seed)
+    g, c, (omega, pdot) = m.geometry(), m.configuration(), rng.normal(size=(2, 3))
+    found = nd.inverse_velocity(g, c, omega, pdot)
+    J = model.jacobian(m, 0.7)
+    lost = 1e-13 * model.condition_number(m, 0.7) * np.linalg.cond(nd.null_motion(g, c))
+    assert_allclose(found, np.linalg.pinv(J) @ [*(0.7 * omega), *pdot], rtol=0.0, atol=lost)
+    assert_allclose(nd.null_motion(g, c).T @ found, np.zeros(3), rtol=0.0, atol=lost)
+    sdot = nd.internal_velocity(g, c, omega, pdot)
+    assert_array_equal(found, nd.inverse_velocity(g, c, omega, pdot, sdot))
+
+
+@given(SEEDS, st.floats(1.0, 1e3))
+def test_weighted_least_squares(seed, spread):
+    m, rng = random_robot(seed)
+    g, c, (omega, pdot) = m.geometry(), m.configuration(), rng.normal(size=(2, 3))
+    weights = spread ** rng.uniform(-1.0, 1.0, size=9)
+    sdot = nd.internal_velocity(g, c, omega, pdot, weights)
+    lost = 1e-13 * spread * np.linalg.cond(nd.null_motion(g, c)) ** 2
+    assert_allclose(sdot, least(m, omega, pdot, weights), rtol=0.0, atol=lost)
+    rates = nd.inverse_velocity(g, c, omega, pdot, weights=weights)
+    cost = weights @ rates**2
+    for other in sdot + 1e-3 * rng.normal(size=(20, 3)):
+        assert weights @ nd.inverse_velocity(g, c, omega, pdot, other) ** 2 > cost
+
+
+@pytest.mark.parametrize("plate", ["base", "platform"])
+def test_finite_where_one_triple_fails(plate):
+    """Rates from numpy's exact problem; J' does not exist there."""
+    height = {"base": 0.0, "platform": 2.0}[plate]
+    c = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, height])
+    assert np.isnan(nd.jacobian(FLAT, c)).all()
+    m, rng = model.robot(FLAT, c), np.random.default_rng(4)
+    for omega, pdot in rng.normal(size=(20, 2, 3)):
+        for weights in (np.ones(9), rng.uniform(0.1, 10.0, size=9)):
+            assert_allclose(
+                nd.internal_velocity(FLAT, c, omega, pdot, weights), least(m, omega, pdot, weights), atol=1e-13
+            )
+    assert np.linalg.matrix_rank(nd.null_motion(FLAT, c)) == 3
+
+
+def test_finite_up_to_the_plane_and_continuous():
+    """Sdot through det B = 0 at distances from 1e-1 to 0: no step, no growth."""
+    distances = np.array([1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0])
+    c = nd.Configuration([0.1, 0.2, 2.0], None, np.stack(np.broadcast_arrays(0.3, -0.2, distances), axis=-1))
+    found = nd.internal_velocity(FLAT, c, [0.3, -0.1, 0.2], [0.5, 0.7, -0.4])
+    assert_allclose(found[2:], np.broadcast_to(found[-1], (5, 3)), atol=1e-4)
+    assert_allclose(found[3:], np.broadcast_to(found[-1], (4, 3)), atol=1e-7)
+
+
+def test_both_triples_fail_in_one_direction():
+    """All legs in one plane: the leg rates do not depend on O normal to it; the shortest sdot has nothing there."""
+    c = nd.Configuration([0.1, 0.2, 0.0], None, [0.3, -0.2, 0.0])
+    omega, pdot = [0.3, -0.1, 0.2], [0.5, 0.7, -0.4]
+    sdot = nd.internal_velocity(FLAT, c, omega, pdot)
+    assert_allclose(sdot, least(model.robot(FLAT, c), omega, pdot), atol=1e-14)
+    assert sdot[2] == 0.0
+    assert np.linalg.matrix_rank(nd.null_motion(FLAT, c)) == 2
+
+
+@given(SEEDS)
+def test_null_motions(seed):
+    m, rng = random_robot(seed)
+    g, c = m.geometry(), m.configuration()
+    N = nd.null_motion(g, c)
+    _, B, C, _ = model.matrices(m)
+    assert_allclose(N, np.vstack([np.zeros((3, 3)), C, B]), rtol=0.0, atol=1e-15)
+    assert np.linalg.matrix_rank(N) == 3
+    lost = 1e-13 * model.condition_number(m) * np.linalg.cond(B)
+    assert_allclose(nd.jacobian(g, c) @ N, np.zeros((6, 3)), rtol=0.0, atol=lost)
+    v = rng.normal(size=3)
+    omega, pdot, sdot = nd.forward_velocity(g, c, N @ v)
+    assert_allclose([omega, pdot, sdot], [np.zeros(3), np.zeros(3), v], rtol=0.0, atol=10 * lost)
+
+
+def test_all_leg_rates_of_a_platform_velocity_are_one_of_them_and_null_motions(published, neutral):
+    rng = np.random.default_rng(6)
+    omega, pdot, sdot = rng.normal(size=(3, 3))
+    shift = sdot - nd.internal_velocity(published, neutral, omega, pdot)
+    assert_allclose(
+        nd.inverse_velocity(published, neutral, omega, pdot, sdot),
+        nd.inverse_velocity(published, neutral, omega, pdot) + nd.null_motion(published, neutral) @ shift,
+        atol=1e-14,
+    )
+
+
+def test_stack_equals_one_by_one(published, stack):
+    rng = np.random.default_rng(3)
+    omega, pdot, weights = rng.normal(size=(5, 3)), rng.normal(size=(5, 3)), rng.uniform(0.1, 10.0, size=(5, 9))
+    singles = list(stack)
+    assert_array_equal(nd.null_motion(published, stack), [nd.null_motion(published, c) for c in singles])
+    rows = list(zip(singles, omega, pdot, weights, strict=True))
+    assert_array_equal(
+        nd.internal_velocity(published, stack, omega, pdot, weights),
+        [nd.internal_velocity(published, *row) for row in rows],
+    )
+    assert_array_equal(
+        nd.inverse_velocity(published, stack, omega, pdot, weights=weights),
+        [nd.inverse_velocity(published, c, o, p, weights=w) for c, o, p, w in rows],
+    )
+
+
+def test_shapes(published, stack, neutral):
+    assert nd.internal_velocity(published, neutral, np.ones((2, 1, 3)), np.zeros((6, 3))).shape == (2, 6, 3)
+    assert nd.inverse_velocity(published, neutral, [0, 0, 1], [0, 0, 0], weights=np.ones((4, 9))).shape == (4, 9)
+    assert nd.inverse_velocity(published, stack[:0], [0, 0, 1], [0, 0, 0]).shape == (0, 9)
+    grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
+    assert nd.null_motion(published, grid).shape == (2, 3, 9, 3)
+
+
+def test_missing_pose_stays_alone(published):
+    c = nd.Configuration([[0, 0, 4], [np.nan, 0, 4], [0, 0, 4]], np.eye(3), [0, 0, 2.0])
+    for result in (
+        nd.internal_velocity(published, c, [1, 0, 0], [0, 1, 0]),
+        nd.inverse_velocity(published, c, [1, 0, 0], [0, 1, 0])[..., 3:],
+    ):
+        assert np.isfinite(result[[0, 2]]).all()
+        assert np.isnan(result[1]).all()
+    one = nd.internal_velocity(published, c[0], [[1, 0, 0], [np.nan, 0, 0]], [0, 1, 0])
+    assert np.isfinite(one[0]).all()
+    assert np.isnan(one[1]).all()
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+def test_a_weight_that_is_none(published, neutral, bad):
+    weights = np.ones((3, 9))
+    weights[1, 4] = bad
+    for function in (nd.internal_velocity, lambda *a: nd.inverse_velocity(*a[:4], weights=a[4])):
+        with pytest.raises(ValueError, match=r"^weights: got .+, expected .+"):
+            function(published, neutral, [0, 0, 1], [0, 0, 0], weights)
+
+
+def test_bad_arguments(published, stack, neutral):
+    for bad in (np.ones(3), np.ones((2, 9)), "heavy", 1j * np.ones(9)):
+        with pytest.raises(ValueError, match="weights"):
+            nd.internal_velocity(published, stack, [0, 0, 1], [0, 0, 0], bad)
+    with pytest.raises(ValueError, match=r"^weights: got .+, expected .+"):
+        nd.inverse_velocity(published, neutral, [0, 0, 1], [0, 0, 0], [0, 0, 0], np.ones(9))
+    for name in ("omega", "pdot"):
+        motion = dict.fromkeys(("omega", "pdot"), np.zeros(3)) | {name: np.ones(2)}
+        with pytest.raises(ValueError, match=name):
+            nd.internal_velocity(published, neutral, **motion)
