@@ -42,15 +42,15 @@ def forward_acceleration(
 
     Examples
     --------
-    Legs that turn evenly: O is carried along the base plane at constant leg rates, and bends away.
+    The platform rises, O at rest. Leg rates that stay as they are let it slow down, and turn, for the legs get steeper.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> rates = nd.inverse_velocity(g, c, [0, 0, 0], [0, 0, 0], sdot=[1, 0, 0])
+    >>> rates = nd.inverse_velocity(g, c, omega=[0, 0, 0], pdot=[0, 0, 1], sdot=[0, 0, 0])
     >>> alpha, pddot, sddot = nd.forward_acceleration(g, c, rates, [0] * 9)
-    >>> sddot.round(4) + 0.0
-    array([ 0.0968,  0.    , -0.2756])
+    >>> alpha.round(4) + 0.0, pddot.round(4) + 0.0
+    (array([0.    , 0.    , 0.2168]), array([ 0.    ,  0.    , -0.3526]))
 
     """
     given = {
@@ -92,12 +92,14 @@ def inverse_acceleration(
 
     Examples
     --------
+    A platform that turns evenly about its axis: the external legs alone feel it, and not evenly.
+
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
     >>> still, turning = [0, 0, 0], [0, 0, 1]
     >>> nd.inverse_acceleration(g, c, turning, still, still, still, still, still).round(4)[[0, 3, 6]] + 0.0
-    array([-0.7729,  0.    ,  0.    ])
+    array([0.3726, 0.    , 0.    ])
 
     """
     motion = {"omega": omega, "pdot": pdot, "sdot": sdot, "alpha": alpha, "pddot": pddot, "sddot": sddot}

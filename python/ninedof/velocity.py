@@ -79,21 +79,16 @@ def inverse_velocity(
 
     Examples
     --------
-    The platform turns about its axis. O may stay where it is; the least leg rates let it, and no choice is cheaper.
+    The platform rises. Where O is left behind, the upper internal legs do all the work inside; O is better taken along
+    part of the way.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> nd.inverse_velocity(g, c, [0, 0, 1], [0, 0, 0], sdot=[0, 0, 0]).round(4)[[0, 3, 6]] + 0.0
-    array([-0.9879,  0.    ,  0.    ])
-
-    The platform rises. With O left behind the upper internal legs do all the work; O is better taken along part of the
-    way.
-
     >>> nd.inverse_velocity(g, c, [0, 0, 0], [0, 0, 1], sdot=[0, 0, 0]).round(4)[[0, 3, 6]] + 0.0
     array([0.8078, 0.6761, 0.    ])
     >>> nd.inverse_velocity(g, c, [0, 0, 0], [0, 0, 1]).round(4)[[0, 3, 6]]
-    array([0.8078, 0.2909, 0.3341])
+    array([0.8078, 0.2915, 0.3348])
 
     """
     if sdot is not None and weights is not None:

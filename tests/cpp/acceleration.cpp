@@ -5,11 +5,9 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
+#include <cmath>
 
-#include "ninedof/velocity.hpp"
-#include "oracle.hpp"
-#include "support.hpp"
+#include "motion.hpp"
 
 using namespace ninedof;
 using namespace support;
@@ -18,29 +16,6 @@ namespace {
 
 using Real = oracle::Real;
 using Vector = Eigen::Matrix<Real, 3, 1>;
-
-/// A robot that moves: what it does to second order in time.
-struct Motion {
-  Velocity v;
-  Acceleration a;
-};
-
-Motion random_motion(Random& random) {
-  const auto three = [&] { return random.matrix<Vec3>(); };
-  return {{three(), three(), three()}, {three(), three(), three()}};
-}
-
-Vec9 stacked(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Vec9 out;
-  out << a, b, c;
-  return out;
-}
-Vec9 stacked(const Velocity& v) {
-  return stacked(v.omega, v.pdot, v.sdot);
-}
-Vec9 stacked(const Acceleration& a) {
-  return stacked(a.alpha, a.pddot, a.sddot);
-}
 
 /// Leg lengths at time t of the motion Q(t) = exp(t omega + t^2 alpha / 2) Q, which has angular velocity omega and angular
 /// acceleration alpha at t = 0: the commutator that the exponential brings in is of the third order.
@@ -74,17 +49,6 @@ Vec9 differenced_twice(const Robot& robot, const Motion& m) {
   };
   const oracle::Vector sum = 270 * pair(1) - 27 * pair(2) + 2 * pair(3) - 490 * lengths_at(robot, m, 0);
   return (sum / (180 * h * h)).cast<double>();
-}
-
-/// J' at time t of the motion with constant omega, pdot and sdot, by the oracle.
-oracle::Matrix jacobian_at(const Robot& robot, const Velocity& v, double t, double characteristic_length) {
-  return oracle::jacobian(robot.geometry, plus(robot.configuration, t * stacked(v)), characteristic_length);
-}
-
-/// How much of an answer rounding may take: the conditioning of the 9x9 matrix of rates.
-double conditioning_of(const Robot& robot) {
-  const oracle::Vector sigma = oracle::singular_values(oracle::rates(robot.geometry, robot.configuration));
-  return static_cast<double>(sigma[0] / sigma[8]);
 }
 
 }  // namespace
@@ -139,53 +103,6 @@ TEST_SUITE("acceleration") {
       if (stacked(m.v).norm() + stacked(m.a).norm() > 3.0) continue;  // differences too coarse close to a singularity
       CHECK((differenced_twice(robot, m) - accelerations).cwiseAbs().maxCoeff() <= 1e-9);
     }
-  }
-
-  TEST_CASE("the derivative of J' is that of the oracle's J' along the motion, each half in its own size") {
-    Random random(205);
-    for (int n = 0; n < 200; ++n) {
-      const Robot robot = random_robot(random);
-      const double conditioning = conditioning_of(robot);
-      if (conditioning > 300.0) continue;  // differences too coarse
-      const Velocity v = random_motion(random).v;
-      const double lc = random.log_uniform(0.1, 10.0), h = 1e-3 / conditioning;
-      const auto at = [&](double t) { return jacobian_at(robot, v, t, lc); };
-      const oracle::Matrix difference =
-          (45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) /
-          (60 * static_cast<Real>(h));
-      const Mat69 found = jacobian_rate(robot.geometry, robot.configuration, v, lc);
-      const double tolerance = 1e-9;  // plus() rounds each configuration of the differences to double
-      CHECK(matrix_error(found.topRows<3>(), difference.topRows(3).cast<double>()) <= tolerance);
-      CHECK(matrix_error(found.bottomRows<3>(), difference.bottomRows(3).cast<double>()) <= tolerance);
-    }
-  }
-
-  TEST_CASE("tdot = J' uddot + Jdot' udot, whatever O does and whatever the characteristic length") {
-    Random random(206);
-    for (int n = 0; n < 500; ++n) {
-      const Robot robot = random_robot(random);
-      const auto& [g, c] = robot;
-      const Motion m = random_motion(random);
-      const double lc = random.log_uniform(0.01, 100.0);
-      const Vec9 rates = inverse_velocity(g, c, m.v), accelerations = inverse_acceleration(g, c, m.v, m.a);
-      const Vec6 found = jacobian(g, c, lc) * accelerations + jacobian_rate(g, c, m.v, lc) * rates;
-      const double lost = std::pow(conditioning_of(robot), 2.0),
-                   size = stacked(m.a).norm() + stacked(m.v).squaredNorm();
-      CHECK((found.head<3>() / lc - m.a.alpha).norm() <= 64.0 * eps * lost * size);
-      CHECK((found.tail<3>() - m.a.pddot).norm() <= 64.0 * eps * lost * size);
-    }
-  }
-
-  TEST_CASE("the derivative of J' is linear in the velocity, and its angular rows in the characteristic length") {
-    Random random(207);
-    const auto [g, c] = random_robot(random);
-    const Velocity v = random_motion(random).v, w = random_motion(random).v;
-    const Velocity sum{v.omega + 2.0 * w.omega, v.pdot + 2.0 * w.pdot, v.sdot + 2.0 * w.sdot};
-    const Mat69 one = jacobian_rate(g, c, v), eight = jacobian_rate(g, c, v, 8.0);
-    CHECK(matrix_error(one + 2.0 * jacobian_rate(g, c, w), jacobian_rate(g, c, sum)) <= 1e-12);
-    CHECK(eight.topRows<3>() == 8.0 * one.topRows<3>());
-    CHECK(eight.bottomRows<3>() == one.bottomRows<3>());
-    CHECK(jacobian_rate(g, c, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}).isZero(0.0));
   }
 
   TEST_CASE("powers of two as units of length round nothing, from 1e-90 to 1e90") {
