@@ -159,7 +159,9 @@ def best_internal_path(
         The path of the platform origin, in order.
     rotation : array_like, shape (n, 3, 3), or scipy.spatial.transform.Rotation
         The identity by default.
-    criterion, limits, characteristic_length
+    criterion : {"condition_number", "singularity", "leg_centring"}
+    limits : (low, high), optional
+    characteristic_length : float
         As in `best_internal_point`.
     start : array_like, shape (3,), optional
         A point of the chamber meant, at the first pose.
