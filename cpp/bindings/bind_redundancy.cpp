@@ -16,11 +16,13 @@ Criterion criterion_from(const std::string& word) {
   throw InvalidArgument("criterion", "\"" + word + "\"", "\"condition_number\", \"singularity\" or \"leg_centring\"");
 }
 
-InternalPointProblem problem_from(const std::string& criterion, const Array& low, const Array& high, double length) {
+InternalPointProblem problem_from(const std::string& criterion, const Array& low, const Array& high, double length,
+                                  double clearance) {
   InternalPointProblem problem;
   problem.criterion = criterion_from(criterion);
   problem.limits = {Eigen::Map<const Vec9>(low.data()), Eigen::Map<const Vec9>(high.data())};
   problem.characteristic_length = length;
+  problem.clearance = clearance;
   validate(problem);
   return problem;
 }
@@ -53,8 +55,9 @@ py::tuple result(const std::vector<InternalPoint>& points) {
 
 /// Starts come as (n, 3), or as no rows for the default.
 py::tuple best_points(const Geometry& g, const Array& position, const Array& rotation, const Array& start,
-                      const std::string& criterion, const Array& low, const Array& high, double length, int threads) {
-  const InternalPointProblem problem = problem_from(criterion, low, high, length);
+                      const std::string& criterion, const Array& low, const Array& high, double length,
+                      double clearance, int threads) {
+  const InternalPointProblem problem = problem_from(criterion, low, high, length, clearance);
   const std::vector<PlatformPose> poses = poses_from(position, rotation);
   const bool default_start = start.size() == 0;
   if (!default_start && start.size() != position.size())
@@ -75,9 +78,9 @@ py::tuple best_points(const Geometry& g, const Array& position, const Array& rot
 }
 
 py::tuple best_path(const Geometry& g, const Array& position, const Array& rotation, const Array& start,
-                    const std::string& criterion, const Array& low, const Array& high, double length,
+                    const std::string& criterion, const Array& low, const Array& high, double length, double clearance,
                     double smoothness) {
-  const InternalPointProblem problem = problem_from(criterion, low, high, length);
+  const InternalPointProblem problem = problem_from(criterion, low, high, length, clearance);
   const std::vector<PlatformPose> poses = poses_from(position, rotation);
   std::optional<Vec3> x;
   if (start.size() == 3) x = Eigen::Map<const Vec3>(start.data());

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "elimination.hpp"
 #include "null_space_rotations.hpp"
@@ -13,8 +14,6 @@ namespace ninedof {
 namespace {
 
 constexpr double void_leg = 1e-9;  // of the largest length: O this near an external joint leaves the leg no direction
-constexpr double cosine_slack = 1e-9;  // rounding of c_i for a leg stretched through O
-constexpr double accepted = 1e-11;  // error of a leg length, of the largest
 constexpr double between = 1e-14;  // residual halfway between two copies of a double solution
 constexpr double double_rotation = 1e-4;  // rad: such copies are no farther apart
 constexpr double same_rotation = 1e-7;  // rad
@@ -23,14 +22,12 @@ constexpr double double_solution = 1e-6;  // separation below which the number o
 /// Rotations found so far, polished, none twice.
 class Collected {
  public:
-  Collected(const ScaledRotationProblem& problem, const Vec3& lengths, double unit)
-      : problem_(problem), lengths_(lengths), unit_(unit) {}
+  explicit Collected(const RotationProblem& problem) : problem_(problem) {}
 
   /// Whether the candidate led to a rotation of its own.
   bool add(const Mat3& candidate, Branch& out) const {
-    const PolishedRotation polished =
-        polish_rotation(problem_.unit, candidate, RotationResidual(problem_.unit, candidate));
-    if (!fits(polished.rotation)) return false;
+    const PolishedRotation polished = polish_rotation(problem_, candidate, RotationResidual(problem_, candidate));
+    if (!polished.converged()) return false;
     for (int k = 0; k < out.count; ++k)
       if (same(out.mode[static_cast<std::size_t>(k)].rotation, polished.rotation)) return false;
     if (out.count == static_cast<int>(out.mode.size())) return false;
@@ -39,28 +36,16 @@ class Collected {
   }
 
  private:
-  bool fits(const Mat3& q) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const Vec3 x =
-          problem_.platform_distance[k] * (q * problem_.unit.w[i]) - problem_.base_distance[k] * problem_.unit.d[i];
-      if (!(std::abs(x.norm() - lengths_[k]) <= accepted * unit_)) return false;
-    }
-    return true;
-  }
-
   /// Two copies of one mode. At a double solution they may be 1e-6 apart, but then what lies between them is as good as they are.
   bool same(const Mat3& a, const Mat3& b) const {
     const double squared = 0.5 * (a - b).squaredNorm();  // of the angle, where it is small
     if (squared < same_rotation * same_rotation) return true;
     if (squared > double_rotation * double_rotation) return false;
     const Mat3 halfway = Eigen::Quaterniond(a).slerp(0.5, Eigen::Quaterniond(b)).toRotationMatrix();
-    return RotationResidual(problem_.unit, halfway).largest() <= between;
+    return RotationResidual(problem_, halfway).largest() <= between;
   }
 
-  const ScaledRotationProblem& problem_;
-  const Vec3& lengths_;
-  double unit_;
+  const RotationProblem& problem_;
 };
 
 /// The 24 rotations of a cube, none farther than a radian or so from any rotation.
@@ -85,11 +70,11 @@ int best_pivot(const Vec3& c) {
   return static_cast<int>(k);
 }
 
-bool eliminate(const RotationProblem& problem, const Collected& collected, Branch& out) {
+/// How many modes there must be; nothing where the elimination does not know.
+std::optional<int> eliminate(const RotationProblem& problem, const Collected& collected, Branch& out) {
   const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
-  bool own = found.reliable;
-  for (int k = 0; k < found.count; ++k) own &= collected.add(found.rotation[static_cast<std::size_t>(k)], out);
-  return own;
+  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  return found.reliable ? std::optional(found.count) : std::nullopt;
 }
 
 /// Legs that O on an external joint leaves without direction fit or do not, whatever the rotation; the others can only be too long or
@@ -101,8 +86,8 @@ bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths,
     const auto k = static_cast<Eigen::Index>(i);
     is_void[i] = std::min(p.base_distance[k], p.platform_distance[k]) < void_leg * unit;
     const double length = std::max(p.base_distance[k], p.platform_distance[k]);
-    out.misfit[i] = is_void[i] ? std::abs(length - lengths[k]) > 2.0 * void_leg * unit
-                               : !(std::abs(p.unit.c[k]) <= 1.0 + cosine_slack);
+    out.misfit[i] =
+        is_void[i] ? std::abs(length - lengths[k]) > 2.0 * void_leg * unit : !(std::abs(p.unit.c[k]) <= 1.0);
     any_void |= is_void[i];
     any_misfit |= out.misfit[i];
   }
@@ -120,28 +105,31 @@ bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths,
 Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
                     RotationMethod method) {
   Branch out;
-  ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
+  const ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
   if (settled_by_single_legs(p, external_lengths, unit, out)) return out;
-  p.unit.c = p.unit.c.cwiseMax(-1.0).cwiseMin(1.0);
-
-  const Collected collected(p, external_lengths, unit);
+  const Collected collected(p.unit);
+  std::optional<int> expected;
   if (method != RotationMethod::null_space) {
-    out.certain = eliminate(p.unit, collected, out);
+    expected = eliminate(p.unit, collected, out);
+    out.certain = expected == out.count;
     if (out.certain || method == RotationMethod::elimination) return out;
   }
   out.null_space = true;
   const RotationCandidates found = null_space_rotations(p.unit);
   if (found.self_motion) {
-    // A family, perhaps of complex rotations only. A real one is met from all sides.
+    // A family, perhaps of complex rotations only, or beside isolated ones. A real one is met from all sides, and singular all along.
     for (const Mat3& start : all_around()) collected.add(start, out);
-    out.self_motion = out.count > 0;
-    out.count = 0;
+    for (int k = 0; k < out.count; ++k)
+      out.self_motion |= !(out.mode[static_cast<std::size_t>(k)].separation > double_solution);
+    if (out.self_motion) out.count = 0;
     out.certain = false;
     return out;
   }
-  // What elimination found stays: every mode has the nine lengths, so none can be wrong.
+  // What elimination found stays: every mode solves the equations, so none can be wrong. The count is sworn to where every near-real
+  // solution has become a mode of its own, and elimination, if it could count, says the same.
   for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
-  out.certain = found.reliable && out.count % 2 == 0;
+  out.certain =
+      found.reliable && out.count % 2 == 0 && out.count >= found.count && expected.value_or(out.count) == out.count;
   for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;
   return out;
 }

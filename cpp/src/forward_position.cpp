@@ -85,13 +85,14 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
       for (std::size_t leg = 0; leg < 3; ++leg) misfit[leg] &= branch.misfit[leg];
       for (int k = 0; k < branch.count; ++k) {
         const BranchMode& mode = branch.mode[static_cast<std::size_t>(k)];
-        double_mode |= mode.separation < meeting;
+        double_mode |= !(mode.separation >= meeting);
         append(out, s, o, mode.rotation, mode.separation);
         if (has_image)
           append(out, image(base, s), image(platform, o), base_mirror * mode.rotation * platform_mirror,
                  mode.separation);
       }
     }
+  if (lower.kind == Meeting::touching || upper.kind == Meeting::touching) out.certain = false;  // one O or two
   if (self_motion) {
     out.status = PositionStatus::self_motion;
     out.count = 0;

@@ -1,6 +1,14 @@
 #include "internal_point.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace ninedof {
+namespace {
+
+constexpr double cosine_slack = 1e-9;  // beyond 1: rounding, for a leg stretched or folded through O
+
+}  // namespace
 
 ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths) {
   ScaledRotationProblem p;
@@ -13,7 +21,8 @@ ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& 
     p.unit.w[i] = w / wn;
     // (dn - wn)^2 - l^2 in factors: near a stretched or folded leg nothing cancels.
     const double difference = dn - wn;
-    p.unit.c[k] = 1.0 + 0.5 * (difference - l) * (difference + l) / (dn * wn);
+    const double c = 1.0 + 0.5 * (difference - l) * (difference + l) / (dn * wn);
+    p.unit.c[k] = std::abs(c) <= 1.0 + cosine_slack ? std::clamp(c, -1.0, 1.0) : c;
   }
   return p;
 }

@@ -142,6 +142,8 @@ bool add_real_solutions(const NullSpace& n, const Mat8& mx, RotationCandidates& 
     Eigen::Matrix<std::complex<double>, 16, 1> v = values.col(j).cast<std::complex<double>>();
     if (pair) v.imag() = values.col(++j);
     const Eigen::Vector4cd z = quaternion(v);
+    if (!z.real().allFinite() || !z.imag().allFinite())
+      return false;  // no component to scale by: nothing is known of it
     if (!(z.imag().norm() < nearly_real * z.norm())) continue;
     // Two real solutions close together may come out as a pair: they then lie on the two sides of its real part.
     add(z.real() + z.imag(), out);

@@ -117,6 +117,7 @@ RotationResidual::RotationResidual(const RotationProblem& problem, const Mat3& r
 }
 
 double RotationResidual::inverse_norm() const {
+  if (determinant == 0.0) return std::numeric_limits<double>::infinity();
   // The largest eigenvalue of the Gram matrix of the adjugate: in closed form nothing is lost in the largest.
   const auto& [a, b, c] = adjugate;
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();

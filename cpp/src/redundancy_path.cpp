@@ -35,10 +35,14 @@ class Chamber {
       const Vec3 x = scene.inward(s);
       if (in_a_chamber(scene, problem, x) && scene.volumes(x).cwiseSign() == *sides_) out.push_back(x);
     }
-    return out;
+    return out.empty() && gap_ ? chamber_starts(scene, problem, {}) : out;
   }
 
+  /// A pose without a point: behind it O may be anywhere.
+  void divide() { gap_ = true; }
+
   void leave(const Scene& scene, const Vec3& x) {
+    gap_ = false;
     sides_ = scene.volumes(x).cwiseSign();
     last_ = scene.outward(x);
   }
@@ -46,6 +50,7 @@ class Chamber {
  private:
   std::optional<Vec3> start_, sides_;
   Vec3 last_ = Vec3::Zero();
+  bool gap_ = false;
 };
 
 InternalPoint with_status(InternalPointStatus status) {
@@ -133,7 +138,10 @@ std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const
   std::vector<InternalPoint> out(poses.size());
   std::vector<Place> places;
   Chamber chamber(start);
-  for (std::size_t k = 0; k < poses.size(); ++k) places.push_back(look(g, poses[k], problem, chamber, out[k]));
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    places.push_back(look(g, poses[k], problem, chamber, out[k]));
+    if (places.back().choices.empty()) chamber.divide();
+  }
   const auto first = std::ranges::find_if(places, [](const Place& p) { return p.scene != nullptr; });
   if (first == places.end()) return out;
   // n times the objective: the number of poses divides the values, not the points.

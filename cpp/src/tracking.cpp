@@ -20,9 +20,8 @@ constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation
 constexpr double shortest = 0x1p-18;  // fraction of the way
 constexpr double aim = 0.4;  // the certificate a step is meant to have; it grows with the length of the step
 constexpr int most_attempts = 1000;
+constexpr double rounding = 1e-7;  // rad
 constexpr int hopeful_steps = 12;  // of Newton without a certificate
-constexpr double accepted = 1e-11;  // error of an external leg, of the largest length
-constexpr double cosine_slack = 1e-9;
 
 /// The robot and the sides of O to keep to, as heights of the start.
 struct Robot {
@@ -40,45 +39,43 @@ struct Step {
   double certificate = no_number, alone_within = no_number, separation = no_number;
 };
 
-/// O on the side of the start; false where the spheres do not meet.
-bool place(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
+/// O on the side of the start, where there are two sides.
+Meeting::Kind place(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
   const Meeting m = meet(plate, radii);
-  if (m.kind == Meeting::none) return false;
-  point = side < 0.0 ? plate.mirrored(m.above) : m.above;
-  return true;
-}
-
-bool fits(const ScaledRotationProblem& p, const Mat3& q, const Vec9& lengths, double unit) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const Vec3 x = p.platform_distance[k] * (q * p.unit.w[i]) - p.base_distance[k] * p.unit.d[i];
-    if (!(std::abs(x.norm() - lengths[k]) <= accepted * unit)) return false;
-  }
-  return true;
+  if (m.kind == Meeting::two_points) point = side < 0.0 ? plate.mirrored(m.above) : m.above;
+  return m.kind;
 }
 
 Step step_to(const Robot& robot, const Vec9& lengths, const Mat3& rotation) {
   Step out;
   InternalPoints at;
-  if (!place(robot.base, lengths.tail<3>(), robot.base_height, at.s) ||
-      !place(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o))
+  const Meeting::Kind lower = place(robot.base, lengths.tail<3>(), robot.base_height, at.s),
+                      upper = place(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
+  if (lower == Meeting::none || upper == Meeting::none) return out;
+  if (lower == Meeting::touching || upper == Meeting::touching) {
+    out.reach = Reach::not_certified;  // a singularity: from here there are two ways on
     return out;
-  ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
-  if (!(p.unit.c.cwiseAbs().maxCoeff() <= 1.0 + cosine_slack)) return out;
+  }
+  const ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
+  if ((p.unit.c.array().abs() > 1.0).any()) return out;
   out.reach = Reach::not_certified;
+  if (!p.unit.c.allFinite()) return out;  // O on an external joint
   const RotationResidual seed(p.unit, rotation);
   const double beta = seed.inverse_norm();
   out.certificate = std::numbers::sqrt3 * beta * seed.newton_step().norm();
   const PolishedRotation polished =
       polish_rotation(p.unit, rotation, seed, out.certificate <= certified ? 60 : hopeful_steps);
-  if (!fits(p, polished.rotation, lengths, lengths.maxCoeff())) return out;
+  if (!polished.converged()) return out;
   out.separation = 1.0 / polished.at.inverse_norm();
+  const double sine =
+      (polished.rotation - rotation).norm() / (2.0 * std::numbers::sqrt2);  // of half the angle between them
+  const double angle = 2.0 * std::asin(std::min(1.0, sine));
   if (out.certificate <= certified) {
-    out.alone_within = (1.0 + std::sqrt(1.0 - 2.0 * out.certificate)) / (std::numbers::sqrt3 * beta);
-  } else {
-    const double sine =
-        (polished.rotation - rotation).norm() / (2.0 * std::numbers::sqrt2);  // of half the angle between them
-    if (!(2.0 * std::asin(std::min(1.0, sine)) < ball * out.separation)) return out;
+    const double root = std::sqrt(1.0 - 2.0 * out.certificate), scale = std::numbers::sqrt3 * beta;
+    if (!(angle <= (1.0 - root) / scale + rounding)) return out;  // not the mode whose existence is proved
+    out.alone_within = (1.0 + root) / scale;
+  } else if (!(angle < ball * out.separation)) {
+    return out;
   }
   out.reach = Reach::yes;
   out.configuration = {at.s - polished.rotation * at.o, polished.rotation, at.s};

@@ -1,13 +1,15 @@
 #include "ninedof/trilateration.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ninedof {
 namespace {
 
-constexpr double touching =
-    1e-14;  // of the radius squared: the square root of rounding is all a tangent height is good for
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double touching = 1e-14;  // of the first radius squared, at least
 constexpr double refinable = 1e-6;  // of the radius: below it the 3x3 system is too near singular to improve anything
 
 /// One Newton step on |x - c_i|^2 = R_i^2, linear in the step to rounding.
@@ -40,10 +42,14 @@ Meeting meet(const SphereCentres& at, const Vec3& radii) {
   const double rho = std::sqrt(x * x + y * y);
   Meeting m;
   m.height2 = (r1 - rho) * (r1 + rho);
-  const double r1_squared = r1 * r1;
-  if (!(m.height2 >= -touching * r1_squared)) return m;
+  // What rounding may have done to x and y, and so to the squared height: much where the first sphere is small beside the others.
+  const double dx = eps * (r1 * r1 + r2 * r2 + at.length * at.length) / at.length;
+  const double dy = (eps * (r1 * r1 + r3 * r3 + at.i * at.i + at.j * at.j) + 2.0 * std::abs(at.i) * dx) / at.j;
+  const double error = 2.0 * (std::abs(x) * dx + std::abs(y) * dy) + dx * dx + dy * dy;
+  const double tangent = std::max(touching * r1 * r1, 2.0 * error);
+  if (!(m.height2 >= -tangent)) return m;
   m.above = at.centre[0] + x * at.e1 + y * at.e2;
-  if (m.height2 <= touching * r1_squared) {
+  if (m.height2 <= tangent) {
     m.kind = Meeting::touching;
     return m;
   }

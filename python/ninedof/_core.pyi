@@ -72,6 +72,7 @@ def best_internal_point(
     low: _Floats,
     high: _Floats,
     length: float,
+    clearance: float,
     threads: int,
     /,
 ) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
@@ -84,6 +85,7 @@ def best_internal_path(
     low: _Floats,
     high: _Floats,
     length: float,
+    clearance: float,
     smoothness: float,
     /,
 ) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...

@@ -32,6 +32,14 @@ def one_or_each(name: str, value: ArrayLike, count: int) -> Floats:
     return np.full(count, array) if array.ndim == 0 else as_floats(name, array, (count,))
 
 
+def as_number(name: str, value: Any) -> float:
+    """Return `value` as one float, or raise ValueError naming the argument."""
+    array = as_floats(name, value, ())
+    if array.ndim:
+        raise ValueError(f"{name}: got shape {array.shape}, expected a number")
+    return float(array)
+
+
 def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int, ...], list[Floats]]:
     """Broadcast the leading dimensions of named arrays, each given with its number of trailing ones."""
     leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]

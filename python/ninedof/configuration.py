@@ -186,6 +186,9 @@ def operands_with(
 ) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
     """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands, and (n, k) arrays."""
     operands(geometry, configuration)
+    for name, values in others.items():
+        if np.isinf(values).any():
+            raise ValueError(f"{name}: got an infinite number, expected finite ones")
     p, q, s = configuration.position, configuration.rotation, configuration.internal_point
     named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
     shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})

@@ -23,7 +23,7 @@ OBSTACLES = {
     "external_leg_1": "the external leg l1 is too long or too short for O where the internal legs put it",
     "external_leg_2": "the external leg l2 is too long or too short for O where the internal legs put it",
     "external_leg_3": "the external leg l3 is too long or too short for O where the internal legs put it",
-    "external_legs": "no rotation of the platform fits the three external legs l1 l2 l3 at once",
+    "external_legs": "no rotation of the platform fits the external legs l1 l2 l3 together",
 }
 
 

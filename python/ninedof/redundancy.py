@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, thread_argument
+from ninedof.arrays import Floats, as_floats, as_number, thread_argument
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
 
 __all__ = ["InternalPoint", "InternalPointStatus", "best_internal_path", "best_internal_point"]
 
+CRITERIA = ("condition_number", "singularity", "leg_centring")
 CHUNK = 256  # poses between two looks at the keyboard
 
 
@@ -60,6 +61,7 @@ def best_internal_point(
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float = 1.0,
     start: ArrayLike | None = None,
+    clearance: float | None = None,
     threads: int | None = None,
 ) -> InternalPoint:
     """Return the internal point that is best for a pose of the platform.
@@ -87,6 +89,9 @@ def best_internal_point(
     start : array_like, shape (..., 3), optional
         A point of the chamber meant. By default midway between the centroids of the internal joints of base and
         platform.
+    clearance : float, optional
+        Each of the three |det| of "singularity" stays above it; "det B" in `active` says that it binds. By default 0.01
+        for "leg_centring", which does not mind a singularity by itself, and 1e-10 for the others, which do.
     threads : int, optional
         One a processor by default. The result does not depend on it.
 
@@ -113,7 +118,7 @@ def best_internal_point(
     """
     shape, p, q = _poses(geometry, position, rotation)
     low, high = _limits(limits)
-    length = float(as_floats("characteristic_length", characteristic_length, ()))
+    length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
     starts = np.empty((0, 3))
     if start is not None:
         given = as_floats("start", start, (3,))
@@ -124,7 +129,16 @@ def best_internal_point(
     workers = thread_argument(threads)
     chunks = [
         _core.best_internal_point(
-            geometry, p[k : k + CHUNK], q[k : k + CHUNK], starts[k : k + CHUNK], criterion, low, high, length, workers
+            geometry,
+            p[k : k + CHUNK],
+            q[k : k + CHUNK],
+            starts[k : k + CHUNK],
+            criterion,
+            low,
+            high,
+            length,
+            room,
+            workers,
         )
         for k in range(0, max(1, len(p)), CHUNK)
     ]
@@ -140,6 +154,7 @@ def best_internal_path(
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     characteristic_length: float = 1.0,
     start: ArrayLike | None = None,
+    clearance: float | None = None,
     smoothness: float = 0.1,
 ) -> InternalPoint:
     """Return internal points along a path of the platform: good at every pose, and smooth.
@@ -150,7 +165,7 @@ def best_internal_path(
 
     f being the logarithm of the condition number, minus the logarithm of the least |det|, or the sum of squares, and
     size the robot's. Which local optimum to be in at which pose is decided for the whole path; all points then settle
-    together. O stays in one chamber throughout.
+    together. O stays in one chamber, except where a gap divides the path.
 
     Parameters
     ----------
@@ -165,13 +180,16 @@ def best_internal_path(
         As in `best_internal_point`.
     start : array_like, shape (3,), optional
         A point of the chamber meant, at the first pose.
+    clearance : float, optional
+        As in `best_internal_point`.
     smoothness : float
         Greater than zero: O moves less, and is worth less. With little of it O moves as the best points do.
 
     Returns
     -------
     InternalPoint
-        Shape (n,). Poses that allow no point divide the path: on their two sides O is placed independently.
+        Shape (n,). Poses that allow no point divide the path: on their two sides O is placed independently, in the
+        chamber it was in before if the poses behind the gap have it, else in that of the default start.
 
     Raises
     ------
@@ -194,14 +212,16 @@ def best_internal_path(
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
     low, high = _limits(limits)
-    length = float(as_floats("characteristic_length", characteristic_length, ()))
-    weight = float(as_floats("smoothness", smoothness, ()))
+    length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
+    weight = as_number("smoothness", smoothness)
     first = np.empty((0, 3))
     if start is not None:
         first = as_floats("start", start, (3,))
         if first.ndim != 1:
             raise ValueError(f"start: got shape {first.shape}, expected shape (3,)")
-    s, value, status, active = _core.best_internal_path(geometry, p, q, first, criterion, low, high, length, weight)
+    s, value, status, active = _core.best_internal_path(
+        geometry, p, q, first, criterion, low, high, length, room, weight
+    )
     return _result(shape, p, q, s, value, status, active)
 
 
@@ -211,6 +231,14 @@ def _poses(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tupl
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
     c = Configuration(position, rotation, np.zeros(3))
     return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
+
+
+def _clearance(criterion: Any, clearance: float | None) -> float:
+    if not isinstance(criterion, str):
+        raise ValueError(f"criterion: got {criterion!r}, expected one of {', '.join(CRITERIA)}")
+    if clearance is None:
+        return 1e-2 if criterion == "leg_centring" else 1e-10
+    return as_number("clearance", clearance)
 
 
 def _limits(limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Floats, Floats]:

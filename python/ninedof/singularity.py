@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, thread_argument
+from ninedof.arrays import Floats, as_floats, as_number, thread_argument
 from ninedof.configuration import Configuration, operands, operands_with, single
 from ninedof.geometry import Geometry
 
@@ -193,7 +193,7 @@ def uncontrolled_motions(geometry: Geometry, configuration: Configuration, toler
     (4, 9)
 
     """
-    return _core.uncontrolled_motions(*single(geometry, configuration), float(as_floats("tolerance", tolerance, ())))
+    return _core.uncontrolled_motions(*single(geometry, configuration), as_number("tolerance", tolerance))
 
 
 def distance_to_singularity(
@@ -249,7 +249,7 @@ def distance_to_singularity(
     """
     t = as_floats("direction", direction, (9,))
     shape, flat, (t,) = operands_with(geometry, configuration, {"direction": t})
-    out = _core.distance_to_singularity(*flat, t, float(as_floats("most", most, ())), thread_argument(threads))
+    out = _core.distance_to_singularity(*flat, t, as_number("most", most), thread_argument(threads))
     return SingularityDistance(
         out[:, 0].reshape(shape)[()],
         _words(out[:, 1], shape),

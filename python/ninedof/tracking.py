@@ -46,27 +46,27 @@ class Tracked(Configuration):
         Up to 1/2, Newton's method is proved to converge, and to the only mode within `alone_within`. Above it a tracked
         mode is certified from its own side: the start is nearer than 0.385 times its `separation`.
         """
-        return self._numbers[..., 0]
+        return self._numbers[..., 0][()]
 
     @property
     def alone_within(self) -> Any:
         """No second mode with O on these sides is nearer to the start of the last step, rad; NaN where h > 1/2."""
-        return self._numbers[..., 1]
+        return self._numbers[..., 1][()]
 
     @property
     def separation(self) -> Any:
         """As in AssemblyModes: how far the mode is from meeting another, shape (...)."""
-        return self._numbers[..., 2]
+        return self._numbers[..., 2][()]
 
     @property
     def steps(self) -> Any:
         """Into how many steps the way had to be divided, shape (...)."""
-        return self._numbers[..., 3].astype(np.int64)
+        return self._numbers[..., 3].astype(np.int64)[()]
 
     @property
     def reached(self) -> Any:
         """Fraction of the way from the lengths of the start to the lengths asked for, shape (...); 1 where tracked."""
-        return self._numbers[..., 4]
+        return self._numbers[..., 4][()]
 
     def __repr__(self) -> str:
         """Show a single configuration with its status, or the shape of a stack."""
@@ -90,8 +90,9 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
 
     O stays on its side of the plane of the base's internal joints and of that of the platform's, where three spheres
     give it in closed form. The rotation follows by Newton's method on SO(3). A step counts if Kantorovich's theorem
-    proves beforehand that Newton converges, or if the mode found proves it afterwards; otherwise the way is divided. To
-    pass a singularity the lengths would have to say which way to go: the mode is lost there, and nothing is returned.
+    proves beforehand that Newton converges, or if the mode found proves it afterwards; otherwise the way is divided.
+    Lengths between the ends of a step are not looked at. To pass a singularity the lengths would have to say which way
+    to go: the mode is lost there, and nothing is returned.
 
     Parameters
     ----------
@@ -109,7 +110,8 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     Tracked
         Configurations of the shape of `leg_lengths` without its last dimension, with `status`, `certificate`,
         `alone_within`, `separation`, `steps` and `reached`. NaN from where the mode is lost or the lengths are
-        infeasible on; `forward_position` lists what modes there are then.
+        infeasible on, and from a row of lengths with NaN on, which counts as lost; `forward_position` lists what modes
+        there are then.
 
     Raises
     ------

@@ -72,7 +72,7 @@ TEST_SUITE("forward_position") {
       for (const AssemblyMode& m : fast) CHECK(nearest(slow, m.configuration) < 1e-6);
     }
     CHECK(fast_enough > 3980);
-    CHECK(both_certain > 3980);
+    CHECK(both_certain > 3500);  // the null-space method does not swear to a count beside nearly real solutions
   }
 
   TEST_CASE("flat plates in any plane are solved by halves, bent ones in full, with the same result") {
@@ -142,6 +142,45 @@ TEST_SUITE("forward_position") {
       CHECK(worst_length(g, modes, lengths) < 1e-11);
       if (stretched == 3) CHECK(modes.status == PositionStatus::tangent);
     }
+  }
+
+  TEST_CASE("short legs, of each kind, down to none") {
+    Random random(6);
+    for (const double length : {1e-2, 1e-4, 1e-6, 1e-8, 0.0})
+      for (std::size_t leg = 0; leg < 9; ++leg)
+        for (int n = 0; n < 6; ++n) {
+          // Move the joint at the base, or at the platform for upper legs, to within `length` of the other end.
+          const auto [g, c] = any_robot(random, false);
+          std::array<Triple, 4> joints{g.base_external(), g.base_internal(), g.platform_external(),
+                                       g.platform_internal()};
+          const std::size_t i = leg % 3;
+          const Vec3 off = length * random.unit();
+          if (leg < 3) joints[0][i] = c.position + c.rotation * joints[2][i] + off;
+          else if (leg < 6) joints[3][i] = c.rotation.transpose() * (c.internal_point - c.position + off);
+          else joints[1][i] = c.internal_point + off;
+          const Geometry made(joints[0], joints[1], joints[2], joints[3]);
+          const AssemblyModes modes = forward_position(made, leg_lengths(made, c));
+          CAPTURE(length);
+          CAPTURE(leg);
+          CHECK(nearest(modes, c) < 1e-5);
+        }
+  }
+
+  TEST_CASE("O in a plane of joints, whatever the sizes") {
+    Random random(7);
+    for (const double near : {1.0, 1e-1, 1e-2, 1e-3})
+      for (int n = 0; n < 60; ++n) {
+        const auto [g, c] = any_robot(random, false);
+        Triple lower = g.base_internal();  // O in their plane, `near` the first, the second or the third
+        const std::size_t i = static_cast<std::size_t>(n % 3);
+        lower[i] = c.internal_point + near * random.unit();
+        const Vec3 a = lower[(i + 1) % 3] - lower[i], o = c.internal_point - lower[i];
+        lower[(i + 2) % 3] = lower[i] + random.uniform(0.5, 1.5) * a + random.uniform(0.5, 2.0) / near * o;
+        const Geometry made(g.base_external(), lower, g.platform_external(), g.platform_internal());
+        const AssemblyModes modes = forward_position(made, leg_lengths(made, c));
+        CAPTURE(near);
+        CHECK(nearest(modes, c) < 1e-4);
+      }
   }
 
   TEST_CASE("what has no list is named") {

@@ -83,7 +83,7 @@ TEST_SUITE("tracking") {
   }
 
   TEST_CASE("a singularity on the way ends in lost, soon") {
-    // O sinks through the plane of the platform's joints: of the two points of O the lengths only know the upper one.
+    // The external legs grow until the platform cannot follow: on the way there its mode meets another.
     const Geometry g = Geometry::hexagonal(0.3, 2.0, 1.0, 0.2);
     const Configuration c = ninedof::neutral(2.0, 1.1);
     Vec9 far = leg_lengths(g, c);

@@ -226,6 +226,17 @@ def test_o_on_an_external_joint_is_self_motion(joint):
     assert nd.forward_position(g, lengths + 20.0 * other).status != "self_motion"
 
 
+@pytest.mark.parametrize("side", ["base_internal", "platform_internal"])
+def test_o_on_an_internal_joint_is_never_infeasible(published, side):
+    rng = np.random.default_rng(4)
+    for k in range(60):
+        q = Rotation.random(rng=rng).as_matrix()
+        p = np.array([0.3, 0.1, 4.0]) + 0.2 * rng.normal(size=3)
+        s = published.base_internal[k % 3] if side == "base_internal" else p + q @ published.platform_internal[k % 3]
+        modes = nd.forward_position(published, nd.leg_lengths(published, nd.Configuration(p, q, s)))
+        assert modes.status in ("tangent", "self_motion", "found")
+
+
 def test_two_legs_on_one_line_through_o_are_self_motion():
     """d_1 || d_2 and w_1 || w_2: the two equations say the same, the platform turns about a cone."""
     rng = np.random.default_rng(5)

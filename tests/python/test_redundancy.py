@@ -100,6 +100,13 @@ def test_leg_centring_is_its_sum_of_squares(published):
     assert there.min() > best.value
 
 
+def test_leg_centring_keeps_off_a_singularity_and_says_so(published):
+    best = nd.best_internal_point(published, [0.0, 0.0, 4.0], criterion="leg_centring", limits=(1.0, 8.0))
+    assert best.status == "found"
+    assert "det B" in best.active
+    assert abs(np.linalg.det(nd.velocity_matrices(published, best.configuration).B)) > 0.009
+
+
 def test_singularity_keeps_all_three_away(published):
     best = nd.best_internal_point(published, [0.3, 0.2, 3.9], criterion="singularity")
     middle = nd.Configuration([0.3, 0.2, 3.9], None, [0.15, 0.1, 1.95])
@@ -217,6 +224,13 @@ def test_poses_without_a_point_divide_the_path(published):
     assert sum(path.status == "found") == 19
 
 
+def test_behind_a_gap_o_may_be_on_another_side(published):
+    heights = [4.0, 3.9, 3.8, np.nan, -3.8, -3.9]
+    path = nd.best_internal_path(published, [[0.1, 0.0, z] for z in heights])
+    assert [str(s) for s in path.status] == ["found"] * 3 + ["missing"] + ["found"] * 2
+    assert path.configuration.internal_point[0, 2] > 0.0 > path.configuration.internal_point[-1, 2]
+
+
 def test_limits_on_a_path(published):
     p = loop(31)
     free = nd.best_internal_path(published, p)
@@ -239,6 +253,9 @@ def test_limits_on_a_path(published):
         ("limits of l1", {"limits": (3.0, 2.0)}),
         ("limits of q1", {"criterion": "leg_centring"}),
         ("characteristic_length", {"characteristic_length": 0.0}),
+        ("characteristic_length", {"characteristic_length": [1.0, 2.0]}),
+        ("criterion", {"criterion": None}),
+        ("clearance", {"clearance": 0.0}),
         ("start", {"start": [1.0, 2.0]}),
         ("threads", {"threads": 0}),
         ("rotation", {"rotation": 2.0 * np.eye(3)}),

@@ -187,6 +187,11 @@ def test_missing_rows(published, home):
     assert list(nd.track(published, lengths, stack).status) == ["tracked", "tracked", "lost", "tracked"]
 
 
+def test_an_end_in_a_plane_is_lost(published, home):
+    end = nd.Configuration(home.position, home.rotation, [0.0, 0.0, 0.0])
+    assert nd.track(published, nd.leg_lengths(published, end), home).status == "lost"
+
+
 def test_a_start_in_a_plane_has_no_side(published):
     start = nd.Configuration([0.0, 0.0, 3.0], None, [0.1, 0.2, 0.0])
     there = nd.track(published, nd.leg_lengths(published, start), start)

@@ -38,7 +38,7 @@ struct AssemblyMode {
   int base_side;
   int platform_side;  ///< the same for the platform's internal joints, seen in the platform frame
   /// Smallest singular value of the rows (Q w_i) x d_i, d_i and w_i the unit vectors from O to the external joints: 0 where two modes
-  /// meet, at most sqrt 3. Another mode is at least about this far off, in radians.
+  /// meet, at most sqrt 3. Another mode with O on the same sides is at least about this far off, in radians.
   double separation;
 };
 

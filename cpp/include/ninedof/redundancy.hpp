@@ -38,7 +38,8 @@ struct InternalPointProblem {
   Criterion criterion = Criterion::condition_number;
   LegLimits limits;
   double characteristic_length = 1.0;  ///< of the condition number alone
-  double clearance = 1e-10;  ///< each of the three |det| of Criterion::singularity stays above it
+  double clearance =
+      1e-10;  ///< each of the three |det| of Criterion::singularity stays above it, whatever the criterion
 };
 
 enum class InternalPointStatus : std::uint8_t {

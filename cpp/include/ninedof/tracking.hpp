@@ -24,9 +24,10 @@ const char* to_string(TrackStatus status);
 struct Tracked {
   TrackStatus status = TrackStatus::lost;
   Configuration configuration;  ///< NaN unless tracked
-  /// Kantorovich's number sqrt(3) beta eta at the start of the last step. At 1/2 and below Newton's method is proved to converge, and to
-  /// the only mode nearby. Above (never above it in steps that were divided) the mode reached is certified from its own side: its
-  /// `separation` proves that Newton's method comes to it from the start.
+  /// Kantorovich's number sqrt(3) beta eta at the start of the last step, for its lengths and sides of O. At 1/2 and below it is
+  /// proved that a mode exists near the start and which one it is. Above, the mode reached is certified from its own side: its
+  /// `separation` proves that Newton's method comes to it from the start. Either way the start alone says where the robot went: lengths
+  /// between the two ends of a step are not looked at.
   double certificate;
   /// No second mode of the same sides of O is nearer than this to the start of the last step, rad. NaN where the certificate is above 1/2.
   double alone_within;
@@ -34,7 +35,7 @@ struct Tracked {
   int steps = 0;  ///< 1, or into how many the way had to be divided
   double reached = 0.0;  ///< fraction of the way from the lengths of the start: 1 if tracked
 
-  /// Lost before the first step: what follows a lost one. All its numbers are NaN.
+  /// Lost before the first step, as all is that follows a lost one: NaN, no steps, nothing reached.
   static Tracked not_tried();
 };
 

@@ -27,8 +27,7 @@ struct Meeting {
   Vec3 above;  ///< the point on the side of e3; the other is its mirror image. In the plane where they touch.
 };
 
-/// Radii are in units of about 1: the caller divides by the largest length. Squared heights below `touching` times the first
-/// radius squared are the tangent case.
+/// Squared heights within what rounding can make of them are the tangent case: the height itself is then good to half the digits.
 Meeting meet(const SphereCentres& at, const Vec3& radii);
 
 }  // namespace ninedof

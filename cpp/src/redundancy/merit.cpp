@@ -9,6 +9,7 @@ namespace ninedof {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double wall_contact = 1e-4;  // of the logarithm of the clearance: the wall in front of it is soft
 
 /// Distance of x from a joint.
 Jet distance(const Vec3& x, const Vec3& joint) {
@@ -144,7 +145,7 @@ ActiveBounds Merit::touched(const Vec3& x, double contact) const {
   }
   const Vec3 determinants = scene_.determinants(x).cwiseAbs();
   for (int k = 0; k < 3; ++k)
-    if (std::log(determinants[k] / problem_.clearance) <= contact) out.add(ActiveBounds::clearance(k));
+    if (std::log(determinants[k] / problem_.clearance) <= wall_contact) out.add(ActiveBounds::clearance(k));
   return out;
 }
 

@@ -15,10 +15,10 @@ constexpr double nearly = 1e-3, fully = 1e-9;  // decrements, in epsilons and a 
 constexpr double least_curvature = 1e-9;
 
 /// Eigenvalues by their size: every step goes down.
-Mat3 convex(const Mat3& hessian) {
+Mat3 convex(const Mat3& hessian, double floor) {
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(hessian);
   const Vec3 size = eigen.eigenvalues().cwiseAbs();
-  const Vec3 raised = size.cwiseMax(std::max(1e-12 * size.maxCoeff(), least_curvature));
+  const Vec3 raised = size.cwiseMax(std::max(1e-12 * size.maxCoeff(), floor));
   return eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
@@ -70,9 +70,9 @@ class Path {
     std::vector<Vec3> gradient(n), out(n);
     std::vector<Eigen::LLT<Mat3>> pivot(n);
     for (std::size_t k = 0; k < n; ++k) {
-      Mat3 block = convex(jets_[k].hessian);
+      Mat3 block = convex(jets_[k].hessian, std::max(least_curvature, 1e-10 * coupling_));
       gradient[k] = jets_[k].gradient;
-      for (const std::size_t other : {k - 1, k + 1})
+      for (const std::size_t other : {k - 1, k + 1})  // before the first is no number below n
         if (other < n) {
           gradient[k] += 2.0 * coupling_ * (s_[k] - s_[other]);
           block.diagonal().array() += 2.0 * coupling_;
