@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "rows_of.hpp"
 
@@ -81,15 +82,15 @@ State moved(const RotationProblem& problem, const State& s, const Vec3& step) {
   return {problem, s.quaternion.turned(allowed), allowed.squaredNorm()};
 }
 
-/// Newton's step where it lowers |f| or, in a curved valley, |J^-1 f|; else the longest of Levenberg's that lowers |f|. False where none
-/// does.
-bool improve(const RotationProblem& problem, State& s) {
+/// Newton's step where it lowers |f| or, in a curved valley, |J^-1 f|; else the longest of Levenberg's that lowers |f|. The best so far is kept where a step leaves it for something worse.
+bool improve(const RotationProblem& problem, State& s, double least, std::optional<State>& best) {
   const Vec3 newton = s.here.at.newton_step();
   if (newton.allFinite()) {
     const State next = moved(problem, s, newton);
     const bool lower = next.squared < s.squared;
     if (!lower && s.here.residual() <= settled) return false;
     if (lower || s.here.at.newton_step(next.here.at.value).norm() < natural * std::min(newton.norm(), longest_step)) {
+      if (!lower && s.squared <= least) best = s;
       s = next;
       return true;
     }
@@ -139,19 +140,16 @@ PolishedRotation polish_rotation(const RotationProblem& problem, const Mat3& sta
   const FreeQuaternion q = quaternion(start);
   State s(q, {start, at_start});
   if (!(s.here.residual() > settled)) return State(problem, q, 0.0).here;  // orthogonal now, if it was not
-  PolishedRotation best = s.here;
+  std::optional<State> best;  // only where a natural step has left it
   double least = s.squared;
   int stalled = 0;
   for (int k = 0; k < most_steps && stalled < patience && s.here.residual() > rounding; ++k) {
-    if (!improve(problem, s)) break;
+    if (!improve(problem, s, least, best)) break;
     stalled = s.squared < least_progress * least ? 0 : stalled + 1;
-    if (s.squared < least) {
-      best = s.here;
-      least = s.squared;
-    }
+    least = std::min(least, s.squared);
     if (s.step2 < last_step * last_step) break;
   }
-  return best;
+  return best && best->squared < s.squared ? best->here : s.here;
 }
 
 }  // namespace ninedof
