@@ -26,7 +26,8 @@ CPP_LAYERS = (
     {"forward_position", "tracking", "accuracy", "error_sample"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path"},
-    {"batch", "workspace"},
+    {"batch"},
+    {"workspace"},
 )
 PRIVATE_LAYER = 8
 
