@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "ninedof/batch.hpp"
 #include "ninedof/configuration.hpp"
 #include "ninedof/error.hpp"
 #include "ninedof/geometry.hpp"
-#include "ninedof/parallel.hpp"
+#include "slices.hpp"
 
 namespace ninedof::python {
 
@@ -103,6 +104,11 @@ class ConfigurationStack {
 
   long count() const { return static_cast<long>(position_.shape(0)); }
 
+  /// Those of [first, last).
+  batch::Configurations view(long first, long last) const {
+    return {p_ + 3 * first, q_ + 9 * first, s_ + 3 * first, last - first};
+  }
+
   Configuration operator[](long i) const {
     using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
     return {Eigen::Map<const Vec3>(p_ + 3 * i), Eigen::Map<const RowMajor3>(q_ + 9 * i),
@@ -114,29 +120,34 @@ class ConfigurationStack {
   const double *p_, *q_, *s_;
 };
 
-/// Calls row(i, output row i) for every i of [0, count) without the GIL (nothing in it touches Python), on `threads` threads.
-/// Fills `out` where one is given, else a new array (count, columns).
+/// Rows of `columns` numbers: those of `out` where one is given, else a new array (count, columns).
+inline Array result_rows(long count, py::ssize_t columns, const py::object& out) {
+  if (out.is_none()) return Array(std::vector<py::ssize_t>{count, columns});
+  // Not `ensure`: a converted copy would be filled and thrown away.
+  if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns ||
+      !out.cast<py::array>().writeable())
+    throw InvalidArgument("out", py::repr(py::type::handle_of(out)).cast<std::string>(),
+                          "a writeable C-contiguous float64 array of the result's shape");
+  return py::reinterpret_borrow<Array>(out);
+}
+
+/// Calls block(first, last, output row first) for blocks of rows, none longer than `most`, on `threads` threads and without the
+/// GIL: nothing in it touches Python. Ctrl-C is heeded between slices.
+template <class Work>
+Array for_each_block(long count, py::ssize_t columns, long most, int threads, const py::object& out,
+                     const Work& block) {
+  Array result = result_rows(count, columns, out);
+  double* data = result.mutable_data();
+  in_slices(count, most, threads, [&](long first, long last) { block(first, last, data + first * columns); });
+  return result;
+}
+
+/// Calls row(i, output row i) for every i of [0, count), likewise.
 template <class Row>
 Array for_each_row(long count, py::ssize_t columns, int threads, const py::object& out, const Row& row) {
-  Array result;
-  if (out.is_none()) {
-    result = Array(std::vector<py::ssize_t>{count, columns});
-  } else {
-    // Not `ensure`: a converted copy would be filled and thrown away.
-    if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns ||
-        !out.cast<py::array>().writeable())
-      throw InvalidArgument("out", py::repr(py::type::handle_of(out)).cast<std::string>(),
-                            "a writeable C-contiguous float64 array of the result's shape");
-    result = py::reinterpret_borrow<Array>(out);
-  }
-  double* data = result.mutable_data();
-  {
-    const py::gil_scoped_release nogil;
-    parallel_for(count, 1024, threads, [&](long first, long last) {
-      for (long i = first; i < last; ++i) row(i, data + i * columns);
-    });
-  }
-  return result;
+  return for_each_block(count, columns, 64, threads, out, [&](long first, long last, double* to) {
+    for (long i = first; i < last; ++i, to += columns) row(i, to);
+  });
 }
 
 }  // namespace ninedof::python

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "arrays.hpp"
 #include "lengths.hpp"
 #include "module.hpp"
+#include "ninedof/batch.hpp"
 #include "ninedof/characteristic_length.hpp"
 #include "ninedof/conditioning.hpp"
 #include "ninedof/symmetric.hpp"
@@ -12,39 +14,64 @@
 namespace ninedof::python {
 namespace {
 
-/// Binds one index of a configuration, a number, over a stack.
-template <class Index>
-void bind_index(py::module_& m, const char* name, Index index) {
-  m.def(name, [index](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
-                      int threads, const py::object& out) {
+constexpr long block = 1024;
+
+/// Binds one index of a configuration, a number, over a stack: fill(geometry, configurations, lengths, out).
+template <class Fill>
+void bind_index(py::module_& m, const char* name, Fill fill) {
+  m.def(name, [fill](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
+                     int threads, const py::object& out) {
     const ConfigurationStack c(p, q, s);
     const Lengths lc(length, c.count());
-    return for_each_row(c.count(), 1, threads, out, [&](long i, double* to) { *to = index(g, c[i], lc[i]); });
+    return for_each_block(c.count(), 1, block, threads, out,
+                          [&](long first, long last, double* to) { fill(g, c.view(first, last), lc.from(first), to); });
   });
+}
+
+/// Fills with an index that is a function of the singular values.
+template <class OfSigma>
+auto by_singular_values(OfSigma index) {
+  return [index](const Geometry& g, const batch::Configurations& c, const batch::Lengths& lc, double* out) {
+    std::vector<double> sigma(static_cast<std::size_t>(6 * c.count));
+    batch::singular_values(g, c, lc, sigma.data());
+    for (long k = 0; k < c.count; ++k) out[k] = index(Vec6(Eigen::Map<const Vec6>(sigma.data() + 6 * k)));
+  };
 }
 
 }  // namespace
 
 void bind_conditioning(py::module_& m) {
-  bind_index(m, "condition_number_two", [](const Geometry& g, const Configuration& c, double lc) {
-    return condition_number(g, c, lc, Norm::two);
-  });
-  bind_index(m, "condition_number_frobenius", [](const Geometry& g, const Configuration& c, double lc) {
-    return condition_number(g, c, lc, Norm::frobenius);
-  });
-  bind_index(m, "reciprocal_condition_number", [](const Geometry& g, const Configuration& c, double lc) {
-    return reciprocal_condition_number(g, c, lc);
-  });
-  bind_index(m, "manipulability", &manipulability);
-  bind_index(m, "isotropy_residual", &isotropy_residual);
+  const auto of_norm = [](Norm norm) {
+    return [norm](const Geometry& g, const batch::Configurations& c, const batch::Lengths& lc, double* out) {
+      batch::condition_numbers(g, c, lc, norm, out);
+    };
+  };
+  bind_index(m, "condition_number_two", of_norm(Norm::two));
+  bind_index(m, "condition_number_frobenius", of_norm(Norm::frobenius));
+  bind_index(m, "reciprocal_condition_number",
+             [](const Geometry& g, const batch::Configurations& c, const batch::Lengths& lc, double* out) {
+               batch::condition_numbers(g, c, lc, Norm::two, out);
+               for (long k = 0; k < c.count; ++k) out[k] = 1.0 / out[k];
+             });
+  bind_index(m, "manipulability", by_singular_values([](const Vec6& sigma) { return manipulability(sigma); }));
+  bind_index(m, "isotropy_residual", by_singular_values([](const Vec6& sigma) { return isotropy_residual(sigma); }));
 
-  m.def("singular_values",
-        [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
-          const ConfigurationStack c(p, q, s);
-          const Lengths lc(length, c.count());
-          return for_each_row(c.count(), 6, threads, py::none(),
-                              [&](long i, double* out) { Eigen::Map<Vec6>{out} = singular_values(g, c[i], lc[i]); });
-        });
+  m.def("singular_values", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
+                              int threads, const py::object& out) {
+    const ConfigurationStack c(p, q, s);
+    const Lengths lc(length, c.count());
+    return for_each_block(c.count(), 6, block, threads, out, [&](long first, long last, double* to) {
+      batch::singular_values(g, c.view(first, last), lc.from(first), to);
+    });
+  });
+  m.def("hexagonal_condition_numbers", [](const Array& designs, int threads, const py::object& out) {
+    const long count = static_cast<long>(designs.size() / 6);
+    const double* x = rows("designs", designs, count, 6);
+    return for_each_block(count, 1, 8 * block, threads, out, [&](long first, long last, double* to) {
+      batch::hexagonal_condition_numbers(x + 6 * first, last - first, to);
+    });
+  });
+  m.def("simd_level", &batch::simd_level);
   m.def("axis_singular_values",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
           const ConfigurationStack c(p, q, s);

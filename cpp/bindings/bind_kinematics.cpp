@@ -1,7 +1,7 @@
 #include "lengths.hpp"
 #include "module.hpp"
 #include "motion.hpp"
-#include "ninedof/legs.hpp"
+#include "ninedof/velocity.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -12,11 +12,13 @@ constexpr py::ssize_t matrices_size = 153;
 }  // namespace
 
 void bind_kinematics(py::module_& m) {
-  m.def("leg_lengths", [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads) {
-    const ConfigurationStack c(p, q, s);
-    return for_each_row(c.count(), 9, threads, py::none(),
-                        [&](long i, double* out) { write(leg_lengths(g, c[i]), out); });
-  });
+  m.def("leg_lengths",
+        [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads, const py::object& out) {
+          const ConfigurationStack c(p, q, s);
+          return for_each_block(c.count(), 9, 1024, threads, out, [&](long first, long last, double* to) {
+            batch::leg_lengths(g, c.view(first, last), to);
+          });
+        });
   m.def("jacobian",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
           const ConfigurationStack c(p, q, s);

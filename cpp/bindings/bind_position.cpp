@@ -44,15 +44,12 @@ py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, in
   const LengthStack lengths(leg_lengths);
   const auto rows = static_cast<std::size_t>(lengths.count());
   std::vector<AssemblyModes> found(rows);
-  {
-    const py::gil_scoped_release nogil;
-    parallel_for(lengths.count(), 64, threads, [&](long first, long last) {
-      for (long i = first; i < last; ++i) {
-        const Vec9 row = lengths[i];
-        if (!row.hasNaN()) found[static_cast<std::size_t>(i)] = forward_position(g, row);
-      }
-    });
-  }
+  in_slices(lengths.count(), 64, threads, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      const Vec9 row = lengths[i];
+      if (!row.hasNaN()) found[static_cast<std::size_t>(i)] = forward_position(g, row);
+    }
+  });
   std::vector<int> counts(rows), sides;
   std::vector<std::uint8_t> certain(rows);
   std::vector<double> configurations, separations;
@@ -100,23 +97,20 @@ py::tuple track_stack(const Geometry& g, const Array& leg_lengths, long path, co
   Array out(std::vector<py::ssize_t>{lengths.count(), tracked_size});
   std::vector<std::uint8_t> status(static_cast<std::size_t>(lengths.count()));
   double* data = out.mutable_data();
-  {
-    const py::gil_scoped_release nogil;
-    parallel_for(starts.count(), path > 100 ? 1 : 256, threads, [&](long first, long last) {
-      for (long i = first; i < last; ++i) {
-        Configuration at = starts[i];
-        bool going = true;
-        for (long k = i * path; k < (i + 1) * path; ++k) {
-          const Vec9 row = lengths[k];
-          const Tracked t = going && !row.hasNaN() ? tracker(row, at) : Tracked::not_tried();
-          going &= t.status == TrackStatus::tracked;
-          at = t.configuration;
-          write(t, data + k * tracked_size);
-          status[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(t.status);
-        }
+  in_slices(starts.count(), path > 100 ? 1 : 256, threads, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      Configuration at = starts[i];
+      bool going = true;
+      for (long k = i * path; k < (i + 1) * path; ++k) {
+        const Vec9 row = lengths[k];
+        const Tracked t = going && !row.hasNaN() ? tracker(row, at) : Tracked::not_tried();
+        going &= t.status == TrackStatus::tracked;
+        at = t.configuration;
+        write(t, data + k * tracked_size);
+        status[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(t.status);
       }
-    });
-  }
+    }
+  });
   return py::make_tuple(out, array_of(status));
 }
 

@@ -25,11 +25,13 @@ double code(Mechanism mechanism) {
 }  // namespace
 
 void bind_singularity(py::module_& m) {
-  m.def("singularity_margins", [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads) {
-    const ConfigurationStack c(p, q, s);
-    return for_each_row(c.count(), 3, threads, py::none(),
-                        [&](long i, double* out) { write(singularity_margins(g, c[i]), out); });
-  });
+  m.def("singularity_margins",
+        [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads, const py::object& out) {
+          const ConfigurationStack c(p, q, s);
+          return for_each_block(c.count(), 3, 1024, threads, out, [&](long first, long last, double* to) {
+            batch::singularity_margins(g, c.view(first, last), to);
+          });
+        });
   m.def("singularity", [](const Geometry& g, const Array& p, const Array& q, const Array& s, int threads) {
     const ConfigurationStack c(p, q, s);
     return for_each_row(c.count(), 16, threads, py::none(), [&](long i, double* out) {

@@ -15,6 +15,7 @@ class Lengths {
     for (py::ssize_t i = 0; i < values_.size(); ++i) require_positive("characteristic_length", data_[i]);
   }
   double operator[](long i) const { return data_[i * step_]; }
+  batch::Lengths from(long first) const { return {data_ + first * step_, step_}; }
 
  private:
   Array values_;

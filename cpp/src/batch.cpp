@@ -1,7 +1,12 @@
 #include "ninedof/batch.hpp"
 
+#include <algorithm>
+
+#include "kernels/table.hpp"
+#include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/singularity.hpp"
+#include "ninedof/symmetric.hpp"
 
 namespace ninedof::batch {
 namespace {
@@ -13,28 +18,90 @@ Configuration at(const Configurations& c, long k) {
           Eigen::Map<const Vec3>(c.internal_point + k * c.internal_point_step)};
 }
 
+void copy(const Triple& t, double (&to)[3][3]) {
+  for (std::size_t i = 0; i < 3; ++i) std::copy(t[i].begin(), t[i].end(), to[i]);
+}
+
+kernels::Block block(const Geometry& g, const Configurations& c, const Lengths& lc = {}) {
+  kernels::Block b{};
+  copy(g.base_external(), b.robot.base_external);
+  copy(g.base_internal(), b.robot.base_internal);
+  copy(g.platform_external(), b.robot.platform_external);
+  copy(g.platform_internal(), b.robot.platform_internal);
+  b.position = c.position;
+  b.rotation = c.rotation;
+  b.internal_point = c.internal_point;
+  b.length = lc.value;
+  b.position_step = c.position_step;
+  b.rotation_step = c.rotation_step;
+  b.internal_point_step = c.internal_point_step;
+  b.length_step = lc.step;
+  b.count = c.count;
+  return b;
+}
+
+void require_lengths(const Lengths& lc, long count) {
+  for (long k = 0; k < (lc.step == 0 ? std::min(count, 1L) : count); ++k)
+    require_positive("characteristic_length", lc.value[k * lc.step]);
+}
+
+/// Calls accurate(k, row) for the rows of which a kernel was not sure.
+template <class Accurate>
+void settle(long count, long width, double* out, const Accurate& accurate) {
+  for (long k = 0; k < count; ++k)
+    if (out[k * width] == kernels::unsure) accurate(k, out + k * width);
+}
+
 }  // namespace
 
 void leg_lengths(const Geometry& g, const Configurations& c, double* out) {
-  for (long k = 0; k < c.count; ++k) Eigen::Map<Vec9>(out + 9 * k) = ninedof::leg_lengths(g, at(c, k));
+  kernels::table().leg_lengths(block(g, c), out);
 }
 
 void condition_numbers(const Geometry& g, const Configurations& c, const Lengths& lc, Norm norm, double* out) {
-  for (long k = 0; k < c.count; ++k) out[k] = condition_number(g, at(c, k), lc.value[k * lc.step], norm);
+  require_lengths(lc, c.count);
+  const kernels::Table& table = kernels::table();
+  (norm == Norm::two ? table.condition_numbers : table.frobenius_condition_numbers)(block(g, c, lc), out);
+  settle(c.count, 1, out,
+         [&](long k, double* to) { *to = condition_number(g, at(c, k), lc.value[k * lc.step], norm); });
 }
 
 void singular_values(const Geometry& g, const Configurations& c, const Lengths& lc, double* out) {
-  for (long k = 0; k < c.count; ++k)
-    Eigen::Map<Vec6>(out + 6 * k) = ninedof::singular_values(g, at(c, k), lc.value[k * lc.step]);
+  require_lengths(lc, c.count);
+  kernels::table().singular_values(block(g, c, lc), out);
+  settle(c.count, 6, out, [&](long k, double* to) {
+    Eigen::Map<Vec6>{to} = ninedof::singular_values(g, at(c, k), lc.value[k * lc.step]);
+  });
 }
 
 void singularity_margins(const Geometry& g, const Configurations& c, double* out) {
-  for (long k = 0; k < c.count; ++k) {
+  kernels::table().singularity_margins(block(g, c), out);
+  settle(c.count, 3, out, [&](long k, double* to) {
     const PerMechanism margins = ninedof::singularity_margins(g, at(c, k));
-    out[3 * k] = margins.m;
-    out[3 * k + 1] = margins.b;
-    out[3 * k + 2] = margins.c;
-  }
+    to[0] = margins.m;
+    to[1] = margins.b;
+    to[2] = margins.c;
+  });
+}
+
+void hexagonal_condition_numbers(const double* designs, long count, double* out) {
+  kernels::table().hexagonal_condition_numbers(designs, count, out);
+  settle(count, 1, out, [&](long k, double* to) {
+    const double* x = designs + 6 * k;
+    const double h = std::sqrt(3.0) / 6.0;
+    const auto joint = [&](double first, double second, double side) {
+      return Point<double>{0.5 * side * first, -h * (first + 2.0 * second), 0.0};
+    };
+    const AxisSpectrum<double> s =
+        axis_spectrum(AxisDesign<double>{joint(x[0], x[1], 1.0), joint(x[0], x[1], -1.0), joint(x[2], x[3], 1.0),
+                                         joint(x[2], x[3], -1.0), x[4], x[5]},
+                      1.0);
+    *to = std::max(s.axial_max, s.transverse_max) / std::min(s.axial_min, s.transverse_min);
+  });
+}
+
+const char* simd_level() {
+  return kernels::table().level;
 }
 
 }  // namespace ninedof::batch

@@ -62,11 +62,18 @@ double reciprocal_condition_number(const Geometry& g, const Configuration& c, do
 }
 
 double manipulability(const Geometry& g, const Configuration& c, double characteristic_length) {
-  return singular_values(g, c, characteristic_length).prod();
+  return manipulability(singular_values(g, c, characteristic_length));
+}
+
+double manipulability(const Vec6& singular_values) {
+  return singular_values.prod();
 }
 
 double isotropy_residual(const Geometry& g, const Configuration& c, double characteristic_length) {
-  const Vec6 sigma = singular_values(g, c, characteristic_length);
+  return isotropy_residual(singular_values(g, c, characteristic_length));
+}
+
+double isotropy_residual(const Vec6& sigma) {
   if (sigma.hasNaN()) return std::numeric_limits<double>::quiet_NaN();
   if (std::isinf(sigma[0])) return infinity;
   const Vec6 lambda = (sigma / sigma[0]).cwiseAbs2();  // eigenvalues of J' J'^T, the largest scaled to 1

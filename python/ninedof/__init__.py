@@ -14,6 +14,7 @@ from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
     condition_number,
+    hexagonal_condition_number,
     isotropy_residual,
     manipulability,
     reciprocal_condition_number,
@@ -90,6 +91,7 @@ __all__ = [
     "forward_acceleration",
     "forward_position",
     "forward_velocity",
+    "hexagonal_condition_number",
     "internal_velocity",
     "inverse_acceleration",
     "inverse_velocity",

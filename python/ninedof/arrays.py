@@ -61,6 +61,14 @@ def frozen(array: Floats) -> Floats:
     return own
 
 
+def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
+    """Return `out` if it is None or an array of this shape; the core checks the rest."""
+    if out is not None and (not isinstance(out, np.ndarray) or out.shape != shape):
+        got = f"shape {out.shape}" if isinstance(out, np.ndarray) else repr(type(out).__name__)
+        raise ValueError(f"out: got {got}, expected a float64 array of shape {shape}")
+    return out
+
+
 def _shape_text(trailing: tuple[int, ...]) -> str:
     return "(" + ", ".join(["...", *map(str, trailing)]) + ")"
 

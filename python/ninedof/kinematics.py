@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats
+from ninedof.arrays import Floats, checked_out, thread_argument
 from ninedof.configuration import Configuration, operands
 from ninedof.geometry import Geometry
 from ninedof.lengths import resolve_length
@@ -40,7 +40,9 @@ class VelocityMatrices(NamedTuple):
     """[1 0 0; 0 -1 C B^-1], shape (..., 6, 9); NaN in the last block where det B = 0. Eq. (35a)."""
 
 
-def leg_lengths(geometry: Geometry, configuration: Configuration) -> Floats:
+def leg_lengths(
+    geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
+) -> Floats:
     """Return the nine leg lengths: inverse position analysis.
 
     Parameters
@@ -48,6 +50,10 @@ def leg_lengths(geometry: Geometry, configuration: Configuration) -> Floats:
     geometry : Geometry
     configuration : Configuration
         One configuration or a stack of shape (...).
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    out : numpy.ndarray, optional
+        Where to put the result: float64, C-contiguous, of the result's shape.
 
     Returns
     -------
@@ -62,8 +68,10 @@ def leg_lengths(geometry: Geometry, configuration: Configuration) -> Floats:
     array([4.9304, 2.2772, 4.151 ])
 
     """
-    flat = _core.leg_lengths(*operands(geometry, configuration), 0)
-    return flat.reshape(*configuration.shape, 9)
+    operands_of = operands(geometry, configuration)
+    shape = (*configuration.shape, 9)
+    flat = _core.leg_lengths(*operands_of, thread_argument(threads), checked_out(out, shape))
+    return out if out is not None else flat.reshape(shape)
 
 
 def velocity_matrices(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, as_number, thread_argument
+from ninedof.arrays import Floats, as_floats, as_number, checked_out, thread_argument
 from ninedof.configuration import Configuration, operands, operands_with, single
 from ninedof.geometry import Geometry
 
@@ -79,7 +79,9 @@ class SingularityDistance(NamedTuple):
     """False where the path is known to be free up to `distance`, and what lies beyond was not settled; shape (...)."""
 
 
-def singularity_margins(geometry: Geometry, configuration: Configuration) -> SingularityMargins:
+def singularity_margins(
+    geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
+) -> SingularityMargins:
     """Return the signed, length-free determinants whose zeros are the singularities.
 
     det H = -det M det C det B / l_c^3: each factor is a way of its own to lose control, and changes sign across it.
@@ -91,6 +93,10 @@ def singularity_margins(geometry: Geometry, configuration: Configuration) -> Sin
     geometry : Geometry
     configuration : Configuration
         Shape (...).
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    out : numpy.ndarray, shape (..., 3), optional
+        Where to put the three: float64, C-contiguous. The result shows it.
 
     Returns
     -------
@@ -108,8 +114,10 @@ def singularity_margins(geometry: Geometry, configuration: Configuration) -> Sin
     array([ 0.    , -0.9994])
 
     """
-    flat = _core.singularity_margins(*operands(geometry, configuration), 0)
-    return _margins(flat, configuration.shape)
+    operands_of = operands(geometry, configuration)
+    checked_out(out, (*configuration.shape, 3))
+    flat = _core.singularity_margins(*operands_of, thread_argument(threads), out)
+    return _margins(flat.reshape(-1, 3), configuration.shape)
 
 
 def singularity(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Singularity:

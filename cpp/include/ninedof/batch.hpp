@@ -40,4 +40,12 @@ void singular_values(const Geometry& g, const Configurations& c, const Lengths& 
 /// Determinants m, b, c of singularity.hpp: 3 numbers a configuration.
 void singularity_margins(const Geometry& g, const Configurations& c, double* out);
 
+/// Condition numbers of hexagonal designs at theta_z = 0, by the closed form: 1 number for each row a1 a2 b1 b2 zp zs, in
+/// characteristic lengths. Infinite where singular, NaN where there is NaN.
+void hexagonal_condition_numbers(const double* designs, long count, double* out);
+
+/// The instruction set in use: "base", "v3" (AVX2) or "v4" (AVX-512). The environment variable NINEDOF_SIMD forces one; throws
+/// InvalidArgument where it names none that this build and this processor have. Read once.
+const char* simd_level();
+
 }  // namespace ninedof::batch

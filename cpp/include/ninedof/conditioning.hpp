@@ -39,9 +39,11 @@ double reciprocal_condition_number(const Geometry& g, const Configuration& c, do
 
 /// sqrt(det(J' J'^T)), the product of the singular values; infinite at a singularity (some twist needs no leg rate).
 double manipulability(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);
+double manipulability(const Vec6& singular_values);
 
 /// |J' J'^T - sigma 1|_F / |sigma 1|_F with sigma = trace(J' J'^T) / 6: eq. (5) with the product that has full rank.
 /// 0 exactly at isotropy; infinite at a singularity.
 double isotropy_residual(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);
+double isotropy_residual(const Vec6& singular_values);  ///< descending
 
 }  // namespace ninedof

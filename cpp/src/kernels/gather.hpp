@@ -1,0 +1,64 @@
+#pragma once
+/// Rows of numbers in memory, turned into columns and back: lane k of column j is number j of row k.
+
+#include "kernels/pack.hpp"
+#include "kernels/poses.hpp"
+#include "kernels/table.hpp"
+
+namespace ninedof::kernels::inline NINEDOF_LEVEL {
+
+/// Rows that are turned at a time: their columns fit the first-level cache, and are a whole number of packs.
+constexpr long chunk = 64;
+
+/// The columns of `rows` rows, the last repeated to fill the chunk.
+template <int width>
+NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*column)[chunk]) {
+  if (step == 0) {
+    for (int j = 0; j < width; ++j)
+      for (long k = 0; k < chunk; ++k) column[j][k] = from[j];
+    return;
+  }
+  for (long k = 0; k < chunk; ++k) {
+    const double* row = from + (k < rows ? k : rows - 1) * step;
+#pragma GCC unroll 9
+    for (int j = 0; j < width; ++j) column[j][k] = row[j];
+  }
+}
+
+/// A chunk of configurations, by column: position, rotation, internal point, characteristic length.
+struct Columns {
+  alignas(64) double x[16][chunk];
+
+  NINEDOF_INLINE void gather_block(const Block& b, long first, long rows) {
+    gather<3>(b.position + first * b.position_step, b.position_step, rows, x);
+    gather<9>(b.rotation + first * b.rotation_step, b.rotation_step, rows, x + 3);
+    gather<3>(b.internal_point + first * b.internal_point_step, b.internal_point_step, rows, x + 12);
+  }
+  NINEDOF_INLINE void gather_length(const Block& b, long first, long rows) {
+    gather<1>(b.length + first * b.length_step, b.length_step, rows, x + 15);
+  }
+
+  template <class P>
+  NINEDOF_INLINE Poses<P> poses(long k) const {
+    Poses<P> c;
+    c.p = {P::load(x[0] + k), P::load(x[1] + k), P::load(x[2] + k)};
+#pragma GCC unroll 9
+    for (int j = 0; j < 9; ++j) c.q[j] = P::load(x[3 + j] + k);
+    c.s = {P::load(x[12] + k), P::load(x[13] + k), P::load(x[14] + k)};
+    return c;
+  }
+  template <class P>
+  NINEDOF_INLINE P length(long k) const {
+    return P::load(x[15] + k);
+  }
+};
+
+/// Columns back to rows.
+template <int width>
+NINEDOF_INLINE void scatter(const double (*column)[chunk], long rows, double* to) {
+  for (long k = 0; k < rows; ++k)
+#pragma GCC unroll 9
+    for (int j = 0; j < width; ++j) to[k * width + j] = column[j][k];
+}
+
+}  // namespace ninedof::kernels::inline NINEDOF_LEVEL

@@ -1,0 +1,179 @@
+/// The kernels, compiled once for each instruction set.
+
+#include "kernels/all_roots.hpp"
+#include "kernels/conditioning_matrix.hpp"
+#include "kernels/gather.hpp"
+#include "kernels/hexagonal.hpp"
+#include "kernels/margins.hpp"
+
+namespace ninedof::kernels::inline NINEDOF_LEVEL {
+namespace {
+
+/// Lanes of the stages that keep whole matrices, and of the iterations, which profit from two chains at a time where there are
+/// registers for them. No result depends on either.
+using Narrow = PackOf<8>;
+using Wide = PackOf<register_bytes == 64 ? 16 : 8>;
+
+/// Calls work(columns, first, rows) for each chunk.
+template <class Work>
+NINEDOF_INLINE void for_each_chunk(const Block& b, const Work& work) {
+  Columns c;
+  for (long first = 0; first < b.count; first += chunk) {
+    const long rows = b.count - first < chunk ? b.count - first : chunk;
+    c.gather_block(b, first, rows);
+    work(c, first, rows);
+  }
+}
+
+/// Squares of the entries of M made bidiagonal, by column: q, then e.
+struct Bidiagonals {
+  alignas(64) double x[11][chunk];
+
+  NINEDOF_INLINE void reduce(const Joints& robot, const Columns& c) {
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      Narrow m[6][6];
+      conditioning_matrix(robot, c.poses<Narrow>(k), 1.0 / c.length<Narrow>(k), m);
+      const Bidiagonal<Narrow> b = bidiagonalize(m);
+#pragma GCC unroll 6
+      for (int j = 0; j < 6; ++j) store(b.q[j], x[j] + k);
+#pragma GCC unroll 5
+      for (int j = 0; j < 5; ++j) store(b.e[j], x[6 + j] + k);
+    }
+  }
+  template <class P>
+  NINEDOF_INLINE Bidiagonal<P> load(long k) const {
+    Bidiagonal<P> b;
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) b.q[j] = P::load(x[j] + k);
+#pragma GCC unroll 5
+    for (int j = 0; j < 5; ++j) b.e[j] = P::load(x[6 + j] + k);
+    return b;
+  }
+};
+
+/// Beyond this condition number, and where O is this many largest singular values of M away from p, rounding weighs too much.
+constexpr double most_condition = 1e8, most_lever = 16.0;
+
+template <class P>
+NINEDOF_INLINE typename P::Mask lever_allows(const Columns& c, long k, const P& greatest) {
+  const Poses<P> pose = c.poses<P>(k);
+  const Vector<P> y = pose.s - pose.p;
+  return dot(y, y) <= (most_lever * most_lever) * greatest * square(c.length<P>(k));
+}
+
+NINEDOF_INLINE void put(const double* from, long rows, double* to) {
+  for (long k = 0; k < rows; ++k) to[k] = from[k];
+}
+
+void leg_lengths(const Block& b, double* out) {
+  for_each_chunk(b, [&](const Columns& c, long first, long rows) {
+    alignas(64) double length[9][chunk];
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      const Poses<Narrow> pose = c.poses<Narrow>(k);
+      const Vector<Narrow> y = pose.s - pose.p;
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        const Vector<Narrow> l = pose.p + pose.turned(b.robot.platform_external[i]) - b.robot.base_external[i];
+        const Vector<Narrow> q = y - pose.turned(b.robot.platform_internal[i]);
+        const Vector<Narrow> r = pose.s - b.robot.base_internal[i];
+        store(sqrt(dot(l, l)), length[i] + k);
+        store(sqrt(dot(q, q)), length[3 + i] + k);
+        store(sqrt(dot(r, r)), length[6 + i] + k);
+      }
+    }
+    scatter<9>(length, rows, out + 9 * first);
+  });
+}
+
+void condition_numbers(const Block& b, double* out) {
+  Bidiagonals reduced;
+  for_each_chunk(b, [&](Columns& c, long first, long rows) {
+    c.gather_length(b, first, rows);
+    reduced.reduce(b.robot, c);
+    alignas(64) double kappa[chunk];
+    for (long k = 0; k < chunk; k += Wide::lanes) {
+      const Bidiagonal<Wide> d = reduced.load<Wide>(k);
+      const Root<Wide> least = least_root<6>(d.q, d.e), greatest = greatest_root(d.q, d.e);
+      const Wide ratio = sqrt(greatest.x / least.x);
+      const auto sure = (ratio <= most_condition) & lever_allows(c, k, greatest.x);
+      store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
+    }
+    put(kappa, rows, out + first);
+  });
+}
+
+void frobenius_condition_numbers(const Block& b, double* out) {
+  Bidiagonals reduced;
+  for_each_chunk(b, [&](Columns& c, long first, long rows) {
+    c.gather_length(b, first, rows);
+    reduced.reduce(b.robot, c);
+    alignas(64) double kappa[chunk];
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      const Bidiagonal<Narrow> d = reduced.load<Narrow>(k);
+      Narrow sum = d.q[0];
+#pragma GCC unroll 5
+      for (int j = 0; j < 5; ++j) sum += d.q[j + 1] + d.e[j];
+      const Taylor<Narrow> t = characteristic_at_zero<6>(d.q, d.e);
+      const Narrow ratio = sqrt(sum * (-t.p1 / t.p));
+      store(select((ratio <= most_condition) & lever_allows(c, k, sum), ratio, unsure), kappa + k);
+    }
+    put(kappa, rows, out + first);
+  });
+}
+
+void singular_values(const Block& b, double* out) {
+  Bidiagonals reduced;
+  for_each_chunk(b, [&](Columns& c, long first, long rows) {
+    c.gather_length(b, first, rows);
+    reduced.reduce(b.robot, c);
+    alignas(64) double sigma[6][chunk];
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      const Roots<Narrow> root = all_roots(reduced.load<Narrow>(k));
+      const auto sure = (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(c, k, root.x[5]);
+#pragma GCC unroll 6
+      for (int j = 0; j < 6; ++j) {
+        const Narrow value = 1.0 / sqrt(root.x[j]);
+        store(j > 0 ? value : select(root.open, unsure, select(sure, value, unsure)), sigma[j] + k);
+      }
+    }
+    scatter<6>(sigma, rows, out + 6 * first);
+  });
+}
+
+void singularity_margins(const Block& b, double* out) {
+  for_each_chunk(b, [&](const Columns& c, long first, long rows) {
+    alignas(64) double margin[3][chunk];
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      const Margins<Narrow> m = margins(b.robot, c.poses<Narrow>(k));
+      store(select(m.sure, m.m, unsure), margin[0] + k);
+      store(m.b, margin[1] + k);
+      store(m.c, margin[2] + k);
+    }
+    scatter<3>(margin, rows, out + 3 * first);
+  });
+}
+
+void hexagonal_condition_numbers(const double* designs, long count, double* out) {
+  alignas(64) double column[6][chunk], kappa[chunk];
+  for (long first = 0; first < count; first += chunk) {
+    const long rows = count - first < chunk ? count - first : chunk;
+    gather<6>(designs + 6 * first, 6, rows, column);
+    for (long k = 0; k < chunk; k += Narrow::lanes) {
+      const Narrow x[6] = {Narrow::load(column[0] + k), Narrow::load(column[1] + k), Narrow::load(column[2] + k),
+                           Narrow::load(column[3] + k), Narrow::load(column[4] + k), Narrow::load(column[5] + k)};
+      store(hexagonal_condition(x), kappa + k);
+    }
+    put(kappa, rows, out + first);
+  }
+}
+
+}  // namespace
+
+#define NINEDOF_TEXT_(x) #x
+#define NINEDOF_TEXT(x) NINEDOF_TEXT_(x)
+extern const Table level_table;
+const Table level_table = {
+    NINEDOF_TEXT(NINEDOF_LEVEL), Narrow::lanes,   leg_lengths,         condition_numbers,
+    frobenius_condition_numbers, singular_values, singularity_margins, hexagonal_condition_numbers};
+
+}  // namespace ninedof::kernels::inline NINEDOF_LEVEL
