@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/table.hpp"
+#include "kernels/dispatch.hpp"
 #include "ninedof/error.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/singularity.hpp"

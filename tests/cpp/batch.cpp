@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "designs.hpp"
+#include "kernels/dispatch.hpp"
 #include "ninedof/legs.hpp"
+#include "ninedof/rotation.hpp"
 #include "ninedof/singularity.hpp"
 #include "ninedof/symmetric.hpp"
 #include "support.hpp"
@@ -42,16 +44,6 @@ Vec3 cube(Random& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }
 
-Geometry random_robot(Random& random) {
-  const auto triple = [&](double size) {
-    Triple t;
-    for (std::size_t i = 0; i < 3; ++i)
-      t[i] = size * (rotation_about_z(-2.1 * static_cast<double>(i)) * Vec3::UnitX()) + cube(random, 0.3 * size);
-    return t;
-  };
-  return {triple(2.0), triple(2.0), triple(1.0), triple(1.0)};
-}
-
 Configuration some_pose(Random& random) {
   return {Vec3(0.0, 0.0, 3.0) + cube(random, 0.7), exp_rotation(cube(random, 2.5)),
           Vec3(0.0, 0.0, 1.5) + cube(random, 0.5)};
@@ -63,8 +55,7 @@ Stack random_stack(Random& random, int count) {
   return s;
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
@@ -87,7 +78,7 @@ TEST_SUITE("batch") {
   TEST_CASE("condition numbers and singular values are those of single configurations") {
     Random random(101);
     for (int robot = 0; robot < 20; ++robot) {
-      const Geometry g = random_robot(random);
+      const Geometry g = random_robot(random).geometry;
       const Stack s = random_stack(random, 1000);
       const double lc = random.uniform(0.3, 3.0);
       const std::vector<double> two = conditions(g, s.view(), lc),
@@ -118,8 +109,8 @@ TEST_SUITE("batch") {
     const std::vector<double> kappa = conditions(g, s.view(), 1.0);
     for (std::size_t k = 0; k < kappa.size(); ++k) {
       const double expected = condition_number(g, s.each[k]);
-      if (k % 2 == 1) CHECK(kappa[k] == inf);
-      else if (std::isinf(expected)) CHECK(kappa[k] == inf);
+      if (k % 2 == 1) CHECK(kappa[k] == infinity);
+      else if (std::isinf(expected)) CHECK(kappa[k] == infinity);
       else CHECK(std::abs(kappa[k] - expected) <= allowed(expected) * expected);
     }
     CHECK(kappa[180] > 1e8);  // and so they did come near
@@ -144,7 +135,7 @@ TEST_SUITE("batch") {
 
   TEST_CASE("a result depends on its own configuration alone") {
     Random random(102);
-    const Geometry g = random_robot(random);
+    const Geometry g = random_robot(random).geometry;
     Stack s = random_stack(random, 301);
     s.add(neutral(3.0, 0.0, 0.0));
     const std::vector<double> whole = conditions(g, s.view(), 1.1);
@@ -160,14 +151,14 @@ TEST_SUITE("batch") {
 
   TEST_CASE("NaN stays where it came from") {
     Random random(103);
-    const Geometry g = random_robot(random);
+    const Geometry g = random_robot(random).geometry;
     const Stack s = random_stack(random, 40);
     const std::vector<double> whole = conditions(g, s.view(), 1.0);
     for (std::size_t bad = 0; bad < 40; bad += 3) {
       Stack t = s;
       (bad % 2 == 0   ? t.position[3 * bad + 1]
        : bad % 3 == 0 ? t.rotation[9 * bad + 4]
-                      : t.internal_point[3 * bad]) = nan;
+                      : t.internal_point[3 * bad]) = missing;
       const double one = 1.0;
       std::vector<double> sigma(240), margins(120), lengths(360);
       const std::vector<double> kappa = conditions(g, t.view(), 1.0);
@@ -188,7 +179,7 @@ TEST_SUITE("batch") {
   TEST_CASE("leg lengths and singularity margins") {
     Random random(104);
     for (const double size : {1.0, 1e-60, 1e60}) {
-      const Geometry unit = random_robot(random);
+      const Geometry unit = random_robot(random).geometry;
       const auto scaled = [&](Triple t) {
         for (Vec3& x : t) x *= size;
         return t;
@@ -224,7 +215,7 @@ TEST_SUITE("batch") {
 
   TEST_CASE("shared positions, rotations and points") {
     Random random(105);
-    const Geometry g = random_robot(random);
+    const Geometry g = random_robot(random).geometry;
     const Stack s = random_stack(random, 100);
     for (int which = 0; which < 3; ++which) {
       batch::Configurations c = s.view();
@@ -240,13 +231,13 @@ TEST_SUITE("batch") {
 
   TEST_CASE("a characteristic length for each, and what is refused") {
     Random random(106);
-    const Geometry g = random_robot(random);
+    const Geometry g = random_robot(random).geometry;
     const Stack s = random_stack(random, 70);
     std::vector<double> lc(70), kappa(70);
     for (double& x : lc) x = random.uniform(0.1, 10.0);
     batch::condition_numbers(g, s.view(), {lc.data(), 1}, Norm::two, kappa.data());
     for (std::size_t k = 0; k < 70; ++k) CHECK(kappa[k] == conditions(g, s.view(static_cast<long>(k), 1), lc[k])[0]);
-    for (const double bad : {0.0, -1.0, nan, inf}) {
+    for (const double bad : {0.0, -1.0, missing, infinity}) {
       lc[50] = bad;
       CHECK_THROWS_AS(batch::condition_numbers(g, s.view(), {lc.data(), 1}, Norm::two, kappa.data()), InvalidArgument);
     }
@@ -263,7 +254,7 @@ TEST_SUITE("batch") {
 
   TEST_CASE("O far from the platform") {
     Random random(107);
-    const Geometry g = random_robot(random);
+    const Geometry g = random_robot(random).geometry;
     for (const double far : {1e1, 1e2, 1e4, 1e6}) {
       Stack s;
       for (int k = 0; k < 100; ++k) {
@@ -297,20 +288,79 @@ TEST_SUITE("batch") {
       if (std::isinf(expected)) continue;
       CHECK(std::abs(found[k] - expected) <= allowed(expected) * expected);
     }
-    const double odd[] = {0.0,    0.0,    1.0, 1.0,    3.0,   2.0, /* no base */ 1.0,
-                          1.0,    1.0,    1.0, 3.0,    0.0, /* O in the base */
-                          nan,    1.0,    1.0, 1.0,    3.0,   2.0, 0.0,
-                          5.8124, 2.9062, 0.0, 3.9828, 2.3745};
+    const double odd[] = {0.0,     0.0,    1.0, 1.0,    3.0,   2.0, /* no base */ 1.0,
+                          1.0,     1.0,    1.0, 3.0,    0.0, /* O in the base */
+                          missing, 1.0,    1.0, 1.0,    3.0,   2.0, 0.0,
+                          5.8124,  2.9062, 0.0, 3.9828, 2.3745};
     batch::hexagonal_condition_numbers(odd, 4, found.data());
-    CHECK(found[0] == inf);
-    CHECK(found[1] == inf);
+    CHECK(found[0] == infinity);
+    CHECK(found[1] == infinity);
     CHECK(std::isnan(found[2]));
     CHECK(found[3] == doctest::Approx(3.9110).epsilon(1e-5));
   }
 
+  TEST_CASE("the same bits on every level") {
+    Random random(109);
+    const Geometry g = random_robot(random).geometry;
+    Stack s = random_stack(random, 500);
+    for (int k = 0; k < 20; ++k) s.add(neutral(3.0, 0.15 * k, 0.0));
+    std::vector<double> designs(6 * s.each.size());
+    for (double& x : designs) x = random.log_uniform(0.01, 100.0);
+    const double lc = 1.7;
+    kernels::Block b{};
+    const auto copy = [](const Triple& t, double (&to)[3][3]) {
+      for (std::size_t i = 0; i < 3; ++i) std::copy(t[i].begin(), t[i].end(), to[i]);
+    };
+    copy(g.base_external(), b.robot.base_external);
+    copy(g.base_internal(), b.robot.base_internal);
+    copy(g.platform_external(), b.robot.platform_external);
+    copy(g.platform_internal(), b.robot.platform_internal);
+    b.position = s.position.data();
+    b.rotation = s.rotation.data();
+    b.internal_point = s.internal_point.data();
+    b.length = &lc;
+    b.position_step = b.internal_point_step = 3;
+    b.rotation_step = 9;
+    b.count = s.view().count;
+    const auto rows = s.each.size();
+    const auto all = [&](const kernels::Table& t) {
+      std::vector<std::vector<double>> out;
+      for (const auto& [kernel, width] : {std::pair{t.leg_lengths, 9UL},
+                                          {t.condition_numbers, 1UL},
+                                          {t.frobenius_condition_numbers, 1UL},
+                                          {t.singular_values, 6UL},
+                                          {t.singularity_margins, 3UL}}) {
+        out.emplace_back(rows * width);
+        kernel(b, out.back().data());
+      }
+      out.emplace_back(rows);
+      t.hexagonal_condition_numbers(designs.data(), b.count, out.back().data());
+      return out;
+    };
+    const kernels::Table* base = kernels::table_of("base");
+    REQUIRE(base != nullptr);
+    const auto expected = all(*base);
+    int levels = 1;
+    for (const char* level : {"v3", "v4"})
+      if (const kernels::Table* t = kernels::table_of(level)) {
+        const auto found = all(*t);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          CAPTURE(level);
+          CAPTURE(k);
+          CHECK(same_bits(found[k], expected[k]));
+        }
+        ++levels;
+      }
+    CHECK(kernels::table_of("v9") == nullptr);
+    // Few of the numbers were left to the accurate path: the kernels did compute.
+    CHECK(std::count(expected[1].begin(), expected[1].end(), kernels::unsure) < 20);
+    CHECK(std::count(expected[3].begin(), expected[3].end(), kernels::unsure) < 20);
+    MESSAGE("levels here: ", levels);
+  }
+
   TEST_CASE("the level that was asked for is the one in use") {
     const char* forced = std::getenv("NINEDOF_SIMD");
-    if (forced != nullptr) CHECK(std::string(batch::simd_level()) == forced);
+    if (forced != nullptr && *forced != '\0') CHECK(std::string(batch::simd_level()) == forced);
     CHECK(std::string("base v3 v4").find(batch::simd_level()) != std::string::npos);
   }
 }

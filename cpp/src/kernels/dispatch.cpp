@@ -1,9 +1,7 @@
-/// Which instruction set to use: the only file that knows all of them.
+#include "kernels/dispatch.hpp"
 
 #include <cstdlib>
-#include <string>
 
-#include "kernels/table.hpp"
 #include "ninedof/error.hpp"
 
 namespace ninedof::kernels {
@@ -37,8 +35,9 @@ bool runs_v4() {
 }
 #endif
 
-/// The table of a level, or null where this build or this processor does not have it.
-const Table* find(const std::string& level) {
+}  // namespace
+
+const Table* table_of(const std::string& level) {
   // Nothing that came with v2 is of use here.
   if (level == "base" || level == "v2") return &base::level_table;
 #ifdef NINEDOF_HAS_v3
@@ -50,17 +49,19 @@ const Table* find(const std::string& level) {
   return nullptr;
 }
 
+namespace {
+
 const Table& choose() {
   const char* forced = std::getenv("NINEDOF_SIMD");
   if (forced == nullptr || *forced == '\0') {
     for (const char* level : {"v4", "v3"})
-      if (const Table* found = find(level)) return *found;
+      if (const Table* found = table_of(level)) return *found;
     return base::level_table;
   }
-  if (const Table* found = find(forced)) return *found;
+  if (const Table* found = table_of(forced)) return *found;
   std::string expected;
   for (const char* level : {"base", "v3", "v4"})
-    if (find(level) != nullptr) expected += (expected.empty() ? "" : ", ") + std::string(level);
+    if (table_of(level) != nullptr) expected += (expected.empty() ? "" : ", ") + std::string(level);
   throw InvalidArgument("NINEDOF_SIMD", forced, "a level that this build and this processor have: " + expected);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the kernels offer: one table of plain functions for each instruction set, and the one that fits this processor.
+/// What the kernels offer: one table of plain functions for each instruction set. Includes nothing, as kernels must.
 
 namespace ninedof::kernels {
 
@@ -31,9 +31,5 @@ struct Table {
   /// Rows a1 a2 b1 b2 zp zs of hexagonal designs at theta_z = 0, in characteristic lengths: 1 a row.
   void (*hexagonal_condition_numbers)(const double* designs, long count, double* out);
 };
-
-/// The best table for this processor, or the one the environment variable NINEDOF_SIMD names: "base", "v2", "v3" or "v4", the
-/// levels of x86-64. Throws InvalidArgument for another word, or for a level that is not compiled in or not supported here.
-const Table& table();
 
 }  // namespace ninedof::kernels
