@@ -23,13 +23,18 @@ NINEDOF_INLINE Bidiagonal<P> bidiagonalize(P (&matrix)[6][6]) {
   out.q[2] = reflect<4, 4, 1, 6>(m + 14);
   out.e[2] = reflect<3, 4, 6, 1>(m + 15);
   out.q[3] = reflect<3, 3, 1, 6>(m + 21);
-  out.e[3] = reflect<2, 3, 6, 1>(m + 22);
-  // The last 2x2 block needs no reflection: only squares are asked for.
+  // What is left, [f g] above a 2x2 block, needs no reflection: only squares are asked for.
   const P a = m[28], b = m[29], c = m[34], d = m[35];
-  out.q[4] = square(a) + square(c);
-  const P inverse = 1.0 / out.q[4];
-  out.e[4] = square(a * b + c * d) * inverse;
-  out.q[5] = square(a * d - b * c) * inverse;
+  out.e[3] = square(m[22]) + square(m[23]);
+  const auto coupled = out.e[3] > 0.0;
+  const P f = select(coupled, m[22], P(1.0)), g = m[23], length2 = select(coupled, out.e[3], P(1.0));
+  const P x = a * f + b * g, y = c * f + d * g;  // first column of the block, turned, times the length of [f g]
+  const P cross = x * (b * f - a * g) + y * (d * f - c * g);
+  const P first = square(x) + square(y);
+  const P inverse = 1.0 / (length2 * first);
+  out.q[4] = first * (first * inverse);
+  out.e[4] = square(cross) * inverse;
+  out.q[5] = square(a * d - b * c) * (square(length2) * inverse);
   return out;
 }
 

@@ -43,21 +43,20 @@ NINEDOF_INLINE void set_row(P (&row)[6], const Vector<P>& turning, const Vector<
 
 template <class P>
 NINEDOF_INLINE void conditioning_matrix(const Joints& g, const Poses<P>& c, const P& inverse_lc, P (&m)[6][6]) {
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
-    const Vector<P> u = c.turned(g.platform_external[i]);
-    const Vector<P> leg = c.p + u - g.base_external[i];
-    const Vector<P> e = leg * (1.0 / sqrt(dot(leg, leg)));
-    set_row(m[i], cross(u, e) * inverse_lc, e);
-  }
   const Vector<P> y = c.s - c.p;
-  Vector<P> upper[3], lower[3], w[3];
+  Vector<P> u[3], external[3], upper[3], lower[3], w[3];
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
-    const Vector<P> a = y - c.turned(g.platform_internal[i]), b = c.s - g.base_internal[i];
-    upper[i] = a * (1.0 / sqrt(dot(a, a)));
-    lower[i] = b * (1.0 / sqrt(dot(b, b)));
+    u[i] = c.turned(g.platform_external[i]);
+    external[i] = c.p + u[i] - g.base_external[i];
+    upper[i] = y - c.turned(g.platform_internal[i]);
+    lower[i] = c.s - g.base_internal[i];
   }
+  normalize(upper);
+  normalize(lower);
+  normalize(external);
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) set_row(m[i], cross(u[i], external[i]) * inverse_lc, external[i]);
   shared_rows(upper, lower, w);
   const Vector<P> lever = y * inverse_lc;
 #pragma GCC unroll 3

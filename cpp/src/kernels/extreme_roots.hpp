@@ -59,6 +59,12 @@ NINEDOF_INLINE P laguerre(const Taylor<P>& t) {
   return double(n) * t.p / (abs(t.p1) + root);
 }
 
+/// Halley's step: as quick close to a simple root, and without the square root.
+template <class P>
+NINEDOF_INLINE P halley(const Taylor<P>& t) {
+  return abs(t.p * t.p1 / (square(t.p1) - t.p * t.p2));
+}
+
 template <class P>
 struct Root {
   P x;
@@ -72,7 +78,7 @@ NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction) {
   P last = x;
   typename P::Mask open = x >= 0.0;
   for (int round = 0; round < most_rounds; ++round) {
-    const P step = laguerre<n>(characteristic<n>(q, e, x));
+    const P step = halley(characteristic<n>(q, e, x));
     x = select(open, x + direction * step, x);
     // Of a cubic iteration the next step is this one times the cube of its ratio to the one before; one that is slow, towards
     // a multiple root, goes on until its steps are rounding. Lanes that are done keep their root: it must not depend on

@@ -9,10 +9,8 @@
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 namespace {
 
-/// Lanes of the stages that keep whole matrices, and of the iterations, which profit from two chains at a time where there are
-/// registers for them. No result depends on either.
-using Narrow = PackOf<8>;
-using Wide = PackOf<register_bytes == 64 ? 16 : 8>;
+/// Two registers: two chains of dependent operations at a time. No result depends on it.
+using Lanes = PackOf<2 * per_register>;
 
 /// Calls work(columns, first, rows) for each chunk.
 template <class Work>
@@ -30,10 +28,10 @@ struct Bidiagonals {
   alignas(64) double x[11][chunk];
 
   NINEDOF_INLINE void reduce(const Joints& robot, const Columns& c) {
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      Narrow m[6][6];
-      conditioning_matrix(robot, c.poses<Narrow>(k), 1.0 / c.length<Narrow>(k), m);
-      const Bidiagonal<Narrow> b = bidiagonalize(m);
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      Lanes m[6][6];
+      conditioning_matrix(robot, c.poses<Lanes>(k), 1.0 / c.length<Lanes>(k), m);
+      const Bidiagonal<Lanes> b = bidiagonalize(m);
 #pragma GCC unroll 6
       for (int j = 0; j < 6; ++j) store(b.q[j], x[j] + k);
 #pragma GCC unroll 5
@@ -68,14 +66,14 @@ NINEDOF_INLINE void put(const double* from, long rows, double* to) {
 void leg_lengths(const Block& b, double* out) {
   for_each_chunk(b, [&](const Columns& c, long first, long rows) {
     alignas(64) double length[9][chunk];
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      const Poses<Narrow> pose = c.poses<Narrow>(k);
-      const Vector<Narrow> y = pose.s - pose.p;
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Poses<Lanes> pose = c.poses<Lanes>(k);
+      const Vector<Lanes> y = pose.s - pose.p;
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
-        const Vector<Narrow> l = pose.p + pose.turned(b.robot.platform_external[i]) - b.robot.base_external[i];
-        const Vector<Narrow> q = y - pose.turned(b.robot.platform_internal[i]);
-        const Vector<Narrow> r = pose.s - b.robot.base_internal[i];
+        const Vector<Lanes> l = pose.p + pose.turned(b.robot.platform_external[i]) - b.robot.base_external[i];
+        const Vector<Lanes> q = y - pose.turned(b.robot.platform_internal[i]);
+        const Vector<Lanes> r = pose.s - b.robot.base_internal[i];
         store(sqrt(dot(l, l)), length[i] + k);
         store(sqrt(dot(q, q)), length[3 + i] + k);
         store(sqrt(dot(r, r)), length[6 + i] + k);
@@ -91,10 +89,10 @@ void condition_numbers(const Block& b, double* out) {
     c.gather_length(b, first, rows);
     reduced.reduce(b.robot, c);
     alignas(64) double kappa[chunk];
-    for (long k = 0; k < chunk; k += Wide::lanes) {
-      const Bidiagonal<Wide> d = reduced.load<Wide>(k);
-      const Root<Wide> least = least_root<6>(d.q, d.e), greatest = greatest_root(d.q, d.e);
-      const Wide ratio = sqrt(greatest.x / least.x);
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Bidiagonal<Lanes> d = reduced.load<Lanes>(k);
+      const Root<Lanes> least = least_root<6>(d.q, d.e), greatest = greatest_root(d.q, d.e);
+      const Lanes ratio = sqrt(greatest.x / least.x);
       const auto sure = (ratio <= most_condition) & lever_allows(c, k, greatest.x);
       store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
     }
@@ -108,13 +106,13 @@ void frobenius_condition_numbers(const Block& b, double* out) {
     c.gather_length(b, first, rows);
     reduced.reduce(b.robot, c);
     alignas(64) double kappa[chunk];
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      const Bidiagonal<Narrow> d = reduced.load<Narrow>(k);
-      Narrow sum = d.q[0];
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Bidiagonal<Lanes> d = reduced.load<Lanes>(k);
+      Lanes sum = d.q[0];
 #pragma GCC unroll 5
       for (int j = 0; j < 5; ++j) sum += d.q[j + 1] + d.e[j];
-      const Taylor<Narrow> t = characteristic_at_zero<6>(d.q, d.e);
-      const Narrow ratio = sqrt(sum * (-t.p1 / t.p));
+      const Taylor<Lanes> t = characteristic_at_zero<6>(d.q, d.e);
+      const Lanes ratio = sqrt(sum * (-t.p1 / t.p));
       store(select((ratio <= most_condition) & lever_allows(c, k, sum), ratio, unsure), kappa + k);
     }
     put(kappa, rows, out + first);
@@ -127,12 +125,12 @@ void singular_values(const Block& b, double* out) {
     c.gather_length(b, first, rows);
     reduced.reduce(b.robot, c);
     alignas(64) double sigma[6][chunk];
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      const Roots<Narrow> root = all_roots(reduced.load<Narrow>(k));
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Roots<Lanes> root = all_roots(reduced.load<Lanes>(k));
       const auto sure = (root.x[5] <= (most_condition * most_condition) * root.x[0]) & lever_allows(c, k, root.x[5]);
 #pragma GCC unroll 6
       for (int j = 0; j < 6; ++j) {
-        const Narrow value = 1.0 / sqrt(root.x[j]);
+        const Lanes value = 1.0 / sqrt(root.x[j]);
         store(j > 0 ? value : select(root.open, unsure, select(sure, value, unsure)), sigma[j] + k);
       }
     }
@@ -143,8 +141,8 @@ void singular_values(const Block& b, double* out) {
 void singularity_margins(const Block& b, double* out) {
   for_each_chunk(b, [&](const Columns& c, long first, long rows) {
     alignas(64) double margin[3][chunk];
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      const Margins<Narrow> m = margins(b.robot, c.poses<Narrow>(k));
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Margins<Lanes> m = margins(b.robot, c.poses<Lanes>(k));
       store(select(m.sure, m.m, unsure), margin[0] + k);
       store(m.b, margin[1] + k);
       store(m.c, margin[2] + k);
@@ -158,9 +156,9 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
   for (long first = 0; first < count; first += chunk) {
     const long rows = count - first < chunk ? count - first : chunk;
     gather<6>(designs + 6 * first, 6, rows, column);
-    for (long k = 0; k < chunk; k += Narrow::lanes) {
-      const Narrow x[6] = {Narrow::load(column[0] + k), Narrow::load(column[1] + k), Narrow::load(column[2] + k),
-                           Narrow::load(column[3] + k), Narrow::load(column[4] + k), Narrow::load(column[5] + k)};
+    for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const Lanes x[6] = {Lanes::load(column[0] + k), Lanes::load(column[1] + k), Lanes::load(column[2] + k),
+                          Lanes::load(column[3] + k), Lanes::load(column[4] + k), Lanes::load(column[5] + k)};
       store(hexagonal_condition(x), kappa + k);
     }
     put(kappa, rows, out + first);
@@ -173,7 +171,7 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
 #define NINEDOF_TEXT(x) NINEDOF_TEXT_(x)
 extern const Table level_table;
 const Table level_table = {
-    NINEDOF_TEXT(NINEDOF_LEVEL), Narrow::lanes,   leg_lengths,         condition_numbers,
+    NINEDOF_TEXT(NINEDOF_LEVEL), Lanes::lanes,    leg_lengths,         condition_numbers,
     frobenius_condition_numbers, singular_values, singularity_margins, hexagonal_condition_numbers};
 
 }  // namespace ninedof::kernels::inline NINEDOF_LEVEL

@@ -35,6 +35,18 @@ NINEDOF_INLINE Vector<P> cross(const Vector<P>& a, const Vector<P>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The unit vectors along three legs. Three square roots, but one division.
+template <class P>
+NINEDOF_INLINE void normalize(Vector<P> (&legs)[3]) {
+  const P a = sqrt(dot(legs[0], legs[0])), b = sqrt(dot(legs[1], legs[1])), c = sqrt(dot(legs[2], legs[2]));
+  const P ab = a * b;
+  const P inverse = 1.0 / (ab * c);
+  const P by_ab = inverse * c;
+  legs[0] = legs[0] * (by_ab * b);
+  legs[1] = legs[1] * (by_ab * a);
+  legs[2] = legs[2] * (inverse * ab);
+}
+
 /// Position, rotation (row-major) and internal point.
 template <class P>
 struct Poses {
