@@ -221,8 +221,7 @@ void validate(const PoseGrid& grid) {
   const std::size_t n = grid.poses.size();
   std::size_t product = 1;
   for (const std::size_t length : grid.shape) product *= length;
-  if (product != n)
-    throw InvalidArgument("shape", std::to_string(product) + " poses", std::to_string(n));
+  if (product != n) throw InvalidArgument("shape", std::to_string(product) + " poses", std::to_string(n));
   if (grid.starts.size() > 1 && grid.starts.size() != n)
     throw InvalidArgument("starts", std::to_string(grid.starts.size()), "none, one or " + std::to_string(n));
 }

@@ -26,27 +26,27 @@ struct PoseGrid {
 };
 
 struct MapSettings {
-  std::size_t seed_every = 256;   ///< about one pose in so many is searched with best_internal_point
+  std::size_t seed_every = 256;  ///< about one pose in so many is searched with best_internal_point
   std::size_t audit_every = 512;  ///< so is one in so many of the others, once all are placed
-  std::uint64_t audit_seed = 0;   ///< which ones
-  int threads = 0;                ///< 0: one a processor. The result does not depend on it.
+  std::uint64_t audit_seed = 0;  ///< which ones
+  int threads = 0;  ///< 0: one a processor. The result does not depend on it.
   /// Called with the number of poses placed so far, and of all, from the calling thread, several times a second; false stops.
   std::function<bool(std::size_t done, std::size_t total)> proceed;
 };
 
 /// How often following neighbours missed a better point, by searching poses drawn at random.
 struct MapAudit {
-  std::size_t poses = 0;   ///< searched
+  std::size_t poses = 0;  ///< searched
   std::size_t missed = 0;  ///< of them, those where the search found a point better by more than 1e-6 of the value
-  double largest = 0.0;    ///< by how much, as a part of the better value; infinite where the map had no point at all
+  double largest = 0.0;  ///< by how much, as a part of the better value; infinite where the map had no point at all
 };
 
 struct InternalPointMap {
   std::vector<InternalPoint> points;
-  MapAudit audit;           ///< of the map before what the audit found better went into it
+  MapAudit audit;  ///< of the map before what the audit found better went into it
   std::size_t searched = 0;  ///< poses given to best_internal_point, those of the audit included
   std::size_t followed = 0;  ///< local optima sought from a neighbour's
-  bool complete = true;      ///< false where `proceed` stopped it: poses not placed are `missing`
+  bool complete = true;  ///< false where `proceed` stopped it: poses not placed are `missing`
 };
 
 /// The best internal point of every pose of a grid, each in the chamber of its own start.

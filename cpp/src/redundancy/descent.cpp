@@ -16,6 +16,9 @@ constexpr double short_of_wall = 0.9;  // part of the clear way that a step may 
 constexpr int most_steps = 40;         // for one epsilon
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// Decrements, in epsilons, at which the next epsilon may come, and at which the last one has been served.
+constexpr double nearly = 1e-3, fully = 1e-12;
+
 /// Curvature, as a part of the largest, below which a direction is taken to lead down from a saddle, and how far that is tried.
 constexpr double falling = -1e-6, first_try = 0.1;
 
@@ -90,7 +93,7 @@ bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, De
   for (int k = 0; k < most_steps; ++k) {
     const Model m = model_of(d.at);
     d.decrement = m.decrement;
-    const bool flat = m.decrement <= nearly_settled * epsilon;
+    const bool flat = m.decrement <= nearly * epsilon;
     d.ending = flat && !m.saddle ? Ending::minimum : Ending::stuck;
     const bool moved = flat && m.saddle                  ? leave_saddle(scene, f, epsilon, m.ridge, d)
                        : m.decrement <= enough * epsilon ? false
@@ -126,7 +129,7 @@ Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<
       }
     }
     before = last;
-    if (!settle(scene, f, epsilon, k + 1 < epsilons.size() ? nearly_settled : fully_settled, d)) return d;
+    if (!settle(scene, f, epsilon, k + 1 < epsilons.size() ? nearly : fully, d)) return d;
     d.limit = k == 0 ? d.x : Vec3(d.x - (d.x - before) * (epsilon / (epsilon - epsilons[k - 1])));
   }
   return d;

@@ -36,9 +36,6 @@ Vec3 newton_step(const Jet& f);
 /// if O has left.
 bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, Descent& d);
 
-/// Decrements, in epsilons, at which the next epsilon may come, and at which the last one has been served.
-constexpr double nearly_settled = 1e-3, fully_settled = 1e-12;
-
 /// Minimises from `start`, where the function must be defined, for each epsilon in turn. From one to the next the minimum moves
 /// almost along a line, which is followed ahead.
 Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons);

@@ -11,8 +11,9 @@ namespace {
 constexpr std::array close{1e-4, 1e-6, 1e-8};
 constexpr std::array near{3e-3, 1e-4, 1e-6, 1e-8};
 
-/// Decrement, in epsilons, from which Newton's method needs few steps.
-constexpr double within_reach = 3.0;
+/// Decrements, in epsilons: from the first one on Newton's method needs few steps. The second is that of a minimum: sharper than a
+/// search asks for, because what is to be carried to the next epsilon must be known well against that.
+constexpr double within_reach = 3.0, settled = 1e-6;
 constexpr double relative_change = 1e-4;  // of epsilon, in differences
 constexpr int most_pushes = 6;
 
@@ -110,7 +111,7 @@ void sharpen(const Scene& scene, const Soft& f, std::span<const double> epsilons
         return;
       }
     }
-    if (!settle(scene, f, epsilon, k + 1 < epsilons.size() ? nearly_settled : fully_settled, d)) return;
+    if (!settle(scene, f, epsilon, settled, d)) return;
     if (k > 0) d.limit = d.x - (d.x - before) * (epsilon / (epsilon - epsilons[k - 1]));
   }
 }
