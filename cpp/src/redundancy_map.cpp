@@ -16,6 +16,7 @@ namespace {
 
 // Poses between two looks at `proceed`: fixed, though nothing depends on them.
 constexpr std::size_t slice = 512, search_slice = 32;
+constexpr std::size_t least_audit = 32;  // fewer poses say little
 constexpr double one_branch = 0.01;  // sizes of the robot: points nearer than this are of one branch of optima
 constexpr double deficit = 1e-6;   // counts as missed
 
@@ -174,7 +175,8 @@ class Map {
     Places drawn;
     for (std::size_t k = 0; k < cells_.size(); ++k)
       if (open_[k] && !searched_[k]) drawn.push_back(k);
-    const std::size_t count = (drawn.size() + settings_.audit_every - 1) / settings_.audit_every;
+    const std::size_t share = (drawn.size() + settings_.audit_every - 1) / settings_.audit_every;
+    const std::size_t count = std::min(drawn.size(), std::max(least_audit, share));
     std::ranges::stable_sort(drawn, {}, [&](std::size_t k) {
       return uniform_from((settings_.audit_seed * cells_.size() + k + 1) * 0x9E3779B97F4A7C15ULL);
     });

@@ -85,7 +85,8 @@ def best_internal_map(
     seed_every : int
         About one pose in so many is a seed, on a lattice of equal steps along all axes. 1 searches every pose.
     audit_every : int
-        One pose in so many of the others is searched at the end. What that finds is passed on as well.
+        One pose in so many of the others, but no fewer than 32, is searched at the end. What that finds is passed on as
+        well.
     audit_seed : int
         Which ones.
     progress : callable, optional

@@ -27,7 +27,7 @@ struct PoseGrid {
 
 struct MapSettings {
   std::size_t seed_every = 256;  ///< about one pose in so many is searched with best_internal_point
-  std::size_t audit_every = 512;  ///< so is one in so many of the others, once all are placed
+  std::size_t audit_every = 512;  ///< so is one in so many of the others, 32 at least, once all are placed
   std::uint64_t audit_seed = 0;  ///< which ones
   int threads = 0;  ///< 0: one a processor. The result does not depend on it.
   /// Called with the number of poses placed so far, and of all, from the calling thread, several times a second; false stops.
