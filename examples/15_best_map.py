@@ -1,4 +1,4 @@
-"""What a free internal point is worth, all over a plane: its best condition number beside that of an O that is built in.
+"""What a free internal point is worth all over a plane: the best condition number beside that of an O that is fixed.
 
 `--figure FILE` draws both maps.
 """

@@ -20,7 +20,7 @@ __all__ = ["InternalPointMap", "MapAudit", "best_internal_map"]
 
 @dataclass(frozen=True)
 class MapAudit:
-    """How often following neighbours missed a better point: poses drawn at random, searched as a single pose would be."""
+    """How often following neighbours missed a better point: poses drawn at random and searched one by one."""
 
     poses: int
     """Number of poses searched, none of them a seed."""

@@ -1,4 +1,4 @@
-"""Maps of best internal points: against single searches, a search of all O in plain numpy, symmetry, and their own audit."""
+"""Maps of best internal points: against single searches, all O in plain numpy, symmetry, and their own audit."""
 
 import itertools
 import signal
