@@ -116,6 +116,21 @@ void sharpen(const Scene& scene, const Soft& f, std::span<const double> epsilons
   }
 }
 
+/// As enter_limits, but from a point next to where it ends.
+bool enter_nearby(const Merit& merit, Vec3& x, Minima& minima) {
+  const Soft violation = [&merit](const Vec3& at, double epsilon, Jet& f) {
+    return merit.soft_violation(at, epsilon, f);
+  };
+  Descent d;
+  d.x = d.limit = x;
+  if (!violation(x, close[0], d.at) || !in_reach(d.at, close[0])) return enter_limits(merit, x, minima);
+  sharpen(merit.scene(), violation, close, d);
+  if (d.ending != Ending::minimum) return enter_limits(merit, x, minima);
+  x = minima.nearest = d.x;
+  minima.violation = merit.violation(x);
+  return minima.violation < limit_tolerance;
+}
+
 }  // namespace
 
 Minima nearby_minimum(const Merit& merit, const Vec3& start) {
@@ -133,7 +148,7 @@ Minima nearby_minimum(const Merit& merit, const Vec3& start) {
     return out;
   }
   Vec3 x = start;
-  if (merit.violation(x) >= limit_tolerance && !enter_limits(merit, x, out)) return out;
+  if (merit.violation(x) >= limit_tolerance && !enter_nearby(merit, x, out)) return out;
   out.found.push_back(local_end(merit, descend(merit.scene(), soft, x, sharpening())));
   return out;
 }
