@@ -59,7 +59,7 @@ def best_internal_map(
     audit_seed: int = 0,
     progress: Callable[[int, int], object] | None = None,
 ) -> InternalPointMap:
-    """Return the best internal point of every pose of a grid, some twenty times faster than one by one.
+    """Return the best internal point of every pose of a grid, five to twenty times faster than one by one.
 
     A coarse lattice of poses is searched as `best_internal_point` does it. From there the others are reached in waves:
     each pose continues the points of its neighbours, ahead along the line of two where there are two, by Newton's

@@ -11,7 +11,7 @@
 
 namespace ninedof {
 
-/// The local optimum that `start` leads to, in the chamber of `start`: some twenty times less work than best_internal_point, whose
+/// The local optimum that `start` leads to, in the chamber of `start`: five to twenty times less work than best_internal_point, whose
 /// statuses it has and whose checks it passes.
 ///
 /// `infeasible` for an internal leg says that no point near the start keeps the limits.
