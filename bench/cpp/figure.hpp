@@ -54,6 +54,7 @@ Figures position();
 Figures acceleration();
 Figures conditioning();
 Figures sensitivity();
+Figures redundancy();
 Figures symmetric();
 Figures optimization();
 Figures studies();

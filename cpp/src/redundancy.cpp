@@ -1,11 +1,8 @@
 #include "ninedof/redundancy.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "ninedof/conditioning.hpp"
 #include "ninedof/error.hpp"
-#include "ninedof/legs.hpp"
 #include "redundancy/pose_search.hpp"
 
 namespace ninedof {
@@ -68,28 +65,7 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start) {
   validate(problem);
-  InternalPoint out;
-  if (position.hasNaN() || rotation.hasNaN() || (start && start->hasNaN())) return out;
-  out.active = external_out_of_limits(g, position, rotation, problem);
-  if (!out.active.empty()) {
-    out.status = InternalPointStatus::infeasible;
-    return out;
-  }
-  const Scene scene(g, position, rotation, problem);
-  Merit merit(scene, problem);
-  const std::vector<Vec3> starts = chamber_starts(scene, problem, start);
-  if (starts.empty()) {
-    out.status = InternalPointStatus::singular;
-    return out;
-  }
-  std::optional<InternalPoint> best;
-  for (const Vec3& x : starts) {
-    merit.enter(x);
-    const Minima minima = local_minima(merit, x);
-    const InternalPoint found = answer(merit, minima);
-    if (!best || better(problem.criterion, found, *best)) best = found;
-  }
-  return *best;
+  return search_pose(g, position, rotation, problem, start).point;
 }
 
 }  // namespace ninedof

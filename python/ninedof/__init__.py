@@ -32,6 +32,7 @@ from ninedof.pareto import Front, pareto
 from ninedof.point import DesignPoint
 from ninedof.pose import Pose
 from ninedof.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
+from ninedof.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.result import Candidate, Result, Status
 from ninedof.singularity import (
     Mechanism,
@@ -60,9 +61,11 @@ __all__ = [
     "Front",
     "Geometry",
     "InternalPoint",
+    "InternalPointMap",
     "InternalPointStatus",
     "LegForces",
     "LowerBound",
+    "MapAudit",
     "Mechanism",
     "Objective",
     "Pose",
@@ -79,6 +82,7 @@ __all__ = [
     "VelocityMatrices",
     "applicable_bounds",
     "axis_singular_values",
+    "best_internal_map",
     "best_internal_path",
     "best_internal_point",
     "characteristic_length",

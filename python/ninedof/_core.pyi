@@ -7,7 +7,7 @@ float64; characteristic lengths as one value or n.
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from numpy import float64, intc, uint8
+from numpy import float64, intc, uint8, uint32
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
@@ -76,6 +76,29 @@ def best_internal_point(
     threads: int,
     /,
 ) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
+def best_internal_map(
+    g: Geometry,
+    position: _Floats,
+    rotation: _Floats,
+    shape: Sequence[int],
+    start: _Floats,
+    criterion: str,
+    low: _Floats,
+    high: _Floats,
+    length: float,
+    clearance: float,
+    threads: int,
+    seed_every: int,
+    audit_every: int,
+    audit_seed: int,
+    progress: Callable[[int, int], object] | None,
+    /,
+) -> tuple[
+    tuple[_Floats, _Floats, NDArray[uint8], list[str], NDArray[uint32], dict[int, tuple[str, ...]]],
+    tuple[int, int, float],
+    int,
+    int,
+]: ...
 def best_internal_path(
     g: Geometry,
     position: _Floats,

@@ -119,13 +119,7 @@ def best_internal_point(
     shape, p, q = _poses(geometry, position, rotation)
     low, high = _limits(limits)
     length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
-    starts = np.empty((0, 3))
-    if start is not None:
-        given = as_floats("start", start, (3,))
-        try:
-            starts = np.ascontiguousarray(np.broadcast_to(given, (*shape, 3))).reshape(-1, 3)
-        except ValueError:
-            raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
+    starts = _starts(start, shape)
     workers = thread_argument(threads)
     chunks = [
         _core.best_internal_point(
@@ -231,6 +225,17 @@ def _poses(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tupl
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
     c = Configuration(position, rotation, np.zeros(3))
     return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
+
+
+def _starts(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
+    """Return one start a pose, or no rows where there is none."""
+    if start is None:
+        return np.empty((0, 3))
+    given = as_floats("start", start, (3,))
+    try:
+        return np.ascontiguousarray(np.broadcast_to(given, (*shape, 3))).reshape(-1, 3)
+    except ValueError:
+        raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
 
 
 def _clearance(criterion: Any, clearance: float | None) -> float:

@@ -25,7 +25,7 @@ CPP_LAYERS = (
     | {"singularity", "singularity_distance"},
     {"forward_position", "tracking", "accuracy", "error_sample"},
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
-    {"optimize", "pareto", "redundancy", "redundancy_path"},
+    {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
     {"workspace"},
 )
@@ -46,7 +46,7 @@ PYTHON_LAYERS = (
     {"geometry", "configuration"},
     {"lengths"},
     {"conditioning", "kinematics", "velocity", "acceleration", "forward_position", "tracking", "redundancy"}
-    | {"singularity", "statics", "accuracy", "ellipsoid"},
+    | {"redundancy_map", "singularity", "statics", "accuracy", "ellipsoid"},
     {"angles", "bounds"},
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
@@ -72,6 +72,7 @@ CORE_USERS = {
     "forward_position",
     "tracking",
     "redundancy",
+    "redundancy_map",
     "velocity",
     "acceleration",
     "singularity",

@@ -86,7 +86,8 @@ bool gone(const Scene& scene, Descent& d) {
   return false;
 }
 
-/// Minimises for one epsilon, down to a decrement of `enough` epsilons; false if x is gone.
+}  // namespace
+
 bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, Descent& d) {
   d.ending = Ending::stuck;
   for (int k = 0; k < most_steps; ++k) {
@@ -103,7 +104,9 @@ bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, De
   return true;
 }
 
-}  // namespace
+Vec3 newton_step(const Jet& f) {
+  return model_of(f).way;
+}
 
 Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons) {
   Descent d;

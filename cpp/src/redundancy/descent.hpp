@@ -29,6 +29,13 @@ struct Descent {
   int leg = -1;                    ///< the internal leg that has shrunk
 };
 
+/// The step to the least value of the second-order model, curvatures taken by their size, whatever their sign.
+Vec3 newton_step(const Jet& f);
+
+/// As a descent ends for one epsilon: minimises from d.x, where the function is d.at, down to a decrement of `enough` epsilons; false
+/// if O has left.
+bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, Descent& d);
+
 /// Minimises from `start`, where the function must be defined, for each epsilon in turn. From one to the next the minimum moves
 /// almost along a line, which is followed ahead.
 Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons);

@@ -21,6 +21,7 @@ class Merit {
   /// Fixes the chamber: the signs of the three volumes.
   void enter(const Vec3& x) { sides_ = scene_.volumes(x).cwiseSign(); }
   void enter_sides(const Vec3& sides) { sides_ = sides; }
+  const Vec3& sides() const { return sides_; }
   /// Whether the three determinants have the signs of the chamber and are greater than the clearance.
   bool in_chamber(const Vec3& x) const;
 

@@ -102,4 +102,38 @@ bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b)
   return criterion == Criterion::singularity ? a.value > b.value : a.value < b.value;
 }
 
+Finding finding(const Merit& merit, const Minima& minima) {
+  Finding out{answer(merit, minima), {}, merit.sides()};
+  const bool none = minima.found.empty();
+  out.s = merit.scene().outward(none ? minima.nearest : minima.found.front().x);
+  if (!none) out.value = minima.found.front().value;
+  return out;
+}
+
+Finding before_search(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                      const InternalPointProblem& problem) {
+  Finding out;
+  if (position.hasNaN() || rotation.hasNaN()) return out;
+  out.point.active = external_out_of_limits(g, position, rotation, problem);
+  out.point.status = out.point.active.empty() ? InternalPointStatus::singular : InternalPointStatus::infeasible;
+  return out;
+}
+
+Finding search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem,
+                    const std::optional<Vec3>& start) {
+  Finding out = before_search(g, position, rotation, problem);
+  if (start && start->hasNaN()) return {};
+  if (out.point.status != InternalPointStatus::singular) return out;
+  const Scene scene(g, position, rotation, problem);
+  Merit merit(scene, problem);
+  bool first = true;
+  for (const Vec3& x : chamber_starts(scene, problem, start)) {
+    merit.enter(x);
+    const Finding found = finding(merit, local_minima(merit, x));
+    if (first || better(problem.criterion, found.point, out.point)) out = found;
+    first = false;
+  }
+  return out;
+}
+
 }  // namespace ninedof

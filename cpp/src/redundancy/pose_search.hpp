@@ -1,6 +1,7 @@
 #pragma once
 /// The ends of a search at one pose: what is settled before it begins, and what its outcome means.
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,23 @@ InternalPoint internal_point(const Merit& merit, const Vec3& x, InternalPointSta
 
 /// What a search of one chamber comes to.
 InternalPoint answer(const Merit& merit, const Minima& minima);
+
+/// An answer, and what it takes to go on from it and to compare it.
+struct Finding {
+  InternalPoint point;
+  Vec3 s = Vec3::Zero();      ///< where O is, or where it was lost, or least out of the limits
+  Vec3 sides = Vec3::Zero();  ///< of the chamber; zero where the pose alone rules a point out
+  double value = std::numeric_limits<double>::infinity();  ///< of Merit::exact
+};
+Finding finding(const Merit& merit, const Minima& minima);
+
+/// What the pose alone has to say: missing, or infeasible for its external legs; else `singular`, so far.
+Finding before_search(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                      const InternalPointProblem& problem);
+
+/// best_internal_point without its checks of arguments.
+Finding search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem,
+                    const std::optional<Vec3>& start);
 
 /// Whether `a` is the better of two answers for one pose.
 bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b);

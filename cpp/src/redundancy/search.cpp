@@ -78,20 +78,9 @@ class Search {
 
   /// Starts in the limits from points outside, as far as there are any.
   void enter_limits() {
-    const Soft violation = [this](const Vec3& x, double epsilon, Jet& out) {
-      return merit_.soft_violation(x, epsilon, out);
-    };
     for (const Vec3& start : best_apart(outside_, limit_starts, taken_outside_)) {
-      Descent d = descend(scene_, violation, start, into_limits);
-      if (merit_.violation(d.x) >= 0.0) d = descend(scene_, violation, d.x, into_corners);
-      for (const Vec3& x : {d.x, d.limit}) {
-        const double broken = merit_.violation(x);
-        if (broken < minima_.violation) {
-          minima_.violation = broken;
-          minima_.nearest = x;
-        }
-      }
-      if (merit_.violation(d.x) < limit_tolerance) note(d.x);
+      Vec3 x = start;
+      if (ninedof::enter_limits(merit_, x, minima_)) note(x);
     }
   }
 
@@ -119,7 +108,7 @@ class Search {
       if (end.value > rough_.front().value + hopeless) break;
       Descent d = descend(scene_, soft_, end.x, fine);
       if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(scene_, soft_, end.start, fine);
-      const Local found = local(d);
+      const Local found = local_end(merit_, d);
       if (std::ranges::none_of(minima_.found, [&](const Local& o) { return (o.x - found.x).norm() < same_minimum; }))
         minima_.found.push_back(found);
     }
@@ -141,16 +130,6 @@ class Search {
     }
   }
 
-  /// The end of a descent without what the last epsilon has left of softness.
-  Local local(const Descent& d) const {
-    const double soft = merit_.exact(d.x);
-    if (merit_.violation(d.limit) <= limit_tolerance && merit_.in_chamber(d.limit)) {
-      const double sharp = merit_.exact(d.limit);
-      if (sharp <= soft) return {d.limit, sharp, d.ending, d.leg};
-    }
-    return {d.x, soft, d.ending, d.leg};
-  }
-
   const Merit& merit_;
   const Scene& scene_;
   Soft soft_;
@@ -162,6 +141,32 @@ class Search {
 };
 
 }  // namespace
+
+Local local_end(const Merit& merit, const Descent& d) {
+  const double soft = merit.exact(d.x);
+  if (merit.violation(d.limit) <= limit_tolerance && merit.in_chamber(d.limit)) {
+    const double sharp = merit.exact(d.limit);
+    if (sharp <= soft) return {d.limit, sharp, d.ending, d.leg};
+  }
+  return {d.x, soft, d.ending, d.leg};
+}
+
+bool enter_limits(const Merit& merit, Vec3& x, Minima& minima) {
+  const Soft violation = [&merit](const Vec3& at, double epsilon, Jet& out) {
+    return merit.soft_violation(at, epsilon, out);
+  };
+  Descent d = descend(merit.scene(), violation, x, into_limits);
+  if (merit.violation(d.x) >= 0.0) d = descend(merit.scene(), violation, d.x, into_corners);
+  for (const Vec3& end : {d.x, d.limit}) {
+    const double broken = merit.violation(end);
+    if (broken < minima.violation) {
+      minima.violation = broken;
+      minima.nearest = end;
+    }
+  }
+  x = d.x;
+  return merit.violation(x) < limit_tolerance;
+}
 
 std::span<const double> sharpening() {
   return fine;

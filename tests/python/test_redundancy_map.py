@@ -1,0 +1,344 @@
+"""Maps of best internal points: against single searches, all O in plain numpy, symmetry, and their own audit."""
+
+import itertools
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import numpy_model
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+CRITERIA = ("condition_number", "singularity", "leg_centring")
+LIMITS = (np.r_[np.full(3, 1.0), np.full(6, 2.2)], np.r_[np.full(3, 9.0), np.full(6, 4.4)])
+TURN = Rotation.from_rotvec([0.0, 0.0, 2.0 * np.pi / 3.0])
+
+
+def plane(n, reach=1.6, height=3.9828):
+    x = np.linspace(-reach, reach, n)
+    return np.stack([*np.meshgrid(x, x, indexing="ij"), np.full((n, n), height)], axis=-1)
+
+
+def robots(g, c, s=None):
+    """Give the numpy model of a stack of configurations, O elsewhere if said."""
+    n = len(c.position)
+    joints = (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
+    return numpy_model.Robot(
+        *(np.broadcast_to(t, (n, 3, 3)) for t in joints), c.position, c.rotation, c.internal_point if s is None else s
+    )
+
+
+def gain(criterion, map_value, value):
+    """By how much `value` is better, as a part of the better value; 0 at least."""
+    a, b = (value, map_value) if criterion == "singularity" else (map_value, value)
+    return np.maximum(a / b - 1.0, 0.0)
+
+
+# --- Values -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("criterion", "limits"),
+    [(c, None) for c in CRITERIA[:2]] + [(c, LIMITS) for c in CRITERIA],  # centring needs limits
+)
+def test_as_good_as_single_searches(published, criterion, limits):
+    grid = plane(40)
+    best = nd.best_internal_map(published, grid, criterion=criterion, limits=limits)
+    some = np.random.default_rng(1).choice(1600, size=120, replace=False)
+    single = nd.best_internal_point(published, grid.reshape(-1, 3)[some], criterion=criterion, limits=limits)
+    assert_array_equal(best.status.ravel()[some], single.status)
+    assert (single.status == "found").mean() > 0.5
+    found = single.status == "found"
+    missed = gain(criterion, best.value.ravel()[some][found], single.value[found])
+    # A missed branch is no fault as such, but the audit has to know of it.
+    assert missed.max() <= max(1e-6, 2.0 * best.audit.largest)
+    assert (missed > 1e-6).mean() <= best.audit.missed / best.audit.poses + 0.05
+
+
+def test_general_robots_and_axes_of_orientation():
+    rng = np.random.default_rng(2)
+    for _ in range(3):
+        g = numpy_model.random_robots(rng, 1).at(0).geometry()
+        tilt = np.stack(np.meshgrid(*2 * [np.linspace(-0.3, 0.3, 12)], [0.1], indexing="ij"), axis=-1)[:, :, 0]
+        q = Rotation.from_rotvec(tilt.reshape(-1, 3)).as_matrix().reshape(12, 12, 1, 3, 3)
+        p = np.array([[0.1, 0.2, z] for z in np.linspace(3.0, 3.6, 6)])
+        best = nd.best_internal_map(g, p, q, seed_every=64)
+        assert best.value.shape == best.configuration.shape == (12, 12, 6)
+        some = rng.choice(864, size=40, replace=False)
+        c = best.configuration
+        single = nd.best_internal_point(g, c.position.reshape(-1, 3)[some], c.rotation.reshape(-1, 3, 3)[some])
+        both = (best.status.ravel()[some] == "found") & (single.status == "found")
+        assert both.mean() > 0.3
+        lost = gain("condition_number", best.value.ravel()[some][both], single.value[both])
+        assert (lost > 1e-6).sum() <= 1 + 0.1 * best.audit.missed * len(some) / best.audit.poses
+
+
+def test_no_point_of_a_fine_grid_is_better(published):
+    """All O in a box around the robot, by plain numpy, where the straight way there meets no singularity."""
+    best = nd.best_internal_map(published, plane(12))
+    ticks = [np.linspace(-2.5, 2.5, 26), np.linspace(-2.5, 2.5, 26), np.linspace(0.1, 3.9, 26)]
+    box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
+    for k in ((0, 0), (3, 7), (6, 6), (11, 4)):
+        s = best.configuration.internal_point[k]
+        where = nd.Configuration(
+            np.broadcast_to(best.configuration.position[k], box.shape),
+            np.broadcast_to(best.configuration.rotation[k], (*box.shape, 3)),
+            np.zeros(box.shape),
+        )
+        signs = [dets(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, 30)]
+        reached = np.all([np.sign(x) == np.sign(signs[0]) for x in signs], axis=(0, 2))
+        with np.errstate(all="ignore"):
+            values = numpy_model.condition_number(robots(published, where, box))
+        assert reached.sum() > 1000
+        assert values[reached].min() >= best.value[k] * (1.0 - 1e-9)
+        assert values[reached].min() <= best.value[k] * 1.05  # the box is about O
+
+
+def dets(m):
+    """Determinants of B, C and the matrix behind M."""
+    _, b, c, _ = numpy_model.matrices(m)
+    x, _, _, u, _ = numpy_model.legs(m)
+    w = u + (m.p - m.s)[:, None]
+    return np.stack([np.linalg.det(a) for a in (b, c, np.cross(w - x, w))], axis=-1)
+
+
+def test_value_is_that_of_the_configuration(published):
+    best = nd.best_internal_map(published, plane(15), limits=LIMITS, characteristic_length=1.3)
+    c = nd.Configuration(
+        best.configuration.position.reshape(-1, 3), None, best.configuration.internal_point.reshape(-1, 3)
+    )
+    assert_allclose(best.value.ravel(), numpy_model.condition_number(robots(published, c), 1.3), rtol=1e-9)
+
+
+def test_no_neighbours_point_is_better(published):
+    """What the envelope means, where the chamber is one: no pose would gain by its neighbour's O."""
+    best = nd.best_internal_map(published, plane(30))
+    p, s, value = best.configuration.position, best.configuration.internal_point, best.value
+    for axis, there in itertools.product((0, 1), (1, -1)):
+        here = tuple(slice(1, -1) if a == axis else slice(None) for a in (0, 1))
+        moved = np.roll(s, there, axis=axis)[here]
+        taken = nd.condition_number(published, nd.Configuration(p[here], internal_point=moved))
+        assert (taken >= value[here] * (1.0 - 1e-9)).all()
+
+
+def test_a_third_of_a_turn_changes_nothing(published):
+    """The robot has three-fold symmetry; the grid has not, so that the two maps are reached on different ways."""
+    grid = plane(25)
+    one = nd.best_internal_map(published, grid)
+    two = nd.best_internal_map(published, TURN.apply(grid.reshape(-1, 3)).reshape(grid.shape)[::-1])
+    assert_allclose(two.value[::-1], one.value, rtol=1e-7)
+    turned = one.configuration.internal_point @ TURN.as_matrix().T
+    apart = np.linalg.norm(two.configuration.internal_point[::-1] - turned, axis=-1)
+    assert np.quantile(apart, 0.95) < 1e-5  # elsewhere two points may be equally good
+
+
+# --- Branches and the audit -------------------------------------------------------------------------------------------
+
+
+def scattered(n=300):
+    """A list whose neighbours are far apart, against the advice: branches are lost."""
+    rng = np.random.default_rng(3)
+    p = np.array([0.0, 0.0, 3.2]) + rng.uniform(-1.5, 1.5, size=(n, 3)) * [1.0, 1.0, 0.5]
+    return nd.Geometry.hexagonal(0.379, 1.9, 0.652, 1.541), p, Rotation.from_rotvec(0.4 * rng.normal(size=(n, 3)))
+
+
+def test_the_audit_counts_what_was_missed_and_mends_it():
+    g, p, q = scattered()
+    single = nd.best_internal_point(g, p, q)
+    whole = nd.best_internal_map(g, p, q, seed_every=300, audit_every=1)
+    both = (whole.status == "found") & (single.status == "found")
+    assert both.sum() > 270
+    assert whole.searched == 300
+    assert (whole.value[both] <= single.value[both] * (1.0 + 1e-6)).all()
+    assert 0 < whole.audit.missed < whole.audit.poses
+    assert whole.audit.largest > 1e-2
+    # An audit of few poses leaves the others as the whole one has judged them.
+    seen = set()
+    for seed in range(4):
+        part = nd.best_internal_map(g, p, q, seed_every=300, audit_every=100, audit_seed=seed)
+        assert part.audit.poses == 32
+        lost = gain("condition_number", part.value[both], single.value[both])
+        left = (~(lost <= 1e-6)).sum()
+        assert left + part.audit.missed <= whole.audit.missed
+        assert not (lost > whole.audit.largest * (1.0 + 1e-6)).any()
+        seen.add((left, part.audit.missed))
+    assert len(seen) > 1  # other seeds look elsewhere
+    assert max(left for left, _ in seen) > 0
+
+
+def test_searching_every_pose_is_best_internal_point(published):
+    grid = plane(6)
+    best = nd.best_internal_map(published, grid, seed_every=1)
+    single = nd.best_internal_point(published, grid)
+    assert (best.value <= single.value).all()
+    assert_allclose(best.value, single.value, rtol=1e-7)
+    assert best.searched == 36
+    assert best.audit.poses == 0
+
+
+# --- Limits and what cannot be ----------------------------------------------------------------------------------------
+
+
+def test_limits_hold_and_are_named(published):
+    high = np.r_[np.full(3, 6.2), np.full(6, 5.0)]
+    best = nd.best_internal_map(published, plane(30, 2.5), limits=(LIMITS[0], high))
+    c = nd.Configuration(
+        best.configuration.position.reshape(-1, 3), None, best.configuration.internal_point.reshape(-1, 3)
+    )
+    found = (best.status == "found").ravel()
+    with np.errstate(invalid="ignore"):
+        lengths = numpy_model.lengths(robots(published, c))
+    assert 0.2 < found.mean() < 0.95
+    assert (lengths[found] <= high + 1e-8).all()
+    assert (lengths[found] >= LIMITS[0] - 1e-8).all()
+    names = np.array(["l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"], dtype=object)
+    touched = 0
+    for length, active in zip(lengths[found], best.active.ravel()[found], strict=True):
+        for room, words in ((high - length, names + " high"), (length - LIMITS[0], names + " low")):
+            assert set(words[room < 1e-7]) <= set(active)
+            assert not set(words[room > 1e-6]) & set(active)
+        touched += bool(active)
+    assert touched > 50
+    external = numpy_model.lengths(robots(published, c, np.zeros_like(c.position)))[:, :3]
+    out = (external > high[:3] + 1e-8).any(axis=1)
+    assert out.any()
+    assert (best.status.ravel()[out] == "infeasible").all()
+    assert np.isnan(c.internal_point[~found]).all()
+    assert np.isnan(best.value.ravel()[~found]).all()
+
+
+def test_infeasible_for_internal_legs_as_a_search_says(published):
+    limits = (np.full(9, 1.0), np.r_[np.full(3, 20.0), np.full(6, 4.6)])
+    grid = plane(24, 3.0)
+    best = nd.best_internal_map(published, grid, limits=limits)
+    single = nd.best_internal_point(published, grid, limits=limits)
+    assert {"found", "infeasible"} <= set(best.status.ravel())
+    assert (best.status == single.status).mean() > 0.995
+    assert all(best.active[best.status == "infeasible"])
+
+
+def test_a_pose_with_nan_concerns_no_other(published):
+    grid = plane(20)
+    whole = nd.best_internal_map(published, grid)
+    grid[3, 4, 0] = np.nan
+    grid[10, :, 2] = np.nan  # cuts the grid in two
+    holed = nd.best_internal_map(published, grid)
+    missing = np.isnan(grid).any(axis=-1)
+    assert_array_equal(holed.status == "missing", missing)
+    assert_allclose(holed.value[~missing], whole.value[~missing], rtol=1e-7)
+    assert np.isnan(holed.value[missing]).all()
+
+
+def test_islands_no_seed_is_on_are_reached(published):
+    grid = plane(20)
+    island = np.zeros((20, 20), dtype=bool)
+    island[1, 1] = island[12:14, 17] = True
+    grid[~island] = np.nan
+    best = nd.best_internal_map(published, grid)
+    assert (best.status[island] == "found").all()
+    assert_allclose(best.value[island], nd.best_internal_point(published, grid[island]).value, rtol=1e-6)
+
+
+def test_other_chambers_and_singular_starts(published):
+    grid = plane(8, 0.4)
+    above = nd.best_internal_map(published, grid, start=[0.0, 0.0, 6.0])
+    single = nd.best_internal_point(published, grid, start=[0.0, 0.0, 6.0])
+    assert_array_equal(above.status, single.status)
+    starts = np.broadcast_to([0.1, 0.2, 2.0], grid.shape).copy()
+    starts[2, 2] = [0.1, 0.2, 0.0]
+    best = nd.best_internal_map(published, grid, start=starts)
+    assert best.status[2, 2] == "singular"
+    assert (best.status == "found").sum() == 63
+
+
+def test_one_pose_and_none(published):
+    one = nd.best_internal_map(published, [0.3, 0.1, 3.9])
+    single = nd.best_internal_point(published, [0.3, 0.1, 3.9])
+    assert (one.value, one.status, one.active) == (single.value, "found", ())
+    none = nd.best_internal_map(published, np.empty((0, 4, 3)))
+    assert none.value.shape == none.status.shape == (0, 4)
+    assert none.audit == nd.MapAudit(0, 0, 0.0)
+
+
+# --- Threads, progress, interruption ----------------------------------------------------------------------------------
+
+
+def test_same_bits_for_any_number_of_threads(published):
+    grid = plane(48)
+    maps = [nd.best_internal_map(published, grid, limits=LIMITS, threads=n) for n in (1, 2, 5)]
+    for other in maps[1:]:
+        assert_array_equal(other.configuration.internal_point, maps[0].configuration.internal_point)
+        assert_array_equal(other.value, maps[0].value)
+        assert (other.audit, other.searched, other.followed) == (maps[0].audit, maps[0].searched, maps[0].followed)
+
+
+def test_progress_rises_to_the_total(published):
+    seen = []
+    nd.best_internal_map(published, plane(48), progress=lambda *a: seen.append(a))
+    done, total = zip(*seen, strict=True)
+    assert set(total) == {48 * 48}
+    assert all(a < b for a, b in itertools.pairwise(done))
+    assert done[-1] == 48 * 48
+    assert len(seen) > 5
+
+
+@pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3)], ids=repr)
+def test_exception_of_the_callback_arrives(published, error):
+    def fail(done, total):
+        raise error
+
+    with pytest.raises(type(error)):
+        nd.best_internal_map(published, plane(30), progress=fail)
+
+
+INTERRUPTED = """
+import numpy as np, ninedof as nd
+g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+p = np.zeros((3000, 1000, 3))
+p[..., 0], p[..., 1], p[..., 2] = np.linspace(-1, 1, 3000)[:, None], np.linspace(-1, 1, 1000), 3.98
+try:
+    nd.best_internal_map(g, p, progress=lambda done, total: done and print(done, flush=True))
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to a process")
+def test_ctrl_c_ends_a_map_of_minutes():
+    with subprocess.Popen([sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True) as run:
+        assert run.stdout.readline().strip().isdigit()
+        run.send_signal(signal.SIGINT)
+        rest, _ = run.communicate(timeout=60)
+    *before, last = rest.split()
+    assert last == "interrupted"
+    assert len(before) < 1000
+
+
+# --- Arguments --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("criterion", {"criterion": "best"}),
+        ("limits", {"limits": 3.0}),
+        ("limits of q1", {"criterion": "leg_centring"}),
+        ("characteristic_length", {"characteristic_length": 0.0}),
+        ("clearance", {"clearance": -1.0}),
+        ("start", {"start": np.zeros((2, 3))}),
+        ("threads", {"threads": 0}),
+        ("seed_every", {"seed_every": 0}),
+        ("seed_every", {"seed_every": 2.5}),
+        ("audit_every", {"audit_every": True}),
+        ("audit_seed", {"audit_seed": -1}),
+        ("progress", {"progress": 3}),
+        ("rotation", {"rotation": 2.0 * np.eye(3)}),
+    ],
+)
+def test_wrong_arguments_are_named(published, name, wrong):
+    with pytest.raises(ValueError, match=rf"^{name}: got "):
+        nd.best_internal_map(published, plane(3), **wrong)
