@@ -53,6 +53,7 @@ Figures velocity();
 Figures position();
 Figures acceleration();
 Figures conditioning();
+Figures batch();
 Figures sensitivity();
 Figures redundancy();
 Figures symmetric();
