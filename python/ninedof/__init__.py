@@ -46,6 +46,7 @@ from ninedof.singularity import (
 )
 from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
+from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
 from ninedof.tracking import Tracked, TrackStatus, track
 from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
 
@@ -76,6 +77,7 @@ __all__ = [
     "SingularityMargins",
     "Status",
     "Study",
+    "SweepResult",
     "Trace",
     "TrackStatus",
     "Tracked",
@@ -114,6 +116,9 @@ __all__ = [
     "singularity",
     "singularity_margins",
     "stiffness",
+    "sweep",
+    "sweep_designs",
+    "sweep_figure",
     "trace",
     "track",
     "uncontrolled_motions",
