@@ -10,6 +10,7 @@ except ImportError as error:  # a source tree without its compiled part
 
 from ninedof.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
+from ninedof.atlas import atlas
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
@@ -83,6 +84,7 @@ __all__ = [
     "Tracked",
     "VelocityMatrices",
     "applicable_bounds",
+    "atlas",
     "axis_singular_values",
     "best_internal_map",
     "best_internal_path",

@@ -57,7 +57,7 @@ PYTHON_LAYERS = (
     {"records", "front_records"},
     {"designs"},
     {"plot"},
-    {"job", "report", "viewer", "export"},
+    {"job", "report", "viewer", "export", "cluster"},
     {"commands"},
     {"cli"},
     {"__main__"},

@@ -42,14 +42,14 @@ class Crew:
     """Runs tasks by an executor.
 
     A chunk that comes back cancelled, or with the news that its worker is gone, is submitted again, at most three
-    times. A ProcessPoolExecutor breaks for good once one of its processes dies. Where a function that makes executors was
-    given, it is called for another one, at most three times; where the executor itself was given, the rest is done in
-    this process, and a RuntimeWarning says so. What a task raises itself ends the run.
+    times. A ProcessPoolExecutor breaks for good once one of its processes dies. Where a function that makes executors
+    was given, it is called for another one, at most three times; where the executor itself was given, the rest is done
+    in this process, and a RuntimeWarning says so. What a task raises itself ends the run.
     """
 
     def __init__(self, executor: Executors) -> None:
         check_executor(executor)
-        self._make = None if callable(getattr(executor, "submit", None)) else executor
+        self._make: Any = None if callable(getattr(executor, "submit", None)) else executor
         self._executor: Any = executor if self._make is None else self._made()
         self._left = REPLACEMENTS
         self._lost: dict[int, int] = {}
@@ -62,7 +62,8 @@ class Crew:
 
     def run(self, tasks: Iterable[tuple[int, Task]]) -> Iterator[tuple[int, Arrays]]:
         """Go through numbered tasks in any order; return each number with what its task left."""
-        source, again = iter(tasks), []
+        source = iter(tasks)
+        again: list[tuple[int, Task]] = []
         flying: dict[Future[Any], _Flight] = {}
         try:
             while True:
@@ -147,7 +148,6 @@ class Crew:
         self._executor = self._made()
 
     def _made(self) -> Any:
-        assert self._make is not None
         made = self._make()
         if not callable(getattr(made, "submit", None)):
             raise ValueError(

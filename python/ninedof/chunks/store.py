@@ -133,7 +133,7 @@ class Store:
         if not manifest.exists():
             if others := sorted(p.name for p in self.folder.iterdir() if p.name != ".lock"):
                 raise ValueError(
-                    f"out: got {self.folder}, which holds {shown(others[0])} and no {MANIFEST}, expected an empty folder"
+                    f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
                 )
             data = {
                 "format": FORMAT,

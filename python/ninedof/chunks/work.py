@@ -16,7 +16,9 @@ Arrays = dict[str, NDArray[Any]]
 class Task(Protocol):
     """A chunk to compute: small, picklable, and the same arrays whenever and wherever it is called."""
 
-    def __call__(self) -> Arrays: ...
+    def __call__(self) -> Arrays:
+        """Compute it."""
+        ...
 
 
 class Work(Protocol):

@@ -17,7 +17,7 @@ from ninedof.chunks.run import check_progress
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
 from ninedof.optimize import Status, optimize
-from ninedof.study import LENGTH, Study
+from ninedof.study import Study
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.index import INDICES, Index
 from ninedof.sweep.poses import COORDINATES, TRIPLES
@@ -69,8 +69,8 @@ def sweep_figure(
     Returns
     -------
     SweepResult
-        "6": condition_number over (coordinate, displacement). "7": condition_number over (sides, ratio), and design, the
-        variables of the best design in units of l_c, over (sides, ratio, variable). NaN where no design was proved.
+        "6": condition_number over (coordinate, displacement). "7": condition_number over (sides, ratio), and design,
+        the variables of the best design in units of l_c, over (sides, ratio, variable). NaN where no design was proved.
 
     Raises
     ------
@@ -171,6 +171,6 @@ def ratio_study(side: str, ratio: float) -> Study:
     return Study(
         variables=pair | others | heights,
         constraints={"radius_ratio": (None, 2.0)},
+        characteristic_length=(1e-3, 50.0),
         starts=STARTS,
-        **{LENGTH: (1e-3, 50.0)},
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ninedof import _core
@@ -28,7 +28,7 @@ __all__ = ["sweep", "sweep_designs"]
 # A chunk takes under a tenth of a second, so that Ctrl-C is heard.
 POSES, SEARCHES, DESIGNS = 65536, 256, 1024
 
-What = str | OwnIndex | list[str | OwnIndex] | tuple[str | OwnIndex, ...]
+What = str | OwnIndex | Iterable[str | OwnIndex]
 
 
 def sweep(

@@ -75,4 +75,4 @@ class _File:
     def whole(self) -> NDArray[Any]:
         self._file.close()
         os.replace(self._part, self._path)
-        return np.load(self._path, mmap_mode="r")
+        return np.asanyarray(np.load(self._path, mmap_mode="r"))

@@ -41,6 +41,7 @@ class GridTask:
     threads: int | None
 
     def __call__(self) -> Arrays:
+        """Compute them."""
         at = self.grid.at(self.first, self.last)
         return self.subject.values(at, self.last - self.first, self.indices, self.threads)
 
