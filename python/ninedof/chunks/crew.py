@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import secrets
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
-from itertools import chain
+from itertools import chain, count
 from typing import Any, NamedTuple
 
 from ninedof.checks import shown
@@ -19,7 +20,7 @@ Executors = Executor | Callable[[], Executor]
 PATIENCE = 3  # times that one chunk may be lost before the run gives up
 REPLACEMENTS = 3  # executors made anew before the run gives up: a chunk may be what kills them
 IN_FLIGHT = 4  # chunks per worker that wait at the executor: enough to keep it busy, few to be lost or pickled early
-FEWEST = 8
+FEWEST, UNKNOWN = 8, 128
 LOOK = 0.1  # seconds between two looks at the keyboard
 
 
@@ -38,6 +39,11 @@ class _Flight(NamedTuple):
     executor: Any
 
 
+def _perform(task: Task, ticket: str) -> Arrays:
+    """Do a task. By the ticket a submission differs from all others: Dask takes equal calls for one, lost ones too."""
+    return task()
+
+
 class Crew:
     """Runs tasks by an executor.
 
@@ -53,6 +59,8 @@ class Crew:
         self._executor: Any = executor if self._make is None else self._made()
         self._left = REPLACEMENTS
         self._lost: dict[int, int] = {}
+        own = secrets.token_hex(8)
+        self._tickets = (f"{own}-{n}" for n in count())
 
     def __enter__(self) -> Crew:
         return self
@@ -94,13 +102,14 @@ class Crew:
                 future.cancel()
 
     def _room(self) -> int:
-        """Return how many chunks may fly. Only the pools of the standard library say how many workers they have."""
-        return max(FEWEST, IN_FLIGHT * int(getattr(self._executor, "_max_workers", 0) or 0))
+        """Return how many chunks may fly. Of a cluster, which can grow, nothing is known: enough for a large one."""
+        workers = getattr(self._executor, "_max_workers", None)
+        return max(FEWEST, IN_FLIGHT * workers) if isinstance(workers, int) else UNKNOWN
 
     def _submit(self, item: tuple[int, Task], flying: dict[Future[Any], _Flight]) -> bool:
         executor = self._executor
         try:
-            flying[executor.submit(item[1])] = _Flight(item, executor)
+            flying[executor.submit(_perform, item[1], next(self._tickets))] = _Flight(item, executor)
         except BrokenExecutor as error:
             self._replace(executor, error)
             return False
