@@ -17,8 +17,8 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G
 
 import ninedof as nd
-from ninedof.sweep import sink
 from ninedof.chunks.store import Store, fingerprint
+from ninedof.sweep import sink
 
 QUESTION = {"kind": "test", "value": 0.1}
 
@@ -37,7 +37,9 @@ def chunks(folder):
 
 
 def child(folder, notes, before=""):
-    path = os.pathsep.join([str(Path(nd.__file__).parents[1]), str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
+    path = os.pathsep.join(
+        [str(Path(nd.__file__).parents[1]), str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]
+    )
     return subprocess.Popen(
         [sys.executable, "-c", f"{before}\nimport sweep_work; sweep_work.main({str(folder)!r})"],
         env=os.environ | {"PYTHONPATH": path, "NINEDOF_TEST_NOTES": str(notes)},
@@ -215,7 +217,9 @@ OTHERS = {
 def test_a_folder_answers_one_question(tmp_path, entry, expected):
     asked(tmp_path)
     before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
-    with pytest.raises(ValueError, match=r"out: got .*another question \(it differs in .*\), expected an empty folder") as e:
+    with pytest.raises(
+        ValueError, match=r"out: got .*another question \(it differs in .*\), expected an empty folder"
+    ) as e:
         OTHERS[entry](tmp_path)
     assert entry in str(e.value) or entry == "order"
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
@@ -241,7 +245,11 @@ def test_the_chunks_there_are_set_the_size(tmp_path, expected):
         ("notes.txt", "mine", "holds 'notes.txt' but no manifest.json"),
         ("manifest.json", "{}", "expected one written by ninedof"),
         ("manifest.json", "{", "expected one written by ninedof"),
-        ("manifest.json", json.dumps({"format": "ninedof-chunks-1", "question": {}, "chunk": 0}), "expected one written"),
+        (
+            "manifest.json",
+            json.dumps({"format": "ninedof-chunks-1", "question": {}, "chunk": 0}),
+            "expected one written",
+        ),
     ],
 )
 def test_a_folder_of_something_else_is_left_alone(tmp_path, name, text, words):

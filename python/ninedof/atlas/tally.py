@@ -60,5 +60,5 @@ class Tally:
 
 def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:
     """Return the bin of each value, those beyond both ends in the outermost; what is no number is in the last."""
-    found = np.fmin(np.fmax(np.floor(value * per_unit) + zero, 0.0), float(most))
+    found = np.fmax(np.fmin(np.floor(value * per_unit) + zero, float(most)), 0.0)
     return np.asarray(found, dtype=np.intp)

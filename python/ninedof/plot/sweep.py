@@ -125,7 +125,7 @@ def _maps(result: SweepResult, name: str, dims: tuple[str, ...], values: Floats)
 def _norm(values: Floats, name: str) -> Normalize:
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    if name.startswith("condition_number") and high > 3.0 * low:
+    if name.startswith("condition_number") and high > 3.0 * low > 0.0:
         return LogNorm(low, min(high, RANGE * low))
     return Normalize(low, high if high > low else low + 1.0)
 

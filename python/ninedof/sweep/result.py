@@ -150,7 +150,7 @@ class SweepResult:
 
         """
         try:
-            with np.load(path, allow_pickle=False) as found:
+            with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
                 contents = dict(found)
             head = json.loads(str(contents[HEAD]))
             if head["format"] != FORMAT:
