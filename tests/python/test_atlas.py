@@ -218,7 +218,7 @@ nd.atlas(40_000, seed=3, chunk=4000, threads=1, out={str(out)!r})
         patch.setattr(AtlasTask, "__call__", counted)
         same(nd.atlas(40_000, seed=3, out=out), found)
     assert sorted(calls) == list(range(12_000, 40_000, 4000))
-    with pytest.raises(ValueError, match="another question .it differs in seed"):
+    with pytest.raises(ValueError, match=r"another question \(it differs in seed"):
         nd.atlas(40_000, seed=4, out=out)
 
 

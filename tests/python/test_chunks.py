@@ -129,9 +129,10 @@ def test_a_kill_between_write_and_rename_leaves_no_chunk(tmp_path, expected, mon
     def killed(*_):
         raise KeyboardInterrupt
 
-    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+    with monkeypatch.context() as patch:
         patch.setattr("os.replace", killed)
-        Store(tmp_path, QUESTION, 20)
+        with pytest.raises(KeyboardInterrupt):
+            Store(tmp_path, QUESTION, 20)
     assert [p.name for p in tmp_path.iterdir()] == [".lock"]
     Store(tmp_path, QUESTION, 20).close()
 
@@ -262,12 +263,12 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, name, text, words):
 
 def test_a_file_is_no_folder(tmp_path):
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(ValueError, match="out: got .*file, which cannot be created"):
+    with pytest.raises(ValueError, match=r"out: got .*file, which cannot be created"):
         asked(tmp_path / "file")
 
 
 def test_a_nameless_index_cannot_be_kept(tmp_path):
-    with pytest.raises(ValueError, match="index: got <function .*expected a function with a name of its own"):
+    with pytest.raises(ValueError, match=r"index: got <function .*expected a function with a name of its own"):
         nd.sweep(G, HOME, GRID, lambda g, c, lc: nd.condition_number(g, c, lc), out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 

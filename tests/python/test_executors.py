@@ -193,7 +193,7 @@ def test_an_interruption_recalls_what_waits(tmp_path):
 
 @pytest.mark.parametrize("executor", [3, "dask", object(), [ThreadPoolExecutor]])
 def test_what_is_no_executor_is_refused(executor):
-    with pytest.raises(ValueError, match="executor: got .*, expected a concurrent.futures.Executor or a function"):
+    with pytest.raises(ValueError, match=r"executor: got .*, expected a concurrent.futures.Executor or a function"):
         asked(executor=executor)
 
 

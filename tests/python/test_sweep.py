@@ -118,7 +118,7 @@ def test_every_index():
 
 
 def margins(m):
-    _, _, z, u, ut = model.legs(m)
+    *_, u, ut = model.legs(m)
     p, s = m.p[..., None, :], m.s[..., None, :]
     unit = [v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (m.r - s, p + u - s, s - m.rh, s - p - ut)]
     det_m = np.linalg.det(np.cross(unit[0], unit[1]))

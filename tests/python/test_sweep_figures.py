@@ -230,7 +230,8 @@ def test_sweep_speaks_json(here, capsys):
 
 def test_sweep_of_a_design_file_and_of_designs(here, capsys):
     Path("design.toml").write_text(
-        "characteristic_length = 2.0\n[geometry]\na1 = 0.0\na2 = 6.0\nb1 = 3.0\nb2 = 0.0\n[configuration]\nzp = 4.0\nzs = 2.5\n"
+        "characteristic_length = 2.0\n[geometry]\na1 = 0.0\na2 = 6.0\nb1 = 3.0\nb2 = 0.0\n"
+        "[configuration]\nzp = 4.0\nzs = 2.5\n"
     )
     line = "sweep design.toml --over z_s=2.0,2.5 --absolute --internal-point held --no-figures --json --out one"
     data = json.loads(run(capsys, line)[1])
