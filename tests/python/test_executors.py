@@ -48,6 +48,20 @@ def test_processes(expected):
     assert found["leg_lengths"].tobytes() == asked("leg_lengths")["leg_lengths"].tobytes()
 
 
+def test_designs_and_figures_by_processes():
+    """By the closed form and robot by robot, in another process as here."""
+    held, over = {"a1": 0.3, "a2": 5.0, "b1": 3.0, "zp": 4.0}, {"b2": (0.0, 1.0, 9), "zs": (2.0, 3.0, 7)}
+    here = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"])
+    seven = nd.sweep_figure("7", 5)
+    with ProcessPoolExecutor(2, mp_context=SPAWN) as pool:
+        there = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"], executor=pool, chunk=10)
+        assert nd.sweep_figure("7", 5, executor=pool)["design"].tobytes() == seven["design"].tobytes()
+        many = nd.atlas(30_000, chunk=7000, executor=pool)
+    for name in here:
+        assert there[name].tobytes() == here[name].tobytes()
+    assert many["histogram"].tobytes() == nd.atlas(30_000)["histogram"].tobytes()
+
+
 def test_tasks_are_small_whatever_the_grid():
     """Ranges travel as ranges, explicit values only as far as a chunk needs them."""
     poses = Poses(G, HOME, True, "held", 1.0)
@@ -221,6 +235,12 @@ def test_dask_gives_the_same_bits(cluster, expected):
     found = asked(["condition_number", "singular_values", work.slow], executor=cluster.get_executor())
     assert found["condition_number"].tobytes() == found["slow"].tobytes() == expected
     assert found["singular_values"].tobytes() == asked("singular_values")["singular_values"].tobytes()
+
+
+def test_dask_surveys_designs(cluster):
+    found, expected = (nd.atlas(60_000, chunk=9000, executor=e) for e in (cluster.get_executor(), None))
+    for name in expected:
+        assert found[name].tobytes() == expected[name].tobytes()
 
 
 def test_dask_loses_a_worker_in_mid_run(cluster, expected, tmp_path):

@@ -259,6 +259,23 @@ def test_designs_of_the_hexagonal_family():
     assert found.attributes["design"] == held
 
 
+def test_the_closed_form_and_robots_agree_and_both_refuse_negative_sides():
+    held, over = {"a2": 6.0, "b1": 3.0, "zp": 4.0, "zs": 2.4}, {"a1": (0.0, 3.0, 7), "b2": (0.0, 2.0, 5)}
+    closed = nd.sweep_designs(held, over, characteristic_length=1.5)["condition_number"]
+
+    def robots(g, c, lc):
+        return nd.condition_number(g, c, lc)
+
+    np.testing.assert_allclose(
+        nd.sweep_designs(held, over, robots, characteristic_length=1.5)["robots"], closed, rtol=1e-9
+    )
+    with pytest.raises(ValueError, match="a1: got -0.5, expected a side of 0 at least"):
+        nd.sweep_designs(held, {"a1": [0.1, -0.5], "b2": [0.0]})
+    twisted = nd.sweep_designs({**held, "b2": 0.0, "theta_z": 0.1}, {"a1": [0.0]})["condition_number"]
+    g = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0)
+    assert twisted[0] == pytest.approx(nd.condition_number(g, nd.Configuration.neutral(4.0, 2.4, 0.1)), rel=1e-12)
+
+
 def test_designs_of_a_symmetric_family():
     held = {
         "base_external_radius": 3.0,

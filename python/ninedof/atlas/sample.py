@@ -70,7 +70,7 @@ class Sample:
 
 def closed_form(designs: Floats) -> Floats:
     """Return the condition number at the neutral pose of designs (n, 6), lengths in characteristic lengths."""
-    found: Floats = _core.hexagonal_condition_numbers(designs, 1, None)  # type: ignore[attr-defined]
+    found: Floats = _core.hexagonal_condition_numbers(designs, 1, None)
     return found.reshape(-1)
 
 

@@ -47,12 +47,12 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     with style.look():
         figure = style.new_figure(9.0, 4.4)
         left = figure.add_axes((0.07, 0.13, 0.53, 0.78))
-        right = figure.add_axes((0.7, 0.13, 0.285, 0.78))
+        right = figure.add_axes((0.725, 0.13, 0.265, 0.78))
         shown = np.ma.masked_equal(inner[first:last], 0)
         if shown.count():
             norm = LogNorm(max(1, int(shown.min())), max(2, int(shown.max())))
             drawn = left.pcolormesh(x, y, shown.T, norm=norm, cmap=MAP, rasterized=True)
-            figure.colorbar(drawn, cax=figure.add_axes((0.61, 0.13, 0.012, 0.78)))
+            figure.colorbar(drawn, cax=figure.add_axes((0.612, 0.13, 0.012, 0.78)), format=style.power_of_ten)
         best = result["best"][1:-1][first:last]
         middle = np.sqrt(x[1:] * x[:-1])
         left.plot(middle, best, color=style.ALARM, lw=1.6, label="best in each bin")

@@ -154,9 +154,10 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
                     x, np.where(np.isfinite(rows[k]), rows[k], np.nan), color=colour, ls=dashes, lw=2.0, label=names[k]
                 )
             axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
+            axes.set_xticks([x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]])
             axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
         panels[0].set_ylabel("condition number")
-        figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.08)
+        figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.12)
     return figure
 
 

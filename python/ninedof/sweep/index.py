@@ -27,7 +27,7 @@ __all__ = ["INDICES", "Index", "OwnIndex", "indices_of"]
 OwnIndex = Callable[[Geometry, Configuration, Any], Any]
 """A caller's own: takes a geometry, a stack of n configurations and the characteristic length; returns n numbers."""
 
-LENGTH, ANGULAR = "length", "1"
+LENGTH = "length"
 
 
 @dataclass(frozen=True)
@@ -73,21 +73,21 @@ def _isotropy(g: Geometry, c: Configuration, lc: Any, threads: int | None) -> An
 
 
 def _singular_values(g: Geometry, c: Configuration, lc: Any, threads: int | None) -> Any:
-    return singular_values(g, c, lc)
+    return singular_values(g, c, lc, threads)
 
 
 def _leg_lengths(g: Geometry, c: Configuration, lc: Any, threads: int | None) -> Any:
-    return leg_lengths(g, c)
+    return leg_lengths(g, c, threads)
 
 
 def _leg_ratio(g: Geometry, c: Configuration, lc: Any, threads: int | None) -> Any:
-    legs = leg_lengths(g, c)
+    legs = leg_lengths(g, c, threads)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of no length: infinite, or NaN where all are
         return legs.max(axis=-1) / legs.min(axis=-1)
 
 
 def _margins(g: Geometry, c: Configuration, lc: Any, threads: int | None) -> Any:
-    return np.stack(singularity_margins(g, c), axis=-1)
+    return np.stack(singularity_margins(g, c, threads), axis=-1)
 
 
 INDICES = {
