@@ -269,7 +269,7 @@ def test_the_closed_form_and_robots_agree_and_both_refuse_negative_sides():
     np.testing.assert_allclose(
         nd.sweep_designs(held, over, robots, characteristic_length=1.5)["robots"], closed, rtol=1e-9
     )
-    with pytest.raises(ValueError, match="a1: got -0.5, expected a side of 0 at least"):
+    with pytest.raises(ValueError, match=r"a1: got -0\.5, expected a side of 0 at least"):
         nd.sweep_designs(held, {"a1": [0.1, -0.5], "b2": [0.0]})
     twisted = nd.sweep_designs({**held, "b2": 0.0, "theta_z": 0.1}, {"a1": [0.0]})["condition_number"]
     g = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0)

@@ -67,7 +67,7 @@ class Poses:
             q = Configuration._of(np.zeros((count, 3)), q, np.zeros((count, 3))).moved(tangent).rotation
         if self.rule == "carried":
             s = s + self._carried(p, q)
-        c = Configuration._of(p, np.ascontiguousarray(q), s)
+        c = Configuration._of(p, q, s)
         if self.rule != "best":
             return c
         assert not isinstance(self.length, str), "refused before"

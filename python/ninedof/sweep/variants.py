@@ -65,7 +65,8 @@ class Variants:
         for name in HEXAGONAL[:4]:
             if columns[name].min() < 0.0:
                 raise ValueError(f"{name}: got {columns[name].min():g}, expected a side of 0 at least")
-        found: Floats = hexagonal_condition_number(*(c / self.length for c in columns.values()), threads=threads)
+        a1, a2, b1, b2, zp, zs = (column / self.length for column in columns.values())
+        found: Floats = hexagonal_condition_number(a1, a2, b1, b2, zp, zs, threads=threads)
         return found
 
     def _fill(self, out: dict[str, Floats], at: dict[str, Floats], count: int, indices: list[Index]) -> None:
