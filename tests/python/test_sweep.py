@@ -172,6 +172,15 @@ def test_chunks_and_threads_change_nothing(chunk, threads):
         assert found[name].tobytes() == whole[name].tobytes()
 
 
+@pytest.mark.parametrize("rule", ["carried", "best"])
+def test_chunks_change_nothing_whatever_o_does(rule):
+    over = {"x_p": (-1.0, 1.0, 7), "theta_x": (-0.5, 0.5, 5)}
+    whole = nd.sweep(G, TURNED, over, internal_point=rule)["condition_number"]
+    for chunk in (1, 4, 13):
+        found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=chunk)["condition_number"]
+        assert found.tobytes() == whole.tobytes()
+
+
 # --- Axes -------------------------------------------------------------------------------------------------------------
 
 

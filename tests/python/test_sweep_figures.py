@@ -263,6 +263,18 @@ def test_the_atlas_command(here, capsys):
     assert {"radius_ratio", "condition_number", "design"} == set(data["atlas"]["best"][0])
 
 
+def test_the_bar_says_how_long_it_takes(capsys):
+    from ninedof.commands.screen import Screen
+
+    with Screen(False).points("over x_p") as bar:
+        bar.show(0, 100, float("nan"))
+        bar.show(50, 100, 3725.2)
+    shown = capsys.readouterr().err
+    assert "over x_p" in shown
+    assert "50 %" in shown
+    assert "1:02:06 to go" in shown
+
+
 BAD = {
     "sweep": "sweep: got no --over",
     "sweep figure-6 --over x_p=0:1:3": "got figure-6 and --over",

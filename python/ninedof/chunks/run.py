@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from time import perf_counter
@@ -68,15 +68,9 @@ def run(
 
     """
     clock = _Clock(work.points, progress)
-    todo = []
-    for k in range(chunks_of(work)):
-        kept = None if store is None else store.read(k)
-        if kept is None:
-            todo.append(k)
-        else:
-            first, last = bounds(work, k)
-            deliver(first, last, kept)
-            clock.found(last - first)
+    todo: Sequence[int] = range(chunks_of(work))
+    if store is not None:
+        todo = _missing(work, store, deliver, clock)
     clock.start()
     with closing(_computed(work, todo, executor)) as computed:  # Ctrl-C while keeping a chunk recalls the others too
         for k, arrays in computed:
@@ -87,7 +81,20 @@ def run(
             clock.done(last - first)
 
 
-def _computed(work: Work, todo: list[int], executor: Executors | None) -> Generator[tuple[int, Arrays]]:
+def _missing(work: Work, store: Store, deliver: Callable[[int, int, Arrays], object], clock: _Clock) -> list[int]:
+    """Deliver the chunks that are there; return the numbers of the others."""
+    missing = []
+    for k in range(chunks_of(work)):
+        first, last = bounds(work, k)
+        if (found := store.read(k)) is None:
+            missing.append(k)
+        else:
+            deliver(first, last, found)
+            clock.found(last - first)
+    return missing
+
+
+def _computed(work: Work, todo: Sequence[int], executor: Executors | None) -> Generator[tuple[int, Arrays]]:
     tasks = ((k, work.task(*bounds(work, k))) for k in todo)
     if executor is None:
         for k, task in tasks:

@@ -89,5 +89,7 @@ class Poses:
 
     def _carried(self, p: Floats, q: Floats) -> Floats:
         """Return where O would be if it were fixed to the platform."""
-        seen = self.home.rotation.T @ (self.home.internal_point - self.home.position)
-        return p + q @ seen
+        x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
+        # Written out: a product by BLAS may round otherwise in a chunk of another size.
+        out: Floats = p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)
+        return out
