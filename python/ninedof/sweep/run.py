@@ -26,7 +26,7 @@ from ninedof.sweep.work import GridWork
 __all__ = ["sweep", "sweep_designs"]
 
 # A chunk takes under a tenth of a second, so that Ctrl-C is heard.
-POSES, SEARCHES, DESIGNS = 65536, 256, 1024
+POSES, SEARCHES, DESIGNS = 65536, 64, 1024
 
 What = str | OwnIndex | Iterable[str | OwnIndex]
 

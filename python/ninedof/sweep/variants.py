@@ -51,7 +51,7 @@ class Variants:
             else:
                 one_by_one.append(index)
         if one_by_one:
-            self._fill(out, at, count, one_by_one)
+            self._fill(out, at, one_by_one)
         return dict(out)
 
     def has_closed_form(self, index: Index, swept: Iterable[str]) -> bool:
@@ -69,11 +69,14 @@ class Variants:
         found: Floats = hexagonal_condition_number(a1, a2, b1, b2, zp, zs, threads=threads)
         return found
 
-    def _fill(self, out: dict[str, Floats], at: dict[str, Floats], count: int, indices: list[Index]) -> None:
+    def _fill(self, out: dict[str, Floats], at: dict[str, Floats], indices: list[Index]) -> None:
         study = self.study()
         problem = study.problem()
-        for k in range(count):
-            x = study.vector({name: float(column[k]) for name, column in at.items()})
+        x = study.vector({name: float(column[0]) for name, column in at.items()})
+        places = [problem.names.index(name) for name in at]
+        for k, point in enumerate(np.stack(list(at.values()), axis=-1).tolist()):
+            for place, value in zip(places, point, strict=True):
+                x[place] = value
             geometry, neutral = problem.geometry(x), Configuration._of(*problem.configurations(x))[:1]
             for index in indices:
                 out[index.name][k] = np.asarray(index.values(geometry, neutral, self.length, 1))[0]
