@@ -14,7 +14,7 @@ from ninedof import _core
 from ninedof.arrays import thread_argument
 from ninedof.atlas import sample
 from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
-from ninedof.atlas.tally import CONDITION_EDGES, RATIO_EDGES, Tally
+from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
 from ninedof.checks import whole
 from ninedof.chunks import Arrays, Progress, chunk_argument, kept, run
 from ninedof.chunks.crew import Executors, check_executor
@@ -151,7 +151,7 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
             "number": ratio,
             "design": (*ratio, "variable"),
         },
-        coords={"radius_ratio": RATIO_EDGES, "condition_number": CONDITION_EDGES, "variable": np.array(VARIABLES)},
+        coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(VARIABLES)},
         units={
             "histogram": "1",
             "best": "1",

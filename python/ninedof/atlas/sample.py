@@ -24,16 +24,13 @@ BOUNDS: dict[str, tuple[float, float]] = {
 """In characteristic lengths; zs is a fraction of zp, since 0 < zs < zp (eq. 9b)."""
 
 # The powers -1 ... -6 of the root of x^7 = x + 1, times 2^64: the additive recurrence that fills six dimensions evenly.
-STEPS = np.array(
-    [
-        0xE60E2B722B53AEEC,
-        0xCEBD76D9EDB6A8EF,
-        0xB9C9AA3A51D00B65,
-        0xA6F5777F6F889840,
-        0x9609C71EB7D03F7A,
-        0x86D516E50B04AB1B,
-    ],
-    dtype=np.uint64,
+STEPS = (
+    0xE60E2B722B53AEEC,
+    0xCEBD76D9EDB6A8EF,
+    0xB9C9AA3A51D00B65,
+    0xA6F5777F6F889840,
+    0x9609C71EB7D03F7A,
+    0x86D516E50B04AB1B,
 )
 TO_UNIT = 2.0**-53
 
@@ -58,7 +55,7 @@ class Sample:
         shift = np.random.SeedSequence(self.seed).generate_state(len(STEPS), np.uint64)
         out = np.empty((len(numbers), len(STEPS)))
         for k, (low, high) in enumerate(self.bounds):
-            unit = ((numbers * STEPS[k] + shift[k]) >> np.uint64(11)) * TO_UNIT
+            unit = ((numbers * np.uint64(STEPS[k]) + shift[k]) >> np.uint64(11)) * TO_UNIT
             np.add(unit * (high - low), low, out=out[:, k])
         out[:, 5] *= out[:, 4]
         return out

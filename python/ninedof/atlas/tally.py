@@ -8,17 +8,22 @@ from numpy.typing import NDArray
 from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
 
-__all__ = ["CONDITION_EDGES", "RATIO_EDGES", "Tally"]
+__all__ = ["Tally", "condition_edges", "ratio_edges"]
 
 OCTAVES, PER_OCTAVE = 4, 16  # base / platform from 1/16 to 16; 2, the paper's limit, is an edge
 DECADES, PER_DECADE = 4, 40  # condition numbers from 1 to 10^4
 ROWS = 2 * OCTAVES * PER_OCTAVE + 2
 COLUMNS = DECADES * PER_DECADE + 1
 
-RATIO_EDGES = np.concatenate([[0.0], np.exp2(np.arange(ROWS - 1) / PER_OCTAVE - OCTAVES)])
-"""Where the bins of radius_ratio begin; the first holds what is below 1/16, the last what is from 16 on."""
-CONDITION_EDGES = 10.0 ** (np.arange(COLUMNS) / PER_DECADE)
-"""Where the bins of the condition number begin; the last holds what is from 10^4 on, singular designs included."""
+
+def ratio_edges() -> Floats:
+    """Return where the bins of radius_ratio begin; the first has what is below 1/16, the last what is from 16 on."""
+    return np.concatenate([[0.0], np.exp2(np.arange(ROWS - 1) / PER_OCTAVE - OCTAVES)])
+
+
+def condition_edges() -> Floats:
+    """Return where the bins of the condition number begin; the last has what is from 10^4 on, singular designs too."""
+    return np.power(10.0, np.arange(COLUMNS) / PER_DECADE)
 
 
 class Tally:
