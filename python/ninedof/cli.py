@@ -183,7 +183,6 @@ def sweep(
 def atlas(
     designs: Annotated[int, typer.Option(help="How many designs.")] = 1_000_000,
     seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0,
-    threads: Threads = None,
     out: Out = None,
     resume: Resume = False,
     scheduler: Scheduler = None,
@@ -193,7 +192,7 @@ def atlas(
     """Survey the hexagonal family: how its designs are distributed, the best for each size of the base."""
     from ninedof import commands
 
-    raise typer.Exit(commands.atlas(designs, seed, threads, out, resume, scheduler, figures, json))
+    raise typer.Exit(commands.atlas(designs, seed, out, resume, scheduler, figures, json))
 
 
 @app.command(epilog="[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'")

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ninedof import _core
-from ninedof.arrays import thread_argument
 from ninedof.atlas import sample
 from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
@@ -37,7 +35,6 @@ def atlas(
     executor: Executors | None = None,
     out: str | os.PathLike[str] | None = None,
     chunk: int | None = None,
-    threads: int | None = None,
     progress: Progress | None = None,
 ) -> SweepResult:
     """Return a survey of the hexagonal family: how designs are distributed, and the best for each size of the base.
@@ -56,13 +53,12 @@ def atlas(
         Name to (low, high) in place of the usual (0, 10) for a1 a2 b1 b2, (0.05, 10) for zp and (0, 1) for zs_fraction,
         which is zs / zp.
     executor : concurrent.futures.Executor, or callable that makes one, optional
-        Where the chunks are computed, as in `sweep`. By default in this process.
+        Where the chunks are computed, as in `sweep`. By default in this process, by one processor; processes use more,
+        threads do not.
     out : path, optional
         Folder that keeps finished chunks, as in `sweep`.
     chunk : int, optional
         Designs a chunk. The result does not depend on it.
-    threads : int, optional
-        Threads without an executor; one a processor by default. The result does not depend on it.
     progress : callable, optional
         Called as progress(designs done, designs in all, seconds to go).
 
@@ -91,16 +87,10 @@ def atlas(
     drawn = Sample(whole("seed", seed, 0, 2**63 - 1), bounds_of(bounds))
     check_executor(executor)
     check_progress(progress)
-    workers = thread_argument(threads) or os.cpu_count() or 1
     work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
     total = Tally()
     with kept(work, out) as (store, agreed):
-        mine = ThreadPoolExecutor(workers) if executor is None and workers > 1 else None
-        try:
-            run(agreed, lambda first, last, arrays: total.merge(arrays), store, executor or mine, progress)
-        finally:
-            if mine is not None:
-                mine.shutdown(cancel_futures=True)
+        run(agreed, lambda first, last, arrays: total.merge(arrays), store, executor, progress)
     return _labelled(work, total)
 
 

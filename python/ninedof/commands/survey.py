@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 from rich.table import Table
 
-from ninedof.arrays import thread_argument
 from ninedof.atlas import atlas as survey
 from ninedof.commands.kept import compute, run_folder, write
 from ninedof.commands.screen import DONE, INTERRUPTED, Screen
@@ -23,7 +22,6 @@ SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 def atlas(
     designs: int,
     seed: int,
-    threads: int | None,
     out: Path | None,
     resume: bool,
     scheduler: str | None,
@@ -32,9 +30,8 @@ def atlas(
 ) -> int:
     """Survey; print, record, return the exit status."""
     screen = Screen(json)
-    thread_argument(threads)
     directory = run_folder(out, resume)
-    asked = partial(survey, designs, seed, threads=threads)
+    asked = partial(survey, designs, seed)
     result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
     if result is None:
         return INTERRUPTED
