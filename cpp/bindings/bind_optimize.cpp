@@ -67,7 +67,8 @@ Result run(const Problem& problem, const Settings& settings, const py::object& p
     } catch (py::error_already_set& error) {
       worker.request_stop();
       finish();
-      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+      // A run that was complete already has nothing to say of the interruption: the caller hears of it all the same.
+      if (!error.matches(PyExc_KeyboardInterrupt) || (!failure && !result.interrupted)) throw;
       break;
     }
   }

@@ -10,6 +10,7 @@ except ImportError as error:  # a source tree without its compiled part
 
 from ninedof.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
+from ninedof.atlas import atlas
 from ninedof.bounds import LowerBound, applicable_bounds
 from ninedof.conditioning import (
     axis_singular_values,
@@ -46,6 +47,7 @@ from ninedof.singularity import (
 )
 from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
+from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
 from ninedof.tracking import Tracked, TrackStatus, track
 from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
 
@@ -76,11 +78,13 @@ __all__ = [
     "SingularityMargins",
     "Status",
     "Study",
+    "SweepResult",
     "Trace",
     "TrackStatus",
     "Tracked",
     "VelocityMatrices",
     "applicable_bounds",
+    "atlas",
     "axis_singular_values",
     "best_internal_map",
     "best_internal_path",
@@ -114,6 +118,9 @@ __all__ = [
     "singularity",
     "singularity_margins",
     "stiffness",
+    "sweep",
+    "sweep_designs",
+    "sweep_figure",
     "trace",
     "track",
     "uncontrolled_motions",

@@ -112,6 +112,89 @@ def evaluate(
     raise typer.Exit(commands.evaluate(design, sides, theta_z_deg, lc, json))
 
 
+Resume = Annotated[bool, typer.Option("--resume", help="Go on with the interrupted run in --out.")]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a Dask scheduler whose workers compute, as tcp://host:8786.")
+]
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6\n\n"
+    "  ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121\n\n"
+    "  ninedof sweep design.toml --over z_s=-1:1:401 --index singular_values --index leg_lengths\n\n"
+    "  ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations"
+)
+def sweep(
+    what: Annotated[
+        str | None,
+        typer.Argument(
+            help="figure-6, figure-7, or a design: a file (TOML), a run folder or its record.json. The published "
+            "design at its best zs if none is given."
+        ),
+    ] = None,
+    over: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
+            "theta_z x_s y_s z_s, or a1 a2 b1 b2 zp zs of designs. Angles in radians, or in degrees with _deg behind "
+            "the name."
+        ),
+    ] = None,
+    index: Annotated[
+        list[str] | None, typer.Option(help="What is computed; condition_number by default. May be repeated.")
+    ] = None,
+    absolute: Annotated[
+        bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
+    ] = False,
+    internal_point: Annotated[
+        str, typer.Option(help="Where O is while the platform moves: held, carried or best.")
+    ] = "held",
+    a1: Annotated[float | None, typer.Option(help="Base side (eq. 37).")] = None,
+    a2: Annotated[float | None, typer.Option(help="Base side.")] = None,
+    b1: Annotated[float | None, typer.Option(help="Platform side (eq. 38).")] = None,
+    b2: Annotated[float | None, typer.Option(help="Platform side.")] = None,
+    zp: Annotated[float | None, typer.Option(help="Height of the platform.")] = None,
+    zs: Annotated[float | None, typer.Option(help="Height of the internal point.")] = None,
+    theta_z_deg: Annotated[float | None, typer.Option(help="Twist of the platform, degrees; 0 by default.")] = None,
+    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number or a kind.")] = None,
+    points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None,
+    chunk: Annotated[int | None, typer.Option(help="Points a chunk. The result does not depend on it.")] = None,
+    out: Out = None,
+    resume: Resume = False,
+    scheduler: Scheduler = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Compute an index over one to three coordinates of the configuration, or variables of the design."""
+    from ninedof import commands
+
+    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    options = commands.SweepOptions(over or (), index or (), absolute, internal_point, lc, points, chunk, threads)
+    raise typer.Exit(commands.sweep(what, sides, theta_z_deg, options, out, resume, scheduler, figures, json))
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof atlas                                        a million designs\n\n"
+    "  ninedof atlas --designs 100000000 --out atlas        a hundred million; --resume after an interruption"
+)
+def atlas(
+    designs: Annotated[int, typer.Option(help="How many designs.")] = 1_000_000,
+    seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0,
+    out: Out = None,
+    resume: Resume = False,
+    scheduler: Scheduler = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Survey the hexagonal family: how its designs are distributed, the best for each size of the base."""
+    from ninedof import commands
+
+    raise typer.Exit(commands.atlas(designs, seed, out, resume, scheduler, figures, json))
+
+
 @app.command(epilog="[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'")
 def paper(threads: Threads = None, json: Json = False) -> None:
     """Print every number of the paper beside ours, with a verdict each."""

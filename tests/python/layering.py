@@ -42,7 +42,8 @@ NOWHERE = {"pybind11", "Python.h", "iostream"}
 
 # Modules of the package, lowest layer first; a folder stands for all files in it. `__init__` holds the public names.
 PYTHON_LAYERS = (
-    {"arrays", "checks"},
+    {"arrays", "checks", "extras"},
+    {"chunks"},
     {"geometry", "configuration"},
     {"lengths"},
     {"conditioning", "kinematics", "velocity", "acceleration", "forward_position", "tracking", "redundancy"}
@@ -51,12 +52,12 @@ PYTHON_LAYERS = (
     {"pose", "poses", "objective", "limits", "point"},
     {"study", "study_file"},
     {"check", "words"},  # look at a result that is handed to them; Result.check and Result.summary call them
-    {"result", "warm", "optimize", "sweep", "pareto", "workspace"},
+    {"result", "warm", "optimize", "paper", "sweep", "atlas", "pareto", "workspace"},
     {"__init__"},
-    {"records", "front_records", "paper"},
+    {"records", "front_records"},
     {"designs"},
     {"plot"},
-    {"job", "report", "viewer", "export"},
+    {"job", "report", "viewer", "export", "cluster"},
     {"commands"},
     {"cli"},
     {"__main__"},
@@ -82,15 +83,17 @@ CORE_USERS = {
     "limits",
     "study",
     "optimize",
+    "sweep",
+    "atlas",
 }
 
 # Figures are drawn from records and never compute.
 PYTHON_FORBIDDEN = {
-    "plot": {"_core", "conditioning", "kinematics", "result", "optimize", "sweep", "pareto", "workspace"}
+    "plot": {"_core", "conditioning", "kinematics", "result", "optimize", "sweep", "atlas", "pareto"} | {"workspace"}
 }
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
-HEAVY = {"matplotlib", "rich", "typer", "scipy"}
+HEAVY = {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "distributed"}
 
 
 # --- The checkers -----------------------------------------------------------------------------------------------------

@@ -25,6 +25,7 @@ SCRIPTS = {  # what each must print
     "11_front.py": ["base radius", "3.762659"],
     "12_six_legs.py": ["nine legs 3.762659", "1.414214"],
     "13_internal_point.py": ["does not notice: 3", "best, smooth"],
+    "16_atlas.py": ["1,000,000 designs", "optimizer, at 2: 3.762659"],
     "14_assembly_modes.py": ["32 configurations", "6 3.1532 117.5", "tracked 200 of 200"],
     "15_best_map.py": ["14641 poses", "best 4.0790"],
 }

@@ -193,3 +193,18 @@ def test_own_signal_handler_is_called_and_decides():
     setup = "signal.signal(signal.SIGINT, lambda *a: None)"
     _, (status, done, *_) = interrupt(starts=3000, setup=setup)
     assert (status, int(done)) == ("optimal", 3000)
+
+
+def test_an_interruption_at_the_very_end_is_heard():
+    """Of a run that has nothing left to do: its result is whole, so that only the exception can tell."""
+
+    def stop(done, total, best):
+        if done == total:
+            raise KeyboardInterrupt
+
+    for _ in range(20):
+        try:
+            heard = nd.optimize(nd.Study.paper(), starts=4, progress=stop).interrupted
+        except KeyboardInterrupt:
+            heard = True
+        assert heard

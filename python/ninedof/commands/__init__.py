@@ -3,6 +3,8 @@
 from ninedof.commands.evaluation import evaluate
 from ninedof.commands.front import pareto
 from ninedof.commands.optimization import optimize
+from ninedof.commands.survey import atlas
+from ninedof.commands.sweep import SweepOptions, sweep
 from ninedof.commands.verdicts import paper
 
-__all__ = ["evaluate", "optimize", "paper", "pareto"]
+__all__ = ["SweepOptions", "atlas", "evaluate", "optimize", "paper", "pareto", "sweep"]

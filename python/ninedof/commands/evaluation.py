@@ -18,9 +18,9 @@ def evaluate(
 ) -> int:
     """Print the indices of a design."""
     screen = Screen(json)
-    given = _design(design, sides, theta_z_deg)
+    given = chosen_design(design, sides, theta_z_deg)
     if lc is not None:
-        given = given._replace(characteristic_length=_length(lc))
+        given = given._replace(characteristic_length=length_option(lc))
     values = indices(given)
     table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
@@ -47,21 +47,21 @@ def evaluate(
     return DONE
 
 
-def _design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
+def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
+    """Return the design of a file, or of sides and heights."""
     named = {name: value for name, value in sides.items() if value is not None}
     if design is not None:
         if named or theta_z_deg is not None:
-            raise ValueError(
-                f"evaluate: got a design file and {', '.join(named) or '--theta-z-deg'}, expected one of the two"
-            )
+            raise ValueError(f"design: got a file and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
         return load_design(design)
     missing = [f"--{name}" for name, value in sides.items() if value is None]
     if missing:
-        raise ValueError(f"evaluate: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
+        raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
     return hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)})
 
 
-def _length(text: str) -> float | str:
+def length_option(text: str) -> float | str:
+    """Return a characteristic length as --lc gives it."""
     try:
         return float(text)
     except ValueError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -56,6 +57,38 @@ class Screen:
         )
         with Progress(*columns, console=self.progress_console) as shown:
             yield Bar(shown, title)
+
+    @contextmanager
+    def points(self, title: str) -> Iterator[PointBar]:
+        """Show a bar of points with the time to go."""
+        columns = (
+            TextColumn("{task.description}"),
+            BarColumn(bar_width=24),
+            TextColumn("{task.percentage:>3.0f} %"),
+            TextColumn("{task.fields[left]}"),
+            TimeElapsedColumn(),
+        )
+        with Progress(*columns, console=self.progress_console) as shown:
+            yield PointBar(shown, title)
+
+
+class PointBar:
+    """A bar of points."""
+
+    def __init__(self, shown: Progress, title: str) -> None:
+        """Begin at nothing."""
+        self._shown = shown
+        self._task = shown.add_task(title, total=None, left="")
+
+    def show(self, done: int, total: int, to_go: float) -> None:
+        """Take the progress of a sweep."""
+        left = "" if math.isnan(to_go) or done == total else f"{_clock(to_go)} to go"
+        self._shown.update(self._task, completed=done, total=total, left=left)
+
+
+def _clock(seconds: float) -> str:
+    whole = math.ceil(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}"
 
 
 class Bar:

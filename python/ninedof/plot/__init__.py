@@ -3,6 +3,7 @@
 Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
 """
 
+from ninedof.plot.atlas import atlas
 from ninedof.plot.convergence import convergence
 from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.front import Sketch, front
@@ -10,6 +11,7 @@ from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.poses import PoseConditions, poses
 from ninedof.plot.style import save
+from ninedof.plot.sweep import figure_6, figure_7, sweep
 
 __all__ = [
     "DesignCurves",
@@ -17,12 +19,16 @@ __all__ = [
     "Mechanism",
     "PoseConditions",
     "Sketch",
+    "atlas",
     "condition_curves",
     "convergence",
     "draw_mechanism",
     "ellipsoids",
+    "figure_6",
+    "figure_7",
     "front",
     "mechanisms",
     "poses",
     "save",
+    "sweep",
 ]

@@ -1,0 +1,154 @@
+"""The atlas as a caller asks for it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.atlas import sample
+from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
+from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
+from ninedof.checks import whole
+from ninedof.chunks import Arrays, Progress, chunk_argument, kept, run
+from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks.run import check_progress
+from ninedof.sweep.result import SweepResult
+from ninedof.sweep.work import versions
+
+__all__ = ["atlas"]
+
+CHUNK = 2**19  # designs: some 30 ms of work, so that Ctrl-C is heard
+BLOCK = 2**14  # designs that pass through the caches together
+MOST = 2**48
+
+
+def atlas(
+    designs: int = 1_000_000,
+    seed: int = 0,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    *,
+    executor: Executors | None = None,
+    out: str | os.PathLike[str] | None = None,
+    chunk: int | None = None,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Return a survey of the hexagonal family: how designs are distributed, and the best for each size of the base.
+
+    Designs a1 a2 b1 b2 zp zs, lengths in units of l_c, come from a low-discrepancy sequence, their condition number at
+    the neutral pose from the closed form on the axis. They are counted as they pass by: memory does not grow with their
+    number.
+
+    Parameters
+    ----------
+    designs : int
+        How many.
+    seed : int
+        Shifts the sequence.
+    bounds : mapping, optional
+        Name to (low, high) in place of the usual (0, 10) for a1 a2 b1 b2, (0.05, 10) for zp and (0, 1) for zs_fraction,
+        which is zs / zp.
+    executor : concurrent.futures.Executor, or callable that makes one, optional
+        Where the chunks are computed, as in `sweep`. By default in this process, by one processor; processes use more,
+        threads do not.
+    out : path, optional
+        Folder that keeps finished chunks, as in `sweep`.
+    chunk : int, optional
+        Designs a chunk. The result does not depend on it.
+    progress : callable, optional
+        Called as progress(designs done, designs in all, seconds to go).
+
+    Returns
+    -------
+    SweepResult
+        histogram over (radius_ratio, condition_number), counts: a bin goes from its coordinate to the next, the last is
+        open. best, the least condition number, design, its variables, and number, its place in the sequence (-1 without
+        any), over radius_ratio.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit; the message names it.
+    KeyboardInterrupt
+        Soon after Ctrl-C. Finished chunks stay in `out`.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> found = nd.atlas(100_000)
+    >>> int(found["histogram"].sum()), bool(found.least("best")[0] > 1.0)
+    (100000, True)
+
+    """
+    drawn = Sample(whole("seed", seed, 0, 2**63 - 1), bounds_of(bounds))
+    check_executor(executor)
+    check_progress(progress)
+    work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
+    total = Tally()
+    with kept(work, out) as (store, agreed):
+        run(agreed, lambda first, last, arrays: total.merge(arrays), store, executor, progress)
+    return _labelled(work, total)
+
+
+@dataclass(frozen=True)
+class AtlasTask:
+    """The tally of designs first ... last - 1."""
+
+    sample: Sample
+    first: int
+    last: int
+
+    def __call__(self) -> Arrays:
+        """Return it."""
+        tally = Tally()
+        for first in range(self.first, self.last, BLOCK):
+            designs = self.sample.designs(first, min(first + BLOCK, self.last))
+            tally.add(first, squared_radius_ratio(designs), sample.closed_form(designs))
+        return tally.arrays()
+
+
+@dataclass(frozen=True)
+class AtlasWork:
+    """All of them."""
+
+    sample: Sample
+    points: int
+    chunk: int
+
+    def task(self, first: int, last: int) -> AtlasTask:
+        """Return the work on designs first ... last - 1."""
+        return AtlasTask(self.sample, first, last)
+
+    def question(self) -> dict[str, Any]:
+        """Return what the tally depends on."""
+        return {"kind": "atlas", **self.sample.question(), "designs": self.points, "ninedof": _core.version}
+
+
+def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
+    rows = total.number >= 0
+    design = np.full((len(rows), len(VARIABLES)), np.nan)
+    design[rows] = work.sample.at(total.number[rows].astype(np.uint64))
+    ratio = ("radius_ratio",)
+    return SweepResult(
+        arrays={**total.arrays(), "best": np.where(rows, total.best, np.nan), "design": design},
+        dims={
+            "histogram": (*ratio, "condition_number"),
+            "best": ratio,
+            "number": ratio,
+            "design": (*ratio, "variable"),
+        },
+        coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(VARIABLES)},
+        units={
+            "histogram": "1",
+            "best": "1",
+            "number": "1",
+            "design": "l_c",
+            "radius_ratio": "1",
+            "condition_number": "1",
+        },
+        attributes={**work.question(), **versions()},
+    )

@@ -1,0 +1,69 @@
+"""What is kept of designs that pass by: how many fall where, and the best of each size of the base."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninedof.arrays import Floats
+from ninedof.chunks import Arrays
+
+__all__ = ["Tally", "condition_edges", "ratio_edges"]
+
+OCTAVES, PER_OCTAVE = 4, 16  # base / platform from 1/16 to 16; 2, the paper's limit, is an edge
+DECADES, PER_DECADE = 4, 40  # condition numbers from 1 to 10^4
+ROWS = 2 * OCTAVES * PER_OCTAVE + 2
+COLUMNS = DECADES * PER_DECADE + 1
+
+
+def ratio_edges() -> Floats:
+    """Return where the bins of radius_ratio begin; the first has what is below 1/16, the last what is from 16 on."""
+    return np.concatenate([[0.0], np.exp2(np.arange(ROWS - 1) / PER_OCTAVE - OCTAVES)])
+
+
+def condition_edges() -> Floats:
+    """Return where the bins of the condition number begin; the last has what is from 10^4 on, singular designs too."""
+    return np.power(10.0, np.arange(COLUMNS) / PER_DECADE)
+
+
+class Tally:
+    """Counts, and the best design of each bin of radius_ratio.
+
+    Two tallies add up to the same whatever the order: counts are whole numbers, and of designs equally good the one
+    with the least number is kept.
+    """
+
+    def __init__(self) -> None:
+        self.histogram: NDArray[np.int64] = np.zeros((ROWS, COLUMNS), dtype=np.int64)
+        self.best: Floats = np.full(ROWS, np.inf)
+        self.number: NDArray[np.int64] = np.full(ROWS, -1, dtype=np.int64)
+
+    def add(self, first: int, squared_ratio: Floats, kappa: Floats) -> None:
+        """Take designs first, first + 1, ...; later than all before."""
+        with np.errstate(divide="ignore"):
+            row = _bin(np.log2(squared_ratio), PER_OCTAVE / 2.0, OCTAVES * PER_OCTAVE + 1, ROWS - 1)
+            column = _bin(np.log10(kappa), PER_DECADE, 0, COLUMNS - 1)
+        self.histogram += np.bincount(row * COLUMNS + column, minlength=ROWS * COLUMNS).reshape(ROWS, COLUMNS)
+        better = np.flatnonzero(kappa < self.best[row])
+        better = better[np.lexsort((better, kappa[better], row[better]))]
+        rows, where = np.unique(row[better], return_index=True)
+        self.best[rows] = kappa[better[where]]
+        self.number[rows] = first + better[where]
+
+    def merge(self, arrays: Arrays) -> None:
+        """Take what another tally has."""
+        self.histogram += arrays["histogram"]
+        best, number = arrays["best"], arrays["number"]
+        better = (best < self.best) | ((best == self.best) & (number < self.number) & (number >= 0))
+        self.best = np.where(better, best, self.best)
+        self.number = np.where(better, number, self.number)
+
+    def arrays(self) -> Arrays:
+        """Return all of it."""
+        return {"histogram": self.histogram, "best": self.best, "number": self.number}
+
+
+def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:
+    """Return the bin of each value, those beyond both ends in the outermost; what is no number is in the last."""
+    found = np.fmax(np.fmin(np.floor(value * per_unit) + zero, float(most)), 0.0)
+    return np.asarray(found, dtype=np.intp)

@@ -1,0 +1,215 @@
+"""Finished chunks in a folder, each written whole or not at all, and the question they answer."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import hashlib
+import io
+import json
+import math
+import os
+import secrets
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from ninedof.checks import shown
+from ninedof.chunks.work import Arrays
+
+__all__ = ["Store", "write_whole"]
+
+FORMAT = "ninedof-chunks-1"
+MANIFEST = "manifest.json"
+MARK = b"ninedof chunk 1\n"
+DIGEST = 32  # bytes
+
+
+class Store:
+    """A folder of finished chunks.
+
+    It holds `manifest.json`, the question and its fingerprint, and one file a chunk. A file starts with a digest of the
+    question, of its own number and of what follows: a chunk that was cut short, damaged, renamed or left by another
+    question does not count as finished, and is computed again.
+
+    Parameters
+    ----------
+    folder : path
+        Made where it is missing. It must be empty, or hold the chunks of the same question.
+    question : mapping
+        Plain JSON values.
+    chunk : int
+        Points a chunk. An earlier run's stays in force, so that its chunks fit.
+
+    Raises
+    ------
+    ValueError
+        If the folder holds something else, or another run is using it.
+
+    """
+
+    def __init__(self, folder: str | os.PathLike[str], question: Mapping[str, Any], chunk: int) -> None:
+        self.folder = Path(folder)
+        self.chunk = chunk
+        self._fingerprint = fingerprint(question)
+        self._create()
+        self._lock = self._locked()
+        try:
+            self._open(question)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Let another run use the folder."""
+        os.close(self._lock)
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def path(self, k: int) -> Path:
+        """Return the file of a chunk."""
+        return self.folder / f"chunk-{k:08d}"
+
+    def write(self, k: int, arrays: Arrays) -> None:
+        """Keep a finished chunk. Once this returns, neither a kill nor a loss of power takes it away."""
+        buffer = io.BytesIO()
+        np.savez(buffer, **arrays)  # type: ignore[arg-type]  # numpy's stub takes the names for its own
+        payload = buffer.getvalue()
+        write_whole(self.path(k), MARK + self._digest(k, payload) + payload)
+
+    def read(self, k: int) -> Arrays | None:
+        """Return a finished chunk; None where there is none, or none to be trusted."""
+        try:
+            data = self.path(k).read_bytes()
+        except OSError:
+            return None
+        start = len(MARK) + DIGEST
+        payload = data[start:]
+        if data[:start] != MARK + self._digest(k, payload):
+            return None
+        try:
+            with np.load(io.BytesIO(payload), allow_pickle=False) as found:
+                return dict(found)
+        except (OSError, ValueError, BadZipFile):
+            return None
+
+    def _digest(self, k: int, payload: bytes) -> bytes:
+        own = hashlib.sha256(f"{self._fingerprint} {k} ".encode())
+        own.update(payload)
+        return own.digest()
+
+    def _create(self) -> None:
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ValueError(
+                f"out: got {self.folder}, which cannot be created ({error.strerror}), expected a folder"
+            ) from None
+
+    def _locked(self) -> int:
+        """Take the folder for this process. The system frees it at our end, however that comes."""
+        lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
+        try:
+            # A lock of the process: unlike flock, workers that outlive a killed parent do not hold it.
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(lock)
+            raise ValueError(
+                f"out: got {self.folder}, where another run is at work, expected a folder of its own"
+            ) from None
+        return lock
+
+    def _open(self, question: Mapping[str, Any]) -> None:
+        manifest = self.folder / MANIFEST
+        for leftover in self.folder.glob(".part-*"):  # of a run that was killed: no other is at work here
+            leftover.unlink(missing_ok=True)
+        if not manifest.exists():
+            if others := sorted(p.name for p in self.folder.iterdir() if p.name != ".lock"):
+                raise ValueError(
+                    f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
+                )
+            data = {
+                "format": FORMAT,
+                "fingerprint": self._fingerprint,
+                "chunk": self.chunk,
+                "question": plain(question),
+            }
+            write_whole(manifest, (json.dumps(data, indent=1) + "\n").encode())
+            return
+        found = _manifest(manifest)
+        if found["fingerprint"] != self._fingerprint:
+            what = ", ".join(differing(found["question"], plain(question))) or "its version"
+            raise ValueError(
+                f"out: got {self.folder}, which holds the chunks of another question (it differs in {what}), "
+                "expected an empty folder, or the question that was asked there"
+            )
+        self.chunk = found["chunk"]
+
+
+def stored_question(folder: str | os.PathLike[str]) -> dict[str, Any]:
+    """Return the question that a folder's chunks answer."""
+    return dict(_manifest(Path(folder) / MANIFEST)["question"])
+
+
+def fingerprint(question: Mapping[str, Any]) -> str:
+    """Return the digest of a question; numbers count to the last bit."""
+    return hashlib.sha256(json.dumps([FORMAT, plain(question)], sort_keys=True).encode()).hexdigest()
+
+
+def plain(value: Any) -> Any:
+    """Return plain JSON values. Floats are spelled so that they read back as the same bits, infinities as words."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(v) for key, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
+def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
+    """Return the entries in which two questions differ."""
+    return sorted(name for name in {*one, *other} if one.get(name) != other.get(name))
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file that appears whole or not at all, even if the power fails."""
+    with _part(path) as (part, file):
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+        os.replace(part, path)
+
+
+@contextlib.contextmanager
+def _part(path: Path) -> Iterator[tuple[Path, Any]]:
+    part = path.with_name(f".part-{path.name}-{secrets.token_hex(4)}")  # in the same folder, where a rename is atomic
+    try:
+        with part.open("wb") as file:
+            yield part, file
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _manifest(path: Path) -> dict[str, Any]:
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        if data["format"] != FORMAT or not isinstance(data["question"], dict) or int(data["chunk"]) < 1:
+            raise ValueError
+        str(data["fingerprint"])
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
+    except (ValueError, KeyError, TypeError):
+        raise ValueError(f"{path}: got no {FORMAT!r} manifest, expected one written by ninedof") from None
+    return dict(data)

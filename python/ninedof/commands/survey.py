@@ -1,0 +1,70 @@
+"""`ninedof atlas`: a survey of the hexagonal family."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+from ninedof.atlas import atlas as survey
+from ninedof.commands.kept import compute, run_folder, write
+from ninedof.commands.screen import DONE, INTERRUPTED, Screen
+from ninedof.sweep import SweepResult
+
+__all__ = ["atlas"]
+
+OPTIMUM = (2.0, 3.762659)  # of the paper's study, proved: marked in the figure
+SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+
+
+def atlas(
+    designs: int,
+    seed: int,
+    out: Path | None,
+    resume: bool,
+    scheduler: str | None,
+    figures: bool,
+    json: bool,
+) -> int:
+    """Survey; print, record, return the exit status."""
+    screen = Screen(json)
+    directory = run_folder(out, resume)
+    asked = partial(survey, designs, seed)
+    result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
+    if result is None:
+        return INTERRUPTED
+    screen.print(_table(result))
+    ratio, best = result["radius_ratio"], result["best"]
+    rows = [
+        {
+            "radius_ratio": float(low),
+            "condition_number": float(kappa),
+            "design": dict(zip(result["variable"].tolist(), design.tolist(), strict=True)),
+        }
+        for low, kappa, design in zip(ratio, best, result["design"], strict=True)
+        if np.isfinite(kappa)
+    ]
+    data = {"atlas": {"designs": int(result["histogram"].sum()), "best": rows}}
+
+    def draw() -> object:
+        from ninedof import plot
+
+        return plot.atlas(result, OPTIMUM)
+
+    write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]
+    return DONE
+
+
+def _table(result: SweepResult) -> Table:
+    """Lay out the best designs up to a few sizes of the base."""
+    table = Table(title="best of all designs up to a radius ratio", title_justify="left", title_style="bold")
+    for head in ("radius ratio\nbelow", "condition\nnumber", *result["variable"].tolist()):
+        table.add_column(head, justify="right")
+    for limit in SHOWN:
+        below = result["best"][: int(np.searchsorted(result["radius_ratio"], limit))]
+        if np.isfinite(below).any():
+            k = int(np.nanargmin(below))
+            table.add_row(f"{limit:g}", f"{below[k]:.4f}", *(f"{v:.4f}" for v in result["design"][k]))
+    return table

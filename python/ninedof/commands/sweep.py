@@ -1,0 +1,203 @@
+"""`ninedof sweep`: what is asked for, and a few words about what came out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.table import Table
+
+from ninedof import paper
+from ninedof.arrays import thread_argument
+from ninedof.checks import shown
+from ninedof.commands.evaluation import chosen_design, length_option
+from ninedof.commands.kept import compute, run_folder, write
+from ninedof.commands.screen import DONE, INTERRUPTED, Screen
+from ninedof.configuration import Configuration
+from ninedof.designs import HEXAGON, Design
+from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
+from ninedof.sweep import sweep as sweep_poses
+from ninedof.sweep.axis import Values
+from ninedof.sweep.poses import COORDINATES
+
+__all__ = ["SweepOptions", "sweep"]
+
+FIGURES = ("figure-6", "figure-7")
+HEIGHTS = ("zp", "zs")
+MOST_PRINTED = 10_000  # numbers that JSON repeats; the file has them all
+
+
+@dataclass(frozen=True)
+class SweepOptions:
+    """What the command line says about the points."""
+
+    over: Sequence[str]
+    index: Sequence[str]
+    absolute: bool
+    internal_point: str
+    lc: str | None
+    points: int | None
+    chunk: int | None
+    threads: int | None
+
+
+def sweep(
+    what: str | None,
+    sides: Mapping[str, float | None],
+    theta_z_deg: float | None,
+    options: SweepOptions,
+    out: Path | None,
+    resume: bool,
+    scheduler: str | None,
+    figures: bool,
+    json: bool,
+) -> int:
+    """Sweep; print, record, return the exit status."""
+    screen = Screen(json)
+    thread_argument(options.threads)
+    if what in FIGURES:
+        if options.over or any(v is not None for v in sides.values()):
+            raise ValueError(f"sweep: got {what} and --over or a design, expected one of the two")
+        asked: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), options.points)
+        title = what.replace("figure-", "Fig. ")
+    else:
+        asked, title = _asked(what, sides, theta_z_deg, options)
+    directory = run_folder(out, resume)
+    result = compute(asked, title, directory, scheduler, screen)
+    if result is None:
+        return INTERRUPTED
+    summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
+    screen.print(_table(summary, title))
+    write(
+        result, directory, "sweep", (lambda: _figure(result, what)) if figures else None, screen, _data(result, summary)
+    )
+    return DONE
+
+
+def _asked(
+    what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, options: SweepOptions
+) -> tuple[Callable[..., SweepResult], str]:
+    """Return the sweep of the options, and its title."""
+    if not options.over:
+        raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
+    over = dict(parse_over(text) for text in options.over)
+    if len(over) < len(options.over):
+        raise ValueError(f"--over: got {', '.join(options.over)}, expected different names")
+    index = tuple(options.index) or ("condition_number",)
+    title = f"over {', '.join(over)}"
+    length = None if options.lc is None else length_option(options.lc)
+    if any(name not in COORDINATES for name in over):
+        held = _variables(what, sides, theta_z_deg, over)
+        asked = partial(sweep_designs, held, over, index, characteristic_length=length or 1.0, chunk=options.chunk)
+        return asked, title
+    design = _design(what, sides, theta_z_deg)
+    return partial(
+        sweep_poses,
+        design.geometry,
+        design.configuration,
+        over,
+        index,
+        relative=not options.absolute,
+        internal_point=options.internal_point,
+        characteristic_length=design.characteristic_length if length is None else length,
+        chunk=options.chunk,
+        threads=options.threads,
+    ), title
+
+
+def parse_over(text: str) -> tuple[str, Values]:
+    """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; a name that ends in _deg has degrees."""
+    expected = "NAME=LOW:HIGH:COUNT, or NAME=VALUE,VALUE,..."
+    name, equals, rest = text.partition("=")
+    parts = rest.split(":")
+    try:
+        if not equals or len(parts) not in (1, 3):
+            raise ValueError
+        unit = math.radians if name.endswith("_deg") else float
+        if len(parts) == 1:
+            return name.removesuffix("_deg"), np.array([unit(float(value)) for value in rest.split(",")])
+        return name.removesuffix("_deg"), (unit(float(parts[0])), unit(float(parts[1])), int(parts[2]))
+    except ValueError:
+        raise ValueError(f"--over: got {text!r}, expected {expected}") from None
+
+
+def _published() -> dict[str, float]:
+    sides = (paper.A1, paper.BASE_SIDE, paper.PLATFORM_SIDE, 0.0)
+    return {**dict(zip(HEXAGON, sides, strict=True)), "zp": paper.ZP, "zs": paper.published_zs()[2]}
+
+
+def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
+    """Return the design that is moved: the published one at its best zs where none is given."""
+    if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
+        values = _published()
+        return Design(paper.published_geometry(), Configuration.neutral(values["zp"], values["zs"]), 1.0)
+    return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
+
+
+def _variables(
+    what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, over: Mapping[str, Values]
+) -> dict[str, float]:
+    """Return the variables that a sweep over designs holds: the published ones where none is given."""
+    if what is not None:
+        raise ValueError(f"sweep: got {shown(what)} and --over {', '.join(over)}, expected a design by --a1 ... --zs")
+    given = {name: value for name, value in sides.items() if value is not None}
+    if both := sorted(set(given) & set(over)):
+        raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
+    values = given or _published()
+    if theta_z_deg is not None:
+        values["theta_z"] = math.radians(theta_z_deg)
+    return {name: value for name, value in values.items() if name not in over}
+
+
+def describe(result: SweepResult, name: str) -> dict[str, Any]:
+    """Return what is most and least of an index, where, and how many points have none."""
+    values = result[name]
+    finite = np.isfinite(values)
+    out: dict[str, Any] = {
+        "points": int(values.size),
+        "infinite": int(np.isinf(values).sum()),
+        "missing": int(np.isnan(values).sum()),
+    }
+    if finite.any():
+        for word, pick in (("least", np.argmin), ("greatest", np.argmax)):
+            fill = np.inf if word == "least" else -np.inf
+            at = np.unravel_index(int(pick(np.where(finite, values, fill))), values.shape)
+            out[word] = {"value": float(values[at]), "at": result.at(name, at)}
+    return out
+
+
+def _table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold")
+    for head in ("index", "least", "at", "greatest", "at", "infinite", "missing"):
+        table.add_column(head, justify="left" if head in ("index", "at") else "right", overflow="fold")
+    for name, row in summary.items():
+        ends = [_end(row.get(word)) for word in ("least", "greatest")]
+        table.add_row(name.replace("_", " "), *ends[0], *ends[1], str(row["infinite"]), str(row["missing"]))
+    return table
+
+
+def _end(end: Mapping[str, Any] | None) -> tuple[str, str]:
+    if end is None:
+        return "-", "-"
+    where = (f"{name} = {v:.5g}" if isinstance(v, float) else f"{name} {v}" for name, v in end["at"].items())
+    return f"{end['value']:.6g}", ", ".join(where)
+
+
+def _data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:
+    data: dict[str, Any] = {"sweep": {"dims": dict(result.dims), "indices": summary, "attributes": result.attributes}}
+    if sum(a.size for a in (*result.arrays.values(), *result.coords.values())) <= MOST_PRINTED:
+        data["sweep"]["coords"] = {name: values.tolist() for name, values in result.coords.items()}
+        data["sweep"]["arrays"] = {name: values.tolist() for name, values in result.arrays.items()}
+    return data
+
+
+def _figure(result: SweepResult, what: str | None) -> Any:
+    from ninedof import plot
+
+    named = {"figure-6": plot.figure_6, "figure-7": plot.figure_7}
+    return named[what](result) if what in named else plot.sweep(result)

@@ -1,0 +1,88 @@
+"""An atlas of designs: the best for each size of the base, and how all of them are distributed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullFormatter
+
+from ninedof.plot import style
+
+if TYPE_CHECKING:
+    from ninedof.sweep import SweepResult
+
+__all__ = ["atlas"]
+
+MAP = "cividis"
+SHARE = 1e-3  # of all designs: sizes of the base that fewer have are left out at the ends
+TOP = 300.0  # condition numbers shown
+
+
+def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Figure:
+    """Return a figure of an atlas: where designs lie in radius ratio and condition number, and the best of each bin.
+
+    Parameters
+    ----------
+    result : SweepResult
+        As `ninedof.atlas` gives it.
+    optimum : (radius_ratio, condition_number), optional
+        A known optimum to mark.
+
+    Examples
+    --------
+    >>> from ninedof import plot
+    >>> figure = plot.atlas(nd.atlas(10**6), optimum=(2.0, 3.762659))  # doctest: +SKIP
+
+    """
+    ratio, kappa = result["radius_ratio"], result["condition_number"]
+    counts = result["histogram"]
+    total = int(counts.sum())
+    inner = counts[1:-1, :-1]  # without the open bins
+    used = np.flatnonzero(counts[1:-1].sum(axis=1) >= SHARE * total / len(ratio))
+    first, last = (int(used[0]), int(used[-1]) + 1) if used.size else (0, len(inner))
+    x, y = ratio[1:][first : last + 1], kappa
+    with style.look():
+        figure = style.new_figure(9.0, 4.4)
+        left = figure.add_axes((0.07, 0.13, 0.53, 0.78))
+        right = figure.add_axes((0.725, 0.13, 0.265, 0.78))
+        shown = np.ma.masked_equal(inner[first:last], 0)
+        if shown.count():
+            norm = LogNorm(max(1, int(shown.min())), max(2, int(shown.max())))
+            drawn = left.pcolormesh(x, y, shown.T, norm=norm, cmap=MAP, rasterized=True)
+            figure.colorbar(drawn, cax=figure.add_axes((0.612, 0.13, 0.012, 0.78)), format=style.power_of_ten)
+        best = result["best"][1:-1][first:last]
+        middle = np.sqrt(x[1:] * x[:-1])
+        left.plot(middle, best, color=style.ALARM, lw=1.6, label="best in each bin")
+        left.set(xscale="log", yscale="log", xlim=(x[0], x[-1]), ylim=(max(1.0, 0.8 * float(np.nanmin(best))), TOP))
+        left.xaxis.set_major_locator(FixedLocator([2.0**k for k in range(-4, 5)]))
+        left.xaxis.set_major_formatter(lambda t, _: f"{t:g}" if t >= 1 else f"1/{1 / t:g}")
+        left.xaxis.set_minor_formatter(NullFormatter())
+        left.yaxis.set_major_locator(FixedLocator([1, 2, 3, 5, 10, 20, 50, 100, 200, 500]))
+        left.yaxis.set_major_formatter("{x:g}")
+        left.yaxis.set_minor_formatter(NullFormatter())
+        left.grid(False)
+        left.set(xlabel="radius ratio, base / platform", ylabel="condition number")
+        left.set_title(f"{total:,} designs, number in each bin")
+        if optimum is not None:
+            left.plot(
+                *optimum, "*", ms=13, color=style.ALARM, mec="white", mew=0.9, zorder=6, label="optimum up to ratio 2"
+            )
+        left.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none")
+        share = counts.sum(axis=0) / total * 100.0
+        right.stairs(share[:-1], kappa, color=style.SERIES[0], fill=True, alpha=0.75)
+        right.set(xscale="log", xlim=(kappa[0], kappa[-1]), xlabel="condition number", ylabel="% of designs")
+        right.xaxis.set_major_formatter(style.power_of_ten)
+        right.set_title("all sizes of the base")
+        right.text(
+            0.97,
+            0.96,
+            f"{share[-1]:.2g} % above",
+            ha="right",
+            va="top",
+            size=style.SMALL_SIZE,
+            transform=right.transAxes,
+        )
+    return figure

@@ -1,0 +1,200 @@
+"""Sweeps: curves over one coordinate, maps over two, slices over three, and the two figures of the paper."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, NullFormatter
+from numpy.typing import NDArray
+
+from ninedof.plot import style
+
+if TYPE_CHECKING:
+    from ninedof.sweep import SweepResult
+
+__all__ = ["figure_6", "figure_7", "sweep"]
+
+Floats = NDArray[np.float64]
+
+PANELS = 6  # slices shown of a sweep over three coordinates
+MOST_CURVES = 9
+RANGE = 30.0  # times the least: what lies beyond is off the scale
+FINEST = 600  # values along an axis that a map can show
+MAP = "viridis"
+
+
+def sweep(result: SweepResult, name: str = "") -> Figure:
+    """Return a figure of one index of a sweep.
+
+    One coordinate gives a curve, or several for an index of several numbers. Two give a map, the first along x. Three
+    give maps at up to six values of the first.
+
+    Parameters
+    ----------
+    result : SweepResult
+    name : str
+        Of the index; the first by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof import plot
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> home = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
+    >>> figure = plot.sweep(nd.sweep(g, home, {"x_p": (-1.0, 1.0, 41), "y_p": (-1.0, 1.0, 41)}))
+
+    """
+    name = name or next(iter(result))
+    if name not in result.arrays:
+        raise ValueError(f"name: got {name!r}, expected one of {', '.join(result)}")
+    dims, values = result.dims[name], result.arrays[name]
+    labels = result.coords[dims[-1]] if values.shape and result.coords[dims[-1]].dtype.kind == "U" else None
+    swept = dims if labels is None else dims[:-1]
+    with style.look():
+        if len(swept) == 1:
+            return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels)
+        if labels is not None:  # of several numbers a map shows the first
+            values, name = values[..., 0], f"{name}, {labels[0]}"
+        return _maps(result, name, swept, values)
+
+
+def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any) -> Figure:
+    figure = style.new_figure(7.0, 4.2)
+    axes = figure.add_axes((0.1, 0.13, 0.87, 0.79))
+    x = result.coords[dim]
+    for k, row in enumerate(rows[:MOST_CURVES]):
+        colour = style.SERIES[k % len(style.SERIES)]
+        label = None if labels is None else str(labels[k])
+        dashes = ("-", "--", ":")[k // len(style.SERIES) % 3]
+        axes.plot(x, np.where(np.isfinite(row), row, np.nan), ls=dashes, color=colour, lw=2.0, label=label)
+    axes.set_title(_words(name))
+    axes.set(xlabel=_axis(result, dim), ylabel=style.with_unit(_words(name), _unit(result, name)))
+    if name.startswith("condition_number"):
+        _crop(axes, rows)
+    if labels is not None:
+        axes.legend(loc="best", ncols=3)
+    return figure
+
+
+def _crop(axes: Any, rows: Floats) -> None:
+    """Leave out what is many times the least, where a curve runs off to infinity."""
+    finite = rows[np.isfinite(rows)]
+    if finite.size and finite.max() > RANGE * finite.min():
+        axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
+        axes.set_yscale("log")
+
+
+def _maps(result: SweepResult, name: str, dims: tuple[str, ...], values: Floats) -> Figure:
+    outer = len(values) if len(dims) == 3 else 1
+    picks = np.unique(np.linspace(0, outer - 1, min(PANELS, outer)).round().astype(int))
+    rows = -(-len(picks) // 3)
+    columns = min(3, len(picks))
+    figure = style.new_figure(5.4 if columns == 1 else 9.0, 4.4 if columns == 1 else 0.9 + 2.9 * rows)
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    slices = [np.asarray(values[k] if len(dims) == 3 else values) for k in picks]
+    slices = [s[:: -(-s.shape[0] // FINEST), :: -(-s.shape[1] // FINEST)] for s in slices]
+    norm = _norm(np.concatenate([s.ravel() for s in slices]), name)
+    x, y = (result.coords[d][:: -(-len(result.coords[d]) // FINEST)] for d in dims[-2:])
+    drawn = None
+    for axes, k, part in zip(grid.flat, picks, slices, strict=False):
+        drawn = axes.pcolormesh(
+            x, y, np.ma.masked_invalid(part.T), norm=norm, cmap=MAP, shading="nearest", rasterized=True
+        )
+        axes.set_facecolor(style.GRID)
+        axes.grid(False)
+        if len(dims) == 3:
+            axes.set_title(f"{dims[0]} = {result.coords[dims[0]][k]:.4g}", size=style.TEXT_SIZE)
+        else:
+            axes.set_title(_words(name))
+    for axes in list(grid.flat)[len(picks) :]:
+        axes.set_axis_off()
+    for axes in grid[-1, :]:
+        axes.set_xlabel(_axis(result, dims[-2]))
+    for axes in grid[:, 0]:
+        axes.set_ylabel(_axis(result, dims[-1]))
+    figure.subplots_adjust(left=0.1 if columns > 1 else 0.14, right=0.97, bottom=0.12 if rows == 1 else 0.09, top=0.91)
+    if drawn is not None:
+        bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.03, aspect=30)
+        bar.set_label(_words(name) + ("; grey: infinite or none" if not np.isfinite(values).all() else ""))
+    return figure
+
+
+def _norm(values: Floats, name: str) -> Normalize:
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if name.startswith("condition_number") and high > 3.0 * low > 0.0:
+        return LogNorm(low, min(high, RANGE * low))
+    return Normalize(low, high if high > low else low + 1.0)
+
+
+def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
+    """Return the condition number against displacement: platform, its turn, and O, three curves each.
+
+    Parameters
+    ----------
+    result : SweepResult
+        As `ninedof.sweep_figure("6")` gives it.
+    unit : str
+        Of lengths.
+
+    """
+    names, x, rows = (result[key] for key in ("coordinate", "displacement", "condition_number"))
+    groups = ((0, f"platform moved ({unit})"), (3, "platform turned (rad)"), (6, f"O moved ({unit})"))
+    with style.look():
+        figure = style.new_figure(9.0, 3.9)
+        panels = figure.subplots(1, 3, sharey=True)
+        top = min(float(rows[np.isfinite(rows)].max()), 2.4 * float(rows.min()))
+        for axes, (first, title) in zip(panels, groups, strict=True):
+            for k, dashes in zip(range(first, first + 3), ("-", (0, (5, 2)), (0, (1.2, 1.2))), strict=True):
+                colour = style.SERIES[k - first]
+                axes.plot(
+                    x, np.where(np.isfinite(rows[k]), rows[k], np.nan), color=colour, ls=dashes, lw=2.0, label=names[k]
+                )
+            axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
+            axes.set_xticks([x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]])
+            axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
+        panels[0].set_ylabel("condition number")
+        figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.12)
+    return figure
+
+
+def figure_7(result: SweepResult) -> Figure:
+    """Return the least condition number against the two ratios of sides.
+
+    Parameters
+    ----------
+    result : SweepResult
+        As `ninedof.sweep_figure("7")` gives it.
+
+    """
+    names, x, rows = (result[key] for key in ("sides", "ratio", "condition_number"))
+    with style.look():
+        figure = style.new_figure(7.0, 4.2)
+        axes = figure.add_axes((0.09, 0.13, 0.88, 0.77))
+        axes.plot(x, rows[0], color=style.SERIES[0], lw=2.4, label=names[0])
+        axes.plot(x, rows[1], "o", color=style.SERIES[1], ms=4.5, mfc="white", mew=1.3, label=names[1])
+        axes.set_xscale("log", base=2)
+        ticks = [t for t in 2.0 ** np.arange(-10, 11) if x[0] <= t <= x[-1]]
+        axes.xaxis.set_major_locator(FixedLocator(ticks))
+        axes.xaxis.set_major_formatter(lambda t, _: f"{t:g}" if t >= 1 else f"1/{1 / t:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.set_title("least condition number, all else re-optimized")
+        axes.set(xlabel="ratio of the sides", ylabel="condition number")
+        axes.legend(loc="upper right")
+    return figure
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _unit(result: SweepResult, name: str) -> str:
+    unit = result.units.get(name, "1")
+    return "" if unit in ("1", "length") else unit
+
+
+def _axis(result: SweepResult, dim: str) -> str:
+    return style.with_unit(dim, _unit(result, dim))

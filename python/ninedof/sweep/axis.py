@@ -1,0 +1,112 @@
+"""The axes of a sweep: names and values, and how a chunk of the grid finds its points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof.arrays import Floats, as_floats
+from ninedof.checks import choice, finite, is_number, shown, whole
+
+__all__ = ["Axis", "Grid", "Values", "axes_of"]
+
+Values = ArrayLike | tuple[float, float, int]
+"""Values along an axis, or (low, high, count) for evenly spaced ones."""
+
+MOST_AXES = 3
+MOST = 2**40  # points along an axis: beyond it positions between 0 and 1 would lose digits
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """Values along one axis: explicit, or `count` of them from `low` to `high`."""
+
+    name: str
+    count: int
+    low: float = 0.0
+    high: float = 0.0
+    explicit: Floats | None = None
+    """Values `start`, `start` + 1, ...; None for evenly spaced ones."""
+    start: int = 0
+    """Which of the axis's values the first explicit one is: a chunk takes along only those that it needs."""
+
+    def at(self, k: NDArray[np.intp]) -> Floats:
+        """Return the values of numbers 0 ... count - 1; both ends are met exactly."""
+        if self.explicit is not None:
+            return self.explicit[k - self.start]
+        t = k / (self.count - 1) if self.count > 1 else np.zeros(k.shape)
+        return self.low * (1.0 - t) + self.high * t
+
+    def values(self) -> Floats:
+        """Return all of them."""
+        return self.at(np.arange(self.count))
+
+    def only(self, first: int, last: int) -> Axis:
+        """Return an axis that knows values first ... last - 1 alone."""
+        if self.explicit is None:
+            return self
+        return Axis(self.name, self.count, explicit=self.explicit[first:last].copy(), start=first)
+
+    def question(self) -> dict[str, Any]:
+        """Return what the values depend on."""
+        if self.explicit is not None:
+            return {"name": self.name, "values": self.explicit}
+        return {"name": self.name, "low": self.low, "high": self.high, "count": self.count}
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """All combinations of the values of one to three axes, the last axis running fastest."""
+
+    axes: tuple[Axis, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Return the number of values along each axis."""
+        return tuple(axis.count for axis in self.axes)
+
+    @property
+    def points(self) -> int:
+        """Return the number of combinations."""
+        return math.prod(self.shape)
+
+    def part(self, first: int, last: int) -> Grid:
+        """Return a grid that knows points first ... last - 1 alone, small to send."""
+        row = math.prod(self.shape[1:])
+        head = self.axes[0].only(first // row, (last - 1) // row + 1)
+        return Grid((head, *self.axes[1:]))
+
+    def at(self, first: int, last: int) -> dict[str, Floats]:
+        """Return the values of points first ... last - 1 by the axis's name."""
+        numbers = np.unravel_index(np.arange(first, last), self.shape)
+        return {axis.name: axis.at(k) for axis, k in zip(self.axes, numbers, strict=True)}
+
+
+def axes_of(over: Any, known: Sequence[str]) -> Grid:
+    """Return the grid that a caller asks for, checked."""
+    expected = f"a mapping of one to {MOST_AXES} names to values"
+    if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
+        raise ValueError(f"over: got {shown(over)}, expected {expected}")
+    return Grid(tuple(_axis(choice("over", name, known), values) for name, values in over.items()))
+
+
+def _axis(name: str, values: Any) -> Axis:
+    if isinstance(values, tuple):
+        if len(values) != 3 or not is_number(values[2]):
+            raise ValueError(
+                f"over[{name!r}]: got {shown(values)}, expected an array of values, or (low, high, count) for a range"
+            )
+        low, high = (finite(f"over[{name!r}]", end) for end in values[:2])
+        count = whole(f"over[{name!r}]: count", values[2], 1, MOST)
+        if count == 1 and low != high:
+            raise ValueError(f"over[{name!r}]: got {shown(values)}, expected a count of 2 at least, or low = high")
+        return Axis(name, count, low, high)
+    explicit = as_floats(f"over[{name!r}]", values if not isinstance(values, Iterable) else np.asarray(values), ())
+    if explicit.ndim != 1 or not explicit.size or not np.isfinite(explicit).all():
+        raise ValueError(f"over[{name!r}]: got {shown(values)}, expected finite values of shape (n,)")
+    return Axis(name, explicit.size, explicit=explicit)

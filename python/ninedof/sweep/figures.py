@@ -1,0 +1,176 @@
+"""The sweeps behind the figures of the paper."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ninedof import paper
+from ninedof.arrays import Floats
+from ninedof.checks import choice, whole
+from ninedof.chunks import Arrays, Progress, kept, run
+from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks.run import check_progress
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.optimize import Status, optimize
+from ninedof.study import Study
+from ninedof.sweep.axis import Axis, Grid
+from ninedof.sweep.index import INDICES, Index
+from ninedof.sweep.poses import COORDINATES, TRIPLES
+from ninedof.sweep.result import SweepResult
+from ninedof.sweep.sink import Sink
+from ninedof.sweep.work import GridWork
+
+__all__ = ["sweep_figure"]
+
+FIGURES = ("6", "7")
+SHOWN = ("x_p", "y_p", "z_p", "theta_x", "theta_y", "theta_z", "x_s", "y_s", "z_s")
+REACH = 1.0  # l_c or rad, either way from the neutral pose
+OCTAVES = 4  # ratios from 1/16 to 16
+MOST_POINTS = 100_000
+SIDES = ("a", "b")
+VARIABLES = ("a1", "a2", "b1", "b2", "zp", "zs")
+STARTS = 32
+
+
+def sweep_figure(
+    figure: str,
+    points: int | None = None,
+    *,
+    executor: Executors | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Return the numbers behind a figure of the paper.
+
+    "6" is the condition number of the published design against displacement in each of the nine coordinates, one at a
+    time, the others held: the platform moves and O stays, or O moves and the platform stays. The zs that the paper does
+    not print is the best one.
+
+    "7" is the least condition number of the hexagonal family for each ratio a1/a2, and for each b1/b2, all other
+    variables re-optimized with the base at most twice the platform, as in section 5. A ratio and its inverse belong to
+    mirrored robots of the same condition number; what the paper says, that it falls as a ratio grows, holds above 1.
+    Each point is a study of its own: sides 1 and 1/ratio (or ratio and 1), the characteristic length free. To scale a
+    robot with its characteristic length changes nothing, so that this is the study with the ratio held and l_c = 1.
+
+    Parameters
+    ----------
+    figure : {"6", "7"}
+    points : int, optional
+        Values along each curve: by default 201 from -1 to 1 l_c or rad, or 33 ratios, evenly spaced by their logarithm,
+        from 1/16 to 16.
+    executor, out, progress : optional
+        As in `sweep`.
+
+    Returns
+    -------
+    SweepResult
+        "6": condition_number over (coordinate, displacement). "7": condition_number over (sides, ratio), and design,
+        the variables of the best design in units of l_c, over (sides, ratio, variable). NaN where no design was proved.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> found = nd.sweep_figure("6", points=3)
+    >>> found["coordinate"].tolist()[:2], found["condition_number"][0].round(2).tolist()
+    (['x_p', 'y_p'], [6.73, 3.91, 6.52])
+
+    """
+    which = choice("figure", figure, FIGURES)
+    check_executor(executor)
+    check_progress(progress)
+    work = _figure_6(_points(points, 201)) if which == "6" else _figure_7(_points(points, 8 * OCTAVES + 1))
+    with kept(work, out) as (store, agreed):
+        sink = Sink(work.indices, work.grid.shape, None)
+        run(agreed, sink.deliver, store, executor, progress)
+    found = work.labelled(
+        sink.arrays(), dict.fromkeys(("coordinate", "sides", "ratio"), "1") | {"displacement": "l_c or rad"}
+    )
+    words = {"coordinate": np.array(SHOWN)} if which == "6" else {"sides": np.array([f"{s}1/{s}2" for s in SIDES])}
+    return replace(found, coords={**found.coords, **words}, attributes={**found.attributes, "figure": which})
+
+
+def _points(points: int | None, default: int) -> int:
+    return default if points is None else whole("points", points, 2, MOST_POINTS)
+
+
+def _figure_6(points: int) -> GridWork:
+    home = Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    axes = (Axis("coordinate", len(SHOWN), 0.0, len(SHOWN) - 1.0), Axis("displacement", points, -REACH, REACH))
+    return GridWork(_Displaced(paper.published_geometry(), home), Grid(axes), (INDICES["condition_number"],), 16384)
+
+
+@dataclass(frozen=True, eq=False)
+class _Displaced:
+    """A configuration moved along one of its coordinates."""
+
+    geometry: Geometry
+    home: Configuration
+
+    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+        columns = np.array([COORDINATES.index(name) for name in SHOWN])
+        tangent = np.zeros((count, 9))
+        tangent[np.arange(count), columns[at["coordinate"].round().astype(np.intp)]] = at["displacement"]
+        c = self.home.moved(tangent)
+        return {i.name: i.values(self.geometry, c, 1.0, threads) for i in indices}
+
+    def question(self) -> dict[str, Any]:
+        return {
+            "kind": "Fig. 6",
+            "geometry": {name: getattr(self.geometry, name) for name in TRIPLES},
+            "home": {"position": self.home.position, "internal_point": self.home.internal_point},
+            "internal_point": "held",
+        }
+
+
+def _figure_7(points: int) -> GridWork:
+    ratios = np.exp2(np.linspace(-OCTAVES, OCTAVES, points))
+    axes = (Axis("sides", len(SIDES), 0.0, len(SIDES) - 1.0), Axis("ratio", points, explicit=ratios))
+    indices = (INDICES["condition_number"], Index("design", _no_pose, "variable", VARIABLES, "l_c"))
+    return GridWork(_Ratios(), Grid(axes), indices, 1)
+
+
+def _no_pose(*_: Any) -> Any:
+    raise AssertionError("the design is found with the condition number")
+
+
+@dataclass(frozen=True)
+class _Ratios:
+    """The best design with a ratio of two sides."""
+
+    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+        kappa, design = np.full(count, np.nan), np.full((count, len(VARIABLES)), np.nan)
+        for k, (side, ratio) in enumerate(zip(at["sides"].round().astype(int), at["ratio"].tolist(), strict=True)):
+            result = optimize(ratio_study(SIDES[side], ratio))
+            if result.interrupted:
+                raise KeyboardInterrupt
+            if result.status == Status.OPTIMAL and result.best is not None:
+                found = result.best
+                kappa[k] = found.condition_number
+                design[k] = [found.variables[name] / found.characteristic_length for name in VARIABLES]
+        return {"condition_number": kappa, "design": design}
+
+    def question(self) -> dict[str, Any]:
+        return {"kind": "Fig. 7", "study": ratio_study("a", 1.0).to_dict()}
+
+
+def ratio_study(side: str, ratio: float) -> Study:
+    """Return the paper's study with the ratio of the first to the second side held, the longer side being 1."""
+    pair = {f"{side}1": min(ratio, 1.0), f"{side}2": min(1.0 / ratio, 1.0)}
+    others: dict[str, Any] = {f"{o}{i}": (0.0, 20.0) for o in SIDES if o != side for i in (1, 2)}
+    heights: dict[str, Any] = {"zp": (1e-3, 50.0), "zs": (1e-3, 50.0)}
+    return Study(
+        variables=pair | others | heights,
+        constraints={"radius_ratio": (None, 2.0)},
+        characteristic_length=(1e-3, 50.0),
+        starts=STARTS,
+    )

@@ -1,0 +1,174 @@
+"""Labelled arrays: what a sweep or an atlas gives, in memory, in a file, or as an xarray.Dataset."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninedof.chunks.store import plain, write_whole
+from ninedof.extras import optional
+
+__all__ = ["SweepResult"]
+
+FORMAT = "ninedof-sweep-1"
+HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
+
+
+@dataclass(frozen=True, eq=False)
+class SweepResult:
+    """Named arrays over named dimensions, with the values along each dimension and their units."""
+
+    arrays: Mapping[str, NDArray[Any]]
+    """Name of an index to its values."""
+    dims: Mapping[str, tuple[str, ...]]
+    """Name of an index to the names of the dimensions of its array, in order."""
+    coords: Mapping[str, NDArray[Any]]
+    """Name of a dimension to the values along it: numbers, or words."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Name of an index or a dimension to its unit: "rad", "length" for the caller's own, "1" for none."""
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+    """What was asked and with which versions, as plain JSON values."""
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return the array of an index, or the values along a dimension."""
+        if name in self.arrays:
+            return self.arrays[name]
+        if name in self.coords:
+            return self.coords[name]
+        raise KeyError(f"{name!r}: expected one of {', '.join([*self.arrays, *self.coords])}")
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the indices."""
+        return iter(self.arrays)
+
+    def __len__(self) -> int:
+        """Return the number of indices."""
+        return len(self.arrays)
+
+    def __repr__(self) -> str:
+        """Show names and shapes."""
+        shown = (f"{n}({', '.join(f'{d}: {len(self.coords[d])}' for d in self.dims[n])})" for n in self.arrays)
+        return f"<SweepResult {', '.join(shown)}>"
+
+    def at(self, name: str, position: tuple[Any, ...]) -> dict[str, Any]:
+        """Return the values of the coordinates at a position of an array, by dimension.
+
+        Parameters
+        ----------
+        name : str
+            Of an index.
+        position : tuple of int
+
+        """
+        return {d: self.coords[d][k].item() for d, k in zip(self.dims[name], position, strict=True)}
+
+    def least(self, name: str) -> tuple[float, dict[str, Any]]:
+        """Return the least value of an index that is not NaN, and where it is.
+
+        Parameters
+        ----------
+        name : str
+            Of an index.
+
+        Raises
+        ------
+        ValueError
+            If all of it is NaN.
+
+        """
+        array = self.arrays[name]
+        if np.isnan(array).all():
+            raise ValueError(f"{name}: got NaN everywhere, expected a value to be least")
+        position = np.unravel_index(int(np.nanargmin(array)), array.shape)
+        return float(array[position]), self.at(name, position)
+
+    def to_xarray(self) -> Any:
+        """Return the same as an `xarray.Dataset`, attributes and units with it.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed; the message says how to install it.
+
+        """
+        xarray = optional("xarray", "sweep", "SweepResult.to_xarray")
+        unit = {
+            name: {"units": self.units[name]} if name in self.units else {} for name in (*self.arrays, *self.coords)
+        }
+        return xarray.Dataset(
+            {name: (self.dims[name], array, unit[name]) for name, array in self.arrays.items()},
+            {name: (name, values, unit[name]) for name, values in self.coords.items()},
+            {name: _attribute(value) for name, value in self.attributes.items()},
+        )
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write everything as one .npz file, whole or not at all, and return its path.
+
+        Parameters
+        ----------
+        path : path
+            numpy's own suffix .npz is added if it is missing.
+
+        """
+        file = Path(path)
+        file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
+        head = {
+            "format": FORMAT,
+            "dims": plain(self.dims),
+            "units": plain(self.units),
+            "attributes": plain(self.attributes),
+        }
+        contents: dict[str, Any] = {HEAD: np.array(json.dumps(head))}
+        contents |= {COORDINATE + name: values for name, values in self.coords.items()}
+        contents |= {ARRAY + name: values for name, values in self.arrays.items()}
+        buffer = io.BytesIO()
+        np.savez(buffer, **contents)
+        write_whole(file, buffer.getvalue())
+        return file
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> SweepResult:
+        """Read what `save` wrote.
+
+        Parameters
+        ----------
+        path : path
+
+        Raises
+        ------
+        ValueError
+            If there is no such file, or it is not one of ours; the message names it.
+
+        """
+        try:
+            with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
+                contents = dict(found)
+            head = json.loads(str(contents[HEAD]))
+            if head["format"] != FORMAT:
+                raise KeyError
+            dims = {name: tuple(of) for name, of in head["dims"].items()}
+            return cls(
+                arrays={name: contents[ARRAY + name] for name in dims},
+                dims=dims,
+                coords={n.removeprefix(COORDINATE): v for n, v in contents.items() if n.startswith(COORDINATE)},
+                units=head["units"],
+                attributes=head["attributes"],
+            )
+        except OSError as error:
+            raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None
+        except (KeyError, TypeError, ValueError, IndexError, EOFError, BadZipFile):
+            raise ValueError(f"{os.fspath(path)}: got no {FORMAT!r} file, expected one that `save` wrote") from None
+
+
+def _attribute(value: Any) -> Any:
+    """Return a value that netCDF takes as an attribute."""
+    return value if isinstance(value, str | int | float) and not isinstance(value, bool) else json.dumps(plain(value))

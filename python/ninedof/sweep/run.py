@@ -1,0 +1,217 @@
+"""Sweeps as a caller asks for them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ninedof import _core
+from ninedof.arrays import thread_argument
+from ninedof.checks import choice, finite, known_keys
+from ninedof.chunks import Progress, chunk_argument, kept, run
+from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks.run import check_progress
+from ninedof.configuration import Configuration, single
+from ninedof.geometry import Geometry
+from ninedof.lengths import KINDS
+from ninedof.sweep.axis import Values, axes_of
+from ninedof.sweep.index import OwnIndex, indices_of
+from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses
+from ninedof.sweep.result import SweepResult
+from ninedof.sweep.sink import Sink
+from ninedof.sweep.variants import Variants
+from ninedof.sweep.work import GridWork
+
+__all__ = ["sweep", "sweep_designs"]
+
+# A chunk takes under a tenth of a second, so that Ctrl-C is heard.
+POSES, SEARCHES, DESIGNS = 65536, 64, 1024
+
+What = str | OwnIndex | Iterable[str | OwnIndex]
+
+
+def sweep(
+    geometry: Geometry,
+    home: Configuration,
+    over: Mapping[str, Values],
+    index: What = "condition_number",
+    *,
+    relative: bool = True,
+    internal_point: str = "held",
+    characteristic_length: float | str = 1.0,
+    executor: Executors | None = None,
+    out: str | os.PathLike[str] | None = None,
+    chunk: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Return an index over a grid of one, two or three of the nine configuration coordinates.
+
+    The other coordinates stay as they are at `home`. The platform turns by the rotation vector theta about axes of the
+    base frame, Q = exp(theta) Q_home.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    home : Configuration
+        A single one.
+    over : mapping
+        Name of a coordinate, x_p y_p z_p theta_x theta_y theta_z x_s y_s z_s, to its values: an array of shape (n,), or
+        a tuple (low, high, count) for evenly spaced ones. Lengths in one unit, angles in radians. The order of names is
+        the order of dimensions.
+    index : str, callable, or a sequence of them
+        "condition_number" (2-norm), "condition_number_frobenius", "reciprocal_condition_number", "manipulability",
+        "isotropy_residual", "singular_values", "leg_lengths", "leg_ratio" (longest / shortest leg) or
+        "singularity_margins". A callable takes the geometry, a stack of n configurations and the characteristic length
+        and returns n numbers.
+    relative : bool
+        Whether the values are displacements from `home`. If not they are the coordinates themselves, and a swept theta
+        takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
+    internal_point : {"held", "carried", "best"}
+        Where O is while the platform moves: where it is at home, as in the paper's Fig. 6; carried along as if fixed to
+        the platform, with swept x_s, y_s, z_s displacing it from there; or where the condition number is least
+        (`best_internal_point`; NaN where there is no such place).
+    characteristic_length : float or str
+        A number, or a kind of `ninedof.characteristic_length`, taken at each configuration.
+    executor : concurrent.futures.Executor, or callable that makes one, optional
+        Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
+        process by default. The values are the same, bit for bit. A lost worker costs its chunk, which is done again; a
+        ProcessPoolExecutor that breaks is replaced if a callable was given, and otherwise the rest is done here.
+    out : path, optional
+        Folder that keeps finished chunks. The same call takes up an interrupted sweep where it stopped, whenever it
+        was killed. A folder that answers another question is refused.
+    chunk : int, optional
+        Points a chunk. The values do not depend on it.
+    threads : int, optional
+        Threads within a chunk; one a processor by default, and one with an executor.
+    progress : callable, optional
+        Called as progress(points done, points in all, seconds to go).
+
+    Returns
+    -------
+    SweepResult
+        Arrays over the swept coordinates, in the order of `over`.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit; the message names it.
+    KeyboardInterrupt
+        Within a chunk's time of Ctrl-C. Finished chunks stay in `out`.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> home = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
+    >>> found = nd.sweep(g, home, {"x_p": (-1.0, 1.0, 5)})
+    >>> found["condition_number"].round(4).tolist()
+    [6.7289, 4.8289, 3.9071, 4.7669, 6.5228]
+
+    """
+    single(geometry, home)
+    grid = axes_of(over, COORDINATES)
+    rule = choice("internal_point", internal_point, RULES)
+    length = _length(characteristic_length)
+    swept = {axis.name for axis in grid.axes}
+    if swept & set(INTERNAL) and (rule == "best" or (rule == "carried" and not relative)):
+        where = "displaced from home" if rule == "best" else "displacements"
+        raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
+    if rule == "best" and isinstance(length, str):
+        raise ValueError(f'characteristic_length: got {length!r} with internal_point="best", expected a number')
+    poses = Poses(geometry, home, bool(relative), rule, length)
+    default = SEARCHES if rule == "best" else POSES
+    workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
+    work = GridWork(poses, grid, indices_of(index), chunk_argument(chunk, default), workers)
+    return _run(work, {n: "rad" if n in ROTATION else "length" for n in COORDINATES}, executor, out, progress)
+
+
+def sweep_designs(
+    design: Mapping[str, float],
+    over: Mapping[str, Values],
+    index: What = "condition_number",
+    *,
+    family: str = "hexagonal",
+    characteristic_length: float | str = 1.0,
+    executor: Executors | None = None,
+    out: str | os.PathLike[str] | None = None,
+    chunk: int | None = None,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Return an index at the neutral pose over a grid of one, two or three variables of a design family.
+
+    Parameters
+    ----------
+    design : mapping
+        Name to value of the variables that are not swept; those with a fixed default, as theta_z, may be left out.
+    over : mapping
+        Name of a variable to its values: an array of shape (n,), or a tuple (low, high, count) for evenly spaced ones.
+    index : str, callable, or a sequence of them
+        As in `sweep`. The condition number of untwisted hexagonal designs comes from the closed form, some nanoseconds
+        each; for anything else every design is made into a robot, some ten thousand a second.
+    family : str
+        As in `Study`: "hexagonal", "symmetric", "symmetric_nonplanar" or "general".
+    characteristic_length : float or str
+        A number, or a kind of `ninedof.characteristic_length`, taken at each design.
+    executor, out, chunk, progress : optional
+        As in `sweep`.
+
+    Returns
+    -------
+    SweepResult
+        Arrays over the swept variables, in the order of `over`.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit, or a point of the grid is no design; the message names it.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> plates = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828}
+    >>> found = nd.sweep_designs(plates, {"zs": (2.3, 2.6, 4)})
+    >>> found["condition_number"].round(3).tolist()
+    [3.924, 3.909, 3.91, 3.929]
+
+    """
+    known = [name for name, *_ in _core.family_variables(choice("family", family, _core.design_family_names()))]
+    grid = axes_of(over, known)
+    known_keys("design", design, known)
+    if both := [axis.name for axis in grid.axes if axis.name in design]:
+        raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
+    variants = Variants(
+        family, {name: finite(f"design[{name!r}]", v) for name, v in design.items()}, _length(characteristic_length)
+    )
+    study = variants.study()
+    study.vector({axis.name: float(axis.values()[0]) for axis in grid.axes})  # names what is missing
+    units = {name: "rad" if name in study.angles else "length" for name in known}
+    indices = indices_of(index)
+    fast = all(variants.has_closed_form(i, [axis.name for axis in grid.axes]) for i in indices)
+    work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
+    return _run(work, units, executor, out, progress)
+
+
+def _run(
+    work: GridWork,
+    units: Mapping[str, str],
+    executor: Executors | None,
+    out: str | os.PathLike[str] | None,
+    progress: Progress | None,
+) -> SweepResult:
+    check_executor(executor)
+    check_progress(progress)
+    with kept(work, out) as (store, agreed):
+        sink = Sink(work.indices, work.grid.shape, None if store is None else store.folder)
+        run(agreed, sink.deliver, store, executor, progress)
+        return work.labelled(sink.arrays(), units)
+
+
+def _length(value: Any) -> float | str:
+    if isinstance(value, str):
+        return choice("characteristic_length", value, KINDS)
+    length = finite("characteristic_length", value)
+    if not length > 0.0:
+        raise ValueError(f"characteristic_length: got {length!r}, expected a number above 0")
+    return length

@@ -1,0 +1,82 @@
+"""Points of a sweep over the variables of a design family, as robots."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ninedof.arrays import Floats
+from ninedof.chunks import Arrays
+from ninedof.conditioning import hexagonal_condition_number
+from ninedof.configuration import Configuration
+from ninedof.study import Study
+from ninedof.sweep.index import INDICES, Index
+
+__all__ = ["Variants"]
+
+HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
+
+
+@dataclass(frozen=True)
+class Variants:
+    """A family, the values of the variables that are not swept, and the characteristic length."""
+
+    family: str
+    design: Mapping[str, float]
+    length: float | str
+
+    def study(self) -> Study:
+        """Return a study that knows the family; the swept variables are free in it."""
+        return Study(self.family, variables=self.design)
+
+    def question(self) -> dict[str, Any]:
+        """Return what the values depend on."""
+        return {
+            "kind": "sweep of designs",
+            "family": self.family,
+            "design": dict(self.design),
+            "characteristic_length": self.length,
+        }
+
+    def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
+        """Return the indices at n designs."""
+        out: dict[str, Floats] = {i.name: np.empty((count, *i.tail)) for i in indices}
+        one_by_one = []
+        for index in indices:
+            if self.has_closed_form(index, at):
+                out[index.name][:] = self._closed_form(at, count, threads)
+            else:
+                one_by_one.append(index)
+        if one_by_one:
+            self._fill(out, at, one_by_one)
+        return dict(out)
+
+    def has_closed_form(self, index: Index, swept: Iterable[str]) -> bool:
+        """Tell whether the core has a vector kernel for an index: the hexagonal family without a twist."""
+        untwisted = "theta_z" not in swept and self.design.get("theta_z", 0.0) == 0.0
+        own = isinstance(self.length, float) and self.family == "hexagonal" and untwisted
+        return own and index == INDICES["condition_number"]  # equal, not the same: it may come from another process
+
+    def _closed_form(self, at: dict[str, Floats], count: int, threads: int | None) -> Floats:
+        columns = {n: np.broadcast_to(at.get(n, self.design.get(n, np.nan)), count) for n in HEXAGONAL}
+        for name in HEXAGONAL[:4]:
+            if columns[name].min() < 0.0:
+                raise ValueError(f"{name}: got {columns[name].min():g}, expected a side of 0 at least")
+        a1, a2, b1, b2, zp, zs = (column / self.length for column in columns.values())
+        found: Floats = hexagonal_condition_number(a1, a2, b1, b2, zp, zs, threads=threads)
+        return found
+
+    def _fill(self, out: dict[str, Floats], at: dict[str, Floats], indices: list[Index]) -> None:
+        study = self.study()
+        problem = study.problem()
+        x = study.vector({name: float(column[0]) for name, column in at.items()})
+        places = [problem.names.index(name) for name in at]
+        for k, point in enumerate(np.stack(list(at.values()), axis=-1).tolist()):
+            for place, value in zip(places, point, strict=True):
+                x[place] = value
+            geometry, neutral = problem.geometry(x), Configuration._of(*problem.configurations(x))[:1]
+            for index in indices:
+                out[index.name][k] = np.asarray(index.values(geometry, neutral, self.length, 1))[0]

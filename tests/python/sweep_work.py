@@ -1,0 +1,66 @@
+"""Indices for the tests of sweeps, in a module of their own: other processes must be able to import them."""
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import numpy as np
+
+import ninedof as nd
+
+G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
+GRID = {"x_p": (-1.0, 1.0, 23), "theta_y": (-0.6, 0.9, 17)}  # 391 points
+
+
+def note(folder, c):
+    """Leave a file for each call, named after the first configuration of the chunk."""
+    (Path(folder) / f"{os.getpid()}-{time.monotonic_ns()}").write_text(repr(c.position[0].tolist()))
+
+
+def noted(g, c, lc):
+    """The condition number, slowly, with every call noted where NINEDOF_TEST_NOTES says."""
+    note(os.environ["NINEDOF_TEST_NOTES"], c)
+    time.sleep(0.01)
+    return nd.condition_number(g, c, lc)
+
+
+def slow(g, c, lc):
+    time.sleep(0.02)
+    return nd.condition_number(g, c, lc)
+
+
+class FatalOnce:
+    """Kills its process the first time that it is called; a file tells the second from the first."""
+
+    def __init__(self, folder):
+        self.mark = Path(folder) / "killed"
+
+    def __call__(self, g, c, lc):
+        try:
+            self.mark.touch(exist_ok=False)
+        except FileExistsError:
+            return nd.condition_number(g, c, lc)
+        os.kill(os.getpid(), signal.SIGKILL)
+        raise AssertionError
+
+
+def fatal_to_workers(g, c, lc):
+    """Kills any process but the one that NINEDOF_TEST_PARENT names."""
+    if os.getpid() != int(os.environ["NINEDOF_TEST_PARENT"]):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return nd.condition_number(g, c, lc)
+
+
+def faulty(g, c, lc):
+    raise ZeroDivisionError("a fault of the index itself")
+
+
+def wrong_shape(g, c, lc):
+    return np.zeros(3)
+
+
+def main(folder):
+    """The sweep that is killed again and again, with index `noted`."""
+    nd.sweep(G, HOME, GRID, noted, out=folder, chunk=20)

@@ -1,0 +1,272 @@
+"""The atlas: its sequence, its counting, its best designs, and that none of them beats the proved optimum."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
+from pathlib import Path
+
+import design_oracle as designs
+import numpy as np
+import numpy_model as model
+import pytest
+
+import ninedof as nd
+from ninedof.atlas import run as module
+from ninedof.atlas import sample
+from ninedof.atlas.run import AtlasTask
+from ninedof.atlas.sample import STEPS, Sample, bounds_of, squared_radius_ratio
+from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
+
+RATIO_EDGES, CONDITION_EDGES = ratio_edges(), condition_edges()
+OPTIMUM = 3.762659  # of the paper's study, proved in the theory notes
+
+
+def oracle(x):
+    """Condition numbers by LAPACK, joints and J' assembled from their equations."""
+    v = dict(zip(sample.VARIABLES, np.asarray(x).T, strict=True))
+    zero = np.zeros(len(x))
+    m = model.Robot(
+        *designs.joints("hexagonal", v),
+        np.stack([zero, zero, v["zp"]], -1),
+        np.broadcast_to(np.eye(3), (len(x), 3, 3)),
+        np.stack([zero, zero, v["zs"]], -1),
+    )
+    sigma = model.singular_values(m)
+    return sigma[:, 0] / sigma[:, -1]
+
+
+@pytest.fixture(scope="module")
+def found():
+    return nd.atlas(40_000, seed=3)
+
+
+@pytest.fixture(scope="module")
+def all_designs():
+    return Sample(3, bounds_of(None)).designs(0, 40_000)
+
+
+@pytest.fixture(scope="module")
+def kappas(all_designs):
+    return oracle(all_designs)
+
+
+def test_the_closed_form_against_lapack(all_designs, kappas):
+    """At 40 000 designs; LAPACK loses digits with the condition number."""
+    np.testing.assert_allclose(sample.closed_form(all_designs) / kappas, 1.0, rtol=0.0, atol=1e-8)
+
+
+def test_every_design_is_counted_where_it_belongs(found, all_designs, kappas):
+    ratio = np.sqrt(squared_radius_ratio(all_designs))
+    rows = np.searchsorted(RATIO_EDGES, ratio, side="right") - 1
+    columns = np.searchsorted(CONDITION_EDGES, kappas, side="right") - 1
+    counts = np.zeros_like(found["histogram"])
+    np.add.at(counts, (rows, columns), 1)
+    # Rounding moves a design across an edge that it is on to the last digits; none of these is.
+    assert np.abs(ratio[:, None] / RATIO_EDGES[1:] - 1.0).min() > 1e-12
+    assert np.abs(kappas[:, None] / CONDITION_EDGES - 1.0).min() > 1e-12
+    np.testing.assert_array_equal(found["histogram"], counts)
+    for row in range(len(RATIO_EDGES)):
+        mine = np.flatnonzero(rows == row)
+        if not mine.size:
+            assert np.isnan(found["best"][row])
+            assert found["number"][row] == -1
+            assert np.isnan(found["design"][row]).all()
+            continue
+        best = mine[np.argmin(kappas[mine])]
+        assert found["number"][row] == best
+        assert found["best"][row] == pytest.approx(kappas[best], rel=1e-9)
+        assert found["design"][row].tolist() == all_designs[best].tolist()
+
+
+def test_the_radius_ratio_is_that_of_the_studies(all_designs):
+    study = nd.Study(constraints={"radius_ratio": (None, 2.0)})
+    for x, squared in zip(all_designs[:50], squared_radius_ratio(all_designs[:50]), strict=True):
+        point = study.evaluate(dict(zip(sample.VARIABLES, x.tolist(), strict=True)))
+        assert 2.0 * np.exp(-point.margins["radius_ratio"]) == pytest.approx(np.sqrt(squared), rel=1e-12)
+        radii = [np.linalg.norm(t[0]) for t in (point.geometry.base_external, point.geometry.platform_external)]
+        assert radii[0] / radii[1] == pytest.approx(np.sqrt(squared), rel=1e-12)
+
+
+def test_no_design_beats_the_proved_optimum():
+    found = nd.atlas(2_000_000, seed=1)
+    up_to_two = found["best"][: int(np.searchsorted(RATIO_EDGES, 2.0))]
+    assert OPTIMUM < np.nanmin(up_to_two) < 1.1 * OPTIMUM
+    narrow = {"a1": (0.0, 0.01), "a2": (5.9, 6.1), "b1": (2.95, 3.05), "b2": (0.0, 0.01), "zp": (4.9, 5.0)}
+    near = nd.atlas(200_000, bounds={**narrow, "zs_fraction": (0.63, 0.65)})
+    up_to_two = near["best"][: int(np.searchsorted(RATIO_EDGES, 2.0))]
+    assert OPTIMUM < np.nanmin(up_to_two) < 1.005 * OPTIMUM
+
+
+# --- The sequence -----------------------------------------------------------------------------------------------------
+
+
+def test_steps_are_powers_of_the_root():
+    low, high = Fraction(1), Fraction(2)
+    for _ in range(140):
+        middle = (low + high) / 2
+        low, high = (middle, high) if middle**7 < middle + 1 else (low, middle)
+    for k, step in enumerate(STEPS):
+        assert abs(step - 2**64 / low ** (k + 1)) <= 1
+
+
+def test_designs_by_number_are_the_same_wherever_they_are_asked_for():
+    drawn = Sample(7, bounds_of(None))
+    whole = drawn.designs(10**11, 10**11 + 1000)
+    parts = [drawn.designs(10**11 + k, 10**11 + min(k + 77, 1000)) for k in range(0, 1000, 77)]
+    assert np.concatenate(parts).tobytes() == whole.tobytes()
+    numbers = np.array([10**11 + 5, 10**11, 10**11 + 999], dtype=np.uint64)
+    assert drawn.at(numbers).tobytes() == whole[[5, 0, 999]].tobytes()
+
+
+@pytest.mark.parametrize("first", [0, 10**12])
+def test_designs_fill_their_bounds_evenly(first):
+    """In every direction and every pair of them, closer to uniform than chance would be, also very far out."""
+    bounds = {"a1": (1.0, 3.0), "zp": (2.0, 4.0), "zs_fraction": (0.25, 0.75)}
+    x = Sample(0, bounds_of(bounds)).designs(first, first + 65536)
+    unit = np.stack(
+        [(x[:, 0] - 1) / 2, *(x[:, k] / 10 for k in (1, 2, 3)), (x[:, 4] - 2) / 2, (x[:, 5] / x[:, 4] - 0.25) * 2]
+    )
+    assert unit.min() >= 0.0
+    assert unit.max() <= 1.0
+    for row in unit:
+        assert np.abs(np.sort(row) - (np.arange(65536) + 0.5) / 65536).max() < 2e-3  # by chance 4e-3
+    for j in range(6):
+        for k in range(j):
+            counts = np.histogram2d(unit[j], unit[k], bins=16, range=[[0, 1], [0, 1]])[0]
+            assert np.abs(counts / 256 - 1.0).max() < 0.15  # by chance 0.19
+
+
+def test_seeds_differ():
+    one, other = (Sample(seed, bounds_of(None)).designs(0, 100) for seed in (0, 1))
+    assert not np.isin(one, other).any()
+
+
+# --- Chunks -----------------------------------------------------------------------------------------------------------
+
+
+def same(one, other):
+    for name in one:
+        assert one[name].tobytes() == other[name].tobytes(), name
+
+
+@pytest.mark.parametrize("options", [{"chunk": 999}, {"chunk": 7000}, {"chunk": 10**7}])
+def test_chunks_change_nothing(found, options):
+    same(nd.atlas(40_000, seed=3, **options), found)
+
+
+def test_an_executor_changes_nothing(found):
+    with ThreadPoolExecutor(3) as pool:
+        same(nd.atlas(40_000, seed=3, chunk=1000, executor=pool), found)
+
+
+def test_tallies_add_up_in_any_order_and_ties_go_to_the_first():
+    order = np.random.default_rng(0).permutation(8)
+    parts = []
+    for k in range(8):
+        tally = Tally()
+        tally.add(100 * k, np.full(100, 2.0), np.full(100, 5.0 + (k == 3)))
+        parts.append(tally.arrays())
+    total = Tally()
+    for k in order:
+        total.merge(parts[k])
+    row = int(np.flatnonzero(total.number >= 0)[0])
+    assert (total.number[row], total.best[row], total.histogram.sum()) == (0, 5.0, 800)
+
+
+def test_what_is_out_of_range_is_counted_in_the_outermost_bins():
+    tally = Tally()
+    squared = np.array([0.0, 1e-9, 1e9, np.inf, np.nan, 1.0, 1.0])
+    kappa = np.array([1.0, 2.0, 3.0, 4.0, np.inf, np.inf, np.nan])
+    tally.add(0, squared, kappa)
+    assert tally.histogram.sum() == 7
+    assert tally.histogram[0].sum() == 2
+    assert tally.histogram[-1].sum() == 3
+    assert tally.histogram[:, -1].sum() == 3
+    assert tally.number[[0, -1]].tolist() == [0, 2]
+    assert tally.number[64 + 1] == -1, "nothing singular is best"
+
+
+def test_taken_up_after_a_kill(tmp_path, found):
+    """SIGKILL in the middle of a write; what was finished is not computed again."""
+    out = tmp_path / "out"
+    code = f"""
+import os, signal, ninedof as nd
+real, calls = os.fsync, []
+def fsync(file):
+    calls.append(file)
+    if len(calls) == 5:
+        os.kill(os.getpid(), signal.SIGKILL)
+    real(file)
+os.fsync = fsync
+nd.atlas(40_000, seed=3, chunk=4000, out={str(out)!r})
+"""
+    path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    ended = subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, timeout=60, check=False)
+    assert ended.returncode == -signal.SIGKILL
+    assert len(list(out.glob("chunk-*"))) == 3
+    calls, lock, original = [], threading.Lock(), AtlasTask.__call__
+
+    def counted(self):
+        with lock:
+            calls.append(self.first)
+        return original(self)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(AtlasTask, "__call__", counted)
+        same(nd.atlas(40_000, seed=3, out=out), found)
+    assert sorted(calls) == list(range(12_000, 40_000, 4000))
+    with pytest.raises(ValueError, match=r"another question \(it differs in seed"):
+        nd.atlas(40_000, seed=4, out=out)
+
+
+def test_memory_does_not_grow_with_the_number(monkeypatch):
+    """Peak of what numpy and Python allocate, for one million designs and for four."""
+    import tracemalloc
+
+    peaks = []
+    for count in (1_000_000, 4_000_000):
+        tracemalloc.start()
+        nd.atlas(count)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+    assert peaks[1] < 64e6
+
+
+def test_saved_and_read_back(found, tmp_path):
+    again = nd.SweepResult.load(found.save(tmp_path / "atlas"))
+    same(again, found)
+    assert again.attributes["bounds"]["zp"] == [0.05, 10.0]
+    assert again.least("best")[0] == np.nanmin(found["best"])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"designs": 0}, "designs: got 0"),
+        ({"designs": 1e8}, "designs: got 100000000.0, expected a whole number"),
+        ({"seed": -1}, "seed: got -1"),
+        ({"bounds": {"zs": (0, 1)}}, "bounds: got the entry 'zs', expected only a1"),
+        ({"bounds": {"a1": (3, 1)}}, r"bounds\['a1'\]: got \(3, 1\), expected 0 <= low <= high"),
+        ({"bounds": {"a1": (-1, 1)}}, r"bounds\['a1'\]: got -1"),
+        ({"bounds": {"zs_fraction": (0, 1.5)}}, "expected 0 <= low <= high <= 1"),
+        ({"bounds": [1]}, "bounds: got"),
+        ({"chunk": 0}, "chunk: got 0"),
+        ({"executor": 3}, "executor: got 3"),
+        ({"progress": 3}, "progress: got 3"),
+    ],
+)
+def test_bad_input_is_named(options, words):
+    with pytest.raises(ValueError, match=words):
+        nd.atlas(**({"designs": 10} | options))
+
+
+def test_progress():
+    seen = []
+    nd.atlas(10_000, chunk=1000, progress=lambda *a: seen.append(a))
+    assert [done for done, *_ in seen] == list(range(0, 11_000, 1000))
+    assert module.BLOCK < module.CHUNK

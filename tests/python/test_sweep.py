@@ -1,0 +1,410 @@
+"""Sweeps against plain numpy at every point, and the labels that go with the numbers."""
+
+import itertools
+import math
+
+import design_oracle as designs
+import numpy as np
+import numpy_model as model
+import pytest
+from scipy.spatial.transform import Rotation
+from sweep_work import HOME, G
+
+import ninedof as nd
+from ninedof.sweep.axis import Axis
+from ninedof.sweep.index import INDICES
+
+TURNED = nd.Configuration([0.3, -0.2, 4.1], Rotation.from_rotvec([0.1, -0.3, 0.4]), [0.1, 0.25, 2.2])
+NAMES = ("theta_x", "theta_y", "theta_z", "x_p", "y_p", "z_p", "x_s", "y_s", "z_s")
+
+
+def poses(home, over, relative=True, rule="held"):
+    """Points of the grid one at a time, by SciPy's rotations."""
+    p, q, s = [], [], []
+    for point in itertools.product(*over.values()):
+        at = dict(zip(over, point, strict=True))
+        theta = np.array([at.get(n, 0.0) for n in NAMES[:3]])
+        turn = Rotation.from_rotvec(theta).as_matrix()
+        turned = any(n in at for n in NAMES[:3])
+        own = home.rotation if relative or not turned else np.eye(3)
+        base = np.concatenate([home.position, home.internal_point]) if relative else np.zeros(6)
+        there = [
+            base[k] + at[n] if n in at else np.concatenate([home.position, home.internal_point])[k]
+            for k, n in enumerate(NAMES[3:])
+        ]
+        position, point_o = np.array(there[:3]), np.array(there[3:])
+        if rule == "carried":
+            shift = point_o - home.internal_point
+            point_o = position + turn @ own @ home.rotation.T @ (home.internal_point - home.position) + shift
+        p.append(position)
+        q.append(turn @ own)
+        s.append(point_o)
+    shape = [len(v) for v in over.values()]
+    return [np.reshape(a, (*shape, *np.shape(a[0]))) for a in (p, q, s)]
+
+
+def robot(home, over, **options):
+    p, q, s = poses(home, over, **options)
+    return model.Robot(G.base_external, G.base_internal, G.platform_external, G.platform_internal, p, q, s)
+
+
+def kappa(m):
+    sigma = model.singular_values(m)
+    return sigma[..., 0] / sigma[..., -1]
+
+
+GRIDS = {
+    "one": {"x_p": [-0.5, 0.0, 0.7]},
+    "two": {"theta_z": [-0.3, 0.2], "y_s": [0.1, 0.2, -0.4]},
+    "three": {"z_p": [-0.2, 0.4], "theta_x": [0.1, 0.5, -0.2], "theta_y": [0.0, 0.3]},
+    "all of p and s": {"x_s": [0.1, -0.1], "y_p": [0.3], "z_s": [-0.4, 0.2, 0.6]},
+}
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+@pytest.mark.parametrize("rule", ["held", "carried"])
+def test_displacements(grid, rule):
+    over = GRIDS[grid]
+    found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=2)
+    assert found.dims["condition_number"] == tuple(over)
+    np.testing.assert_allclose(found["condition_number"], kappa(robot(TURNED, over, rule=rule)), rtol=1e-9)
+    for name, values in over.items():
+        assert found[name].tolist() == values
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+def test_coordinates_themselves(grid):
+    """A swept theta takes the place of the rotation at home; without one the home's stays."""
+    over = {n: [v + {"z_p": 4.0, "z_s": 2.0}.get(n, 0.0) for v in values] for n, values in GRIDS[grid].items()}
+    found = nd.sweep(G, TURNED, over, relative=False)
+    np.testing.assert_allclose(found["condition_number"], kappa(robot(TURNED, over, relative=False)), rtol=1e-9)
+    moved = nd.sweep(G, TURNED, {"x_p": [0.3]}, relative=False)["condition_number"][0]
+    assert moved == pytest.approx(nd.condition_number(G, TURNED), rel=1e-12)
+
+
+def test_carried_coordinates_with_a_turn_follow_the_platform():
+    over = {"theta_y": [0.2, -0.4], "x_p": [0.5]}
+    found = nd.sweep(G, TURNED, over, relative=False, internal_point="carried")
+    expected = kappa(robot(TURNED, over, relative=False, rule="carried"))
+    np.testing.assert_allclose(found["condition_number"], expected, rtol=1e-9)
+
+
+def test_every_index():
+    over = GRIDS["two"]
+    m = robot(TURNED, over)
+    sigma, lengths = model.singular_values(m, 1.7), model.lengths(m)
+    J = model.jacobian(m, 1.7)
+    JJ = J @ np.swapaxes(J, -1, -2)
+    mean = np.trace(JJ, axis1=-2, axis2=-1)[..., None, None] / 6.0 * np.eye(6)
+    expected = {
+        "condition_number": sigma[..., 0] / sigma[..., -1],
+        "condition_number_frobenius": np.sqrt((sigma**2).sum(-1) * (sigma**-2).sum(-1)),
+        "reciprocal_condition_number": sigma[..., -1] / sigma[..., 0],
+        "manipulability": sigma.prod(-1),
+        "isotropy_residual": np.linalg.norm(JJ - mean, axis=(-2, -1)) / np.linalg.norm(mean, axis=(-2, -1)),
+        "singular_values": sigma,
+        "leg_lengths": lengths,
+        "leg_ratio": lengths.max(-1) / lengths.min(-1),
+        "singularity_margins": margins(m),
+    }
+    assert set(expected) == set(INDICES)
+    found = nd.sweep(G, TURNED, over, list(INDICES), characteristic_length=1.7, chunk=4)
+    assert list(found) == list(INDICES)
+    for name, values in expected.items():
+        np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
+    assert found["leg"].tolist() == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
+    assert found.dims["singularity_margins"] == ("theta_z", "y_s", "mechanism")
+    assert (found.units["leg_lengths"], found.units["theta_z"], found.units["y_s"]) == ("length", "rad", "length")
+
+
+def margins(m):
+    *_, u, ut = model.legs(m)
+    p, s = m.p[..., None, :], m.s[..., None, :]
+    unit = [v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (m.r - s, p + u - s, s - m.rh, s - p - ut)]
+    det_m = np.linalg.det(np.cross(unit[0], unit[1]))
+    return np.stack([det_m, np.linalg.det(unit[2]), np.linalg.det(unit[3])], axis=-1)
+
+
+def test_a_length_kind_is_taken_at_each_pose():
+    over = {"x_p": [0.0, 0.6], "theta_z": [0.0, 0.4]}
+    found = nd.sweep(G, HOME, over, characteristic_length="optimal")["condition_number"]
+    for k, m in np.ndenumerate(np.empty((2, 2))):
+        del m
+        c = HOME.moved([0, 0, over["theta_z"][k[1]], over["x_p"][k[0]], 0, 0, 0, 0, 0])
+        assert found[k] == pytest.approx(
+            float(nd.condition_number(G, c, nd.characteristic_length(G, c, "optimal"))), rel=1e-12
+        )
+
+
+def test_o_where_it_is_best():
+    over = {"x_p": (0.0, 1.2, 3), "theta_y": (0.0, 0.3, 2)}
+    best, held = (nd.sweep(G, HOME, over, internal_point=rule)["condition_number"] for rule in ("best", "held"))
+    assert (best <= held * (1.0 + 1e-9)).all()
+    assert (best[1:] < 0.99 * held[1:]).all()
+    with pytest.raises(ValueError, match=r'over: got x_p, z_s with internal_point="best", expected O'):
+        nd.sweep(G, HOME, {"x_p": [0.0], "z_s": [0.0]}, internal_point="best")
+    with pytest.raises(ValueError, match="characteristic_length: got 'optimal' with internal_point"):
+        nd.sweep(G, HOME, {"x_p": [0.0]}, internal_point="best", characteristic_length="optimal")
+
+
+def test_an_own_index():
+    def span(g, c, lc):
+        return np.linalg.norm(c.position - c.internal_point, axis=-1) * lc
+
+    found = nd.sweep(G, HOME, {"x_p": [0.0, 3.0]}, ["condition_number", span], characteristic_length=2.0)
+    assert found["span"].tolist() == pytest.approx([2 * 1.5393, 2 * math.hypot(1.5393, 3.0)])
+
+
+def test_singular_poses_are_infinite():
+    found = nd.sweep(G, HOME, {"z_s": [-2.4435, 0.0]}, ["condition_number", "reciprocal_condition_number"])
+    assert found["condition_number"].tolist()[0] == math.inf
+    assert found["reciprocal_condition_number"].tolist()[0] == 0.0
+    assert np.isfinite(found["condition_number"][1])
+
+
+@pytest.mark.parametrize("chunk", [1, 7, 100, 4096])
+@pytest.mark.parametrize("threads", [None, 1, 3])
+def test_chunks_and_threads_change_nothing(chunk, threads):
+    over = {"x_p": (-1.0, 1.0, 11), "theta_z": (-0.5, 0.5, 7), "z_s": (-0.3, 0.2, 5)}
+    whole = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"])
+    found = nd.sweep(G, HOME, over, ["condition_number", "leg_lengths"], chunk=chunk, threads=threads)
+    for name in whole:
+        assert found[name].tobytes() == whole[name].tobytes()
+
+
+@pytest.mark.parametrize("rule", ["carried", "best"])
+def test_chunks_change_nothing_whatever_o_does(rule):
+    over = {"x_p": (-1.0, 1.0, 7), "theta_x": (-0.5, 0.5, 5)}
+    whole = nd.sweep(G, TURNED, over, internal_point=rule)["condition_number"]
+    for chunk in (1, 4, 13):
+        found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=chunk)["condition_number"]
+        assert found.tobytes() == whole.tobytes()
+
+
+# --- Axes -------------------------------------------------------------------------------------------------------------
+
+
+def test_ranges_meet_their_ends_and_their_middle():
+    for low, high, count in ((-1.0, 1.0, 41), (0.1, 0.3, 3), (-0.7, 1e-9, 1000), (5.0, 5.0, 1), (1e300, -1e300, 5)):
+        values = Axis("x_p", count, low, high).values()
+        assert (values[0], values[-1], len(values)) == (low, high, count)
+        np.testing.assert_allclose(values, np.linspace(low, high, count), rtol=1e-13, atol=1e-15 * abs(low))
+    assert Axis("x_p", 41, -1.0, 1.0).values()[20] == 0.0
+
+
+BAD = {
+    "no axes": ({}, "over: got {}, expected a mapping of one to 3 names"),
+    "four": ({"x_p": [0.0], "y_p": [0.0], "z_p": [0.0], "x_s": [0.0]}, "a mapping of one to 3 names"),
+    "no mapping": ("x_p", "over: got 'x_p', expected a mapping"),
+    "a slip": ({"xp": [0.0]}, r"over: got 'xp', expected one of theta_x.*did you mean 'x_p'"),
+    "empty": ({"x_p": []}, "expected finite values of shape"),
+    "two dimensions": ({"x_p": [[0.0]]}, "expected finite values of shape"),
+    "a number": ({"x_p": 0.5}, "expected finite values of shape"),
+    "words": ({"x_p": ["a"]}, r"over\['x_p'\]: got"),
+    "infinite": ({"x_p": [math.inf]}, "expected finite values"),
+    "nan": ({"x_p": (0.0, math.nan, 3)}, r"over\['x_p'\]: got nan, expected a finite number"),
+    "a pair": ({"x_p": (0.0, 1.0)}, r"expected an array of values, or \(low, high, count\)"),
+    "count of 2.5": ({"x_p": (0.0, 1.0, 2.5)}, r"over\['x_p'\]: count: got 2.5, expected a whole number"),
+    "count of 0": ({"x_p": (0.0, 1.0, 0)}, "count: got 0"),
+    "count of 1": ({"x_p": (0.0, 1.0, 1)}, "expected a count of 2 at least, or low = high"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_axes_are_named(case):
+    over, words = BAD[case]
+    with pytest.raises(ValueError, match=words):
+        nd.sweep(G, HOME, over)
+
+
+BAD_OPTIONS = {
+    "index: got 'kappa', expected one of": {"index": "kappa"},
+    "index: got .*, expected a name, a callable": {"index": 3},
+    "index: got \\[\\], expected a name": {"index": []},
+    "expected different names": {"index": ["leg_ratio", "leg_ratio"]},
+    "internal_point: got 'fixed', expected one of held": {"internal_point": "fixed"},
+    "characteristic_length: got 0.0, expected a number above 0": {"characteristic_length": 0.0},
+    "characteristic_length: got 'mean', expected one of": {"characteristic_length": "mean"},
+    "chunk: got 0, expected a whole number": {"chunk": 0},
+    "threads: got 0": {"threads": 0},
+    "progress: got 3, expected a callable": {"progress": 3},
+    "expected O to be displacements": {"internal_point": "carried", "relative": False, "over": {"x_s": [0.0]}},
+}
+
+
+@pytest.mark.parametrize("words", BAD_OPTIONS)
+def test_bad_options_are_named(words, tmp_path):
+    with pytest.raises(ValueError, match=words):
+        nd.sweep(G, HOME, **({"over": {"x_p": [0.0]}, "out": tmp_path / "out"} | BAD_OPTIONS[words]))
+    assert not (tmp_path / "out").exists(), "bad input leaves no folder"
+
+
+def test_a_stack_is_no_home():
+    with pytest.raises(ValueError, match="configuration: got a stack"):
+        nd.sweep(G, nd.Configuration.neutral(4.0, [2.0, 2.1]), {"x_p": [0.0]})
+    with pytest.raises(ValueError, match="geometry: got Configuration"):
+        nd.sweep(HOME, G, {"x_p": [0.0]})
+
+
+# --- Designs ----------------------------------------------------------------------------------------------------------
+
+
+def test_designs_of_the_hexagonal_family():
+    held = {"a1": 0.4, "b2": 0.3, "zp": 4.0, "zs": 2.4, "theta_z": 0.2}
+    a2, b1 = np.array([4.0, 5.0, 6.5]), np.array([2.0, 3.0])
+    found = nd.sweep_designs(held, {"a2": a2, "b1": b1}, ["condition_number", "leg_lengths"], chunk=4)
+    v = dict(zip(("a2", "b1"), np.meshgrid(a2, b1, indexing="ij"), strict=True)) | {
+        n: np.full((3, 2), x) for n, x in held.items()
+    }
+    zero = np.zeros((3, 2))
+    m = model.Robot(
+        *designs.joints("hexagonal", v),
+        np.stack([zero, zero, v["zp"]], -1),
+        np.broadcast_to(Rotation.from_euler("z", 0.2).as_matrix(), (3, 2, 3, 3)),
+        np.stack([zero, zero, v["zs"]], -1),
+    )
+    np.testing.assert_allclose(found["condition_number"], kappa(m), rtol=1e-9)
+    np.testing.assert_allclose(found["leg_lengths"], model.lengths(m), rtol=1e-12)
+    assert found.attributes["design"] == held
+
+
+def test_the_closed_form_and_robots_agree_and_both_refuse_negative_sides():
+    held, over = {"a2": 6.0, "b1": 3.0, "zp": 4.0, "zs": 2.4}, {"a1": (0.0, 3.0, 7), "b2": (0.0, 2.0, 5)}
+    closed = nd.sweep_designs(held, over, characteristic_length=1.5)["condition_number"]
+
+    def robots(g, c, lc):
+        return nd.condition_number(g, c, lc)
+
+    np.testing.assert_allclose(
+        nd.sweep_designs(held, over, robots, characteristic_length=1.5)["robots"], closed, rtol=1e-9
+    )
+    with pytest.raises(ValueError, match=r"a1: got -0\.5, expected a side of 0 at least"):
+        nd.sweep_designs(held, {"a1": [0.1, -0.5], "b2": [0.0]})
+    twisted = nd.sweep_designs({**held, "b2": 0.0, "theta_z": 0.1}, {"a1": [0.0]})["condition_number"]
+    g = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0)
+    assert twisted[0] == pytest.approx(nd.condition_number(g, nd.Configuration.neutral(4.0, 2.4, 0.1)), rel=1e-12)
+
+
+def test_designs_of_a_symmetric_family():
+    held = {
+        "base_external_radius": 3.0,
+        "base_internal_radius": 2.5,
+        "platform_external_radius": 1.5,
+        "platform_external_angle": 1.0,
+        "platform_internal_radius": 1.2,
+        "platform_internal_angle": -0.5,
+        "zp": 3.0,
+        "zs": 1.8,
+    }
+    angles = [0.3, 0.9, 1.5]
+    found = nd.sweep_designs(held, {"base_internal_angle": angles}, family="symmetric")
+    assert found.units["base_internal_angle"] == "rad"
+    for k, angle in enumerate(angles):
+        g = nd.Geometry.symmetric((3.0, 0.0, 0.0), (2.5, angle, 0.0), (1.5, 1.0, 0.0), (1.2, -0.5, 0.0))
+        assert found["condition_number"][k] == pytest.approx(
+            float(nd.condition_number(g, nd.Configuration.neutral(3.0, 1.8))), rel=1e-12
+        )
+
+
+@pytest.mark.parametrize(
+    ("design", "over", "words"),
+    [
+        ({"a1": 0}, {"a1": [1.0]}, "design: got a1, which is swept"),
+        ({"a1": 0}, {"zs": [1.0]}, "a2: got no value, expected a number"),
+        ({"a1": 0, "a9": 2}, {"zs": [1.0]}, "design: got the entry 'a9'"),
+        ({"a1": math.inf}, {"zs": [1.0]}, r"design\['a1'\]: got inf"),
+        ({}, {"x_p": [1.0]}, "over: got 'x_p', expected one of a1"),
+        ({"a1": 0, "b1": 1, "b2": 1, "zp": 2, "zs": 1}, {"a2": [-1.0]}, "a2: got -1"),
+    ],
+)
+def test_bad_designs_are_named(design, over, words):
+    with pytest.raises(ValueError, match=words):
+        nd.sweep_designs(design, over)
+    with pytest.raises(ValueError, match="family: got 'round'"):
+        nd.sweep_designs(design, over, family="round")
+
+
+# --- Results ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def labelled():
+    return nd.sweep(G, HOME, {"theta_z": (-0.5, 0.5, 5), "x_p": [0.0, 0.3]}, ["leg_lengths", "condition_number"])
+
+
+def same(one, other):
+    assert list(one) == list(other)
+    assert dict(one.dims) == dict(other.dims)
+    assert dict(one.units) == dict(other.units)
+    assert list(one.coords) == list(other.coords)
+    for name in (*one, *one.coords):
+        assert one[name].tobytes() == other[name].tobytes()
+        assert one[name].dtype == other[name].dtype
+
+
+def test_saved_and_read_back(labelled, tmp_path):
+    path = labelled.save(tmp_path / "x.y")
+    assert path == tmp_path / "x.y.npz"
+    same(nd.SweepResult.load(path), labelled)
+    assert nd.SweepResult.load(path).attributes["home"]["position"] == [0.0, 0.0, 3.9828]
+    assert nd.SweepResult.load(path).attributes["ninedof"] == nd.__version__
+    assert labelled.save(path) == path
+    assert [p.name for p in tmp_path.iterdir()] == ["x.y.npz"]
+
+
+def test_a_failed_save_leaves_the_old_file(labelled, tmp_path, monkeypatch):
+    path = labelled.save(tmp_path / "x")
+    before = path.read_bytes()
+
+    def full(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OSError, match="disk full"):
+        labelled.save(path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["x.npz"]
+
+
+@pytest.mark.parametrize("contents", [b"", b"PK\x03\x04", b"\x93NUMPY", b"mine"])
+def test_other_files_are_refused(tmp_path, contents):
+    (tmp_path / "x.npz").write_bytes(contents)
+    with pytest.raises(ValueError, match=r"x\.npz: got no 'ninedof-sweep-1' file"):
+        nd.SweepResult.load(tmp_path / "x.npz")
+    np.savez(tmp_path / "x.npz", a=np.zeros(3))
+    with pytest.raises(ValueError, match=r"x\.npz: got no"):
+        nd.SweepResult.load(tmp_path / "x.npz")
+    with pytest.raises(ValueError, match="nothing: cannot be read"):
+        nd.SweepResult.load(tmp_path / "nothing")
+
+
+def test_as_xarray(labelled):
+    pytest.importorskip("xarray", reason="xarray is not installed: the extra `sweep`")
+    found = labelled.to_xarray()
+    assert found["leg_lengths"].dims == ("theta_z", "x_p", "leg")
+    assert found["leg_lengths"].attrs["units"] == "length"
+    assert found["theta_z"].attrs["units"] == "rad"
+    one = found["leg_lengths"].sel(theta_z=0.25, x_p=0.3, leg="q2").item()
+    assert one == labelled["leg_lengths"][3, 1, 4]
+    assert found.attrs["ninedof"] == nd.__version__
+
+
+def test_without_xarray_it_says_what_to_install(labelled, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match=r"needs xarray, .*pip install 'ninedof\[sweep\]'"):
+        labelled.to_xarray()
+
+
+def test_least_and_names(labelled):
+    value, at = labelled.least("condition_number")
+    array = labelled["condition_number"]
+    assert value == array.min()
+    where = np.unravel_index(array.argmin(), array.shape)
+    assert at == {"theta_z": labelled["theta_z"][where[0]], "x_p": labelled["x_p"][where[1]]}
+    assert labelled.least("leg_lengths")[1]["leg"][0] in "lqr"
+    assert len(labelled) == 2
+    assert repr(labelled).startswith("<SweepResult leg_lengths(theta_z: 5, x_p: 2, leg: 9), condition_number(")
+    with pytest.raises(KeyError, match="expected one of leg_lengths, condition_number, theta_z, x_p, leg"):
+        labelled["kappa"]
