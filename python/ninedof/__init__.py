@@ -48,6 +48,14 @@ from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.study import Study
 from ninedof.tracking import Tracked, TrackStatus, track
 from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.workspace import (
+    WorkspaceCells,
+    WorkspaceMap,
+    WorkspaceSlice,
+    WorkspaceStatus,
+    spread_rotations,
+    workspace,
+)
 
 __version__: str = _core.version
 
@@ -80,6 +88,10 @@ __all__ = [
     "TrackStatus",
     "Tracked",
     "VelocityMatrices",
+    "WorkspaceCells",
+    "WorkspaceMap",
+    "WorkspaceSlice",
+    "WorkspaceStatus",
     "applicable_bounds",
     "axis_singular_values",
     "best_internal_map",
@@ -113,10 +125,12 @@ __all__ = [
     "singular_values",
     "singularity",
     "singularity_margins",
+    "spread_rotations",
     "stiffness",
     "trace",
     "track",
     "uncontrolled_motions",
     "velocity_ellipsoid",
     "velocity_matrices",
+    "workspace",
 ]

@@ -27,7 +27,9 @@ CPP_LAYERS = (
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
-    {"workspace"},
+    {"chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"},
+    {"margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box", "sampling"}
+    | {"workspace"},
 )
 PRIVATE_LAYER = 8
 
@@ -82,6 +84,7 @@ CORE_USERS = {
     "limits",
     "study",
     "optimize",
+    "workspace",
 }
 
 # Figures are drawn from records and never compute.
