@@ -27,9 +27,9 @@ CPP_LAYERS = (
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
-    {"chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"},
-    {"margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box", "sampling"}
-    | {"workspace"},
+    {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
+    | {"margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
+    | {"sampling"},
 )
 PRIVATE_LAYER = 8
 

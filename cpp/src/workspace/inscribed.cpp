@@ -10,9 +10,9 @@ namespace {
 
 constexpr int rays = 500;        // on which a ball is checked
 constexpr int candidates = 6;    // cells from which the centre of the ball is sought
-constexpr std::size_t most_points = 30'000;  // of the surface that are looked at
+constexpr std::size_t most_points = 12'000;  // of the surface that are looked at
 
-/// Every n-th point: more than a few ten thousand only cost time, since their distance enters by its square.
+/// Every n-th point: more than some thousands only cost time, since their distance enters by its square.
 std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
   const std::size_t stride = points.size() / most_points + 1;
   std::vector<Vec3> out;
@@ -37,9 +37,10 @@ class Room {
   NearPoints near_;
 };
 
-/// Moves a centre while that gives room, in ever smaller steps.
+/// Moves a centre while that gives room, in ever smaller steps; never out of its own ball, and so not across the surface.
 InscribedBall settled(const Room& room, InscribedBall ball, double step) {
   const double least = 1e-5 * step;
+  step = std::min(step, 0.5 * ball.radius);
   for (; step > least; step *= 0.5)
     for (bool moved = true; moved;) {
       moved = false;

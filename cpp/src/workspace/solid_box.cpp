@@ -95,26 +95,24 @@ double volume(const InscribedBox& box) {
   return (box.high - box.low).prod();
 }
 
-/// Gives way with one face and takes with the others while that pays.
+/// Gives way with one face and takes with another, then with all, while that pays.
 InscribedBox traded(InscribedBox box, const std::vector<Vec3>& surface, const Chart& chart) {
   for (int face = 0; face < 6; ++face) extend(box, face / 2, face % 2 != 0, surface, chart);
   const Vec3 start = box.high - box.low;
   for (double step = 0.125; step > 1e-3; step *= 0.5)
     for (bool moved = true; moved;) {
       moved = false;
-      for (int give = 0; give < 6; ++give) {
+      for (int trade = 0; trade < 36; ++trade) {
+        const int give = trade / 6, first = trade % 6, axis = give / 2;
+        if (first == give) continue;
         InscribedBox now = box;
-        const int axis = give / 2;
         if (give % 2 != 0) {
           now.high[axis] -= step * start[axis];
         } else {
           now.low[axis] += step * start[axis];
         }
         if (now.high[axis] <= now.low[axis]) continue;
-        for (int n = 1; n <= 6; ++n) {
-          const int take = (give + n) % 6;
-          extend(now, take / 2, take % 2 != 0, surface, chart);
-        }
+        for (int n = 0; n < 6; ++n) extend(now, (first + n) % 6 / 2, (first + n) % 2 != 0, surface, chart);
         if (volume(now) <= volume(box) * (1.0 + 1e-9)) continue;
         box = now;
         moved = true;

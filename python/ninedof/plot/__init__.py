@@ -10,12 +10,14 @@ from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.poses import PoseConditions, poses
 from ninedof.plot.style import save
+from ninedof.plot.workspace import Section, workspace
 
 __all__ = [
     "DesignCurves",
     "EllipsoidPanel",
     "Mechanism",
     "PoseConditions",
+    "Section",
     "Sketch",
     "condition_curves",
     "convergence",
@@ -25,4 +27,5 @@ __all__ = [
     "mechanisms",
     "poses",
     "save",
+    "workspace",
 ]

@@ -76,8 +76,8 @@ def workspace(
         What makes a pose allowed, in any combination; everything is, where nothing is given.
 
         - "leg_limits": (low, high), each a number or shape (9,) in the order of `leg_lengths`; infinite ones are open.
-        - "base_cone", "platform_cone": greatest angle, radians, between each leg at its joint there and its direction at
-          `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
+        - "base_cone", "platform_cone": greatest angle, radians, between each leg at its joint there and its direction
+          at `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
         - "leg_clearance": least distance of the axes of legs that share no joint.
         - "condition_number": its greatest value, at least 1.
         - "singularity_free": True for poses that are connected with `home` and have det M, det B and det C signed as
