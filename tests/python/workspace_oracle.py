@@ -10,7 +10,10 @@ import numpy_model as model
 def robots(g, p, q, s):
     """The robot at n poses."""
     n = len(p)
-    fixed = (np.broadcast_to(t, (n, 3, 3)) for t in (g.base_external, g.base_internal, g.platform_external, g.platform_internal))
+    fixed = (
+        np.broadcast_to(t, (n, 3, 3))
+        for t in (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
+    )
     return model.Robot(*fixed, p, np.broadcast_to(q, (n, 3, 3)), np.broadcast_to(s, (n, 3)))
 
 
@@ -83,7 +86,9 @@ def volume_of_balls(inside, outside, low, high, steps=1500):
         a, b = chord(*ball)
         start, end = np.maximum(start, a), np.minimum(end, b)
     end = np.maximum(start, end)
-    holes = np.sort(np.stack([np.clip(chord(*ball), start, end) for ball in outside], axis=-1).reshape(2, *y.shape, -1), axis=0)
+    holes = np.sort(
+        np.stack([np.clip(chord(*ball), start, end) for ball in outside], axis=-1).reshape(2, *y.shape, -1), axis=0
+    )
     order = np.argsort(holes[0], axis=-1)
     a, b = (np.take_along_axis(h, order, axis=-1) for h in holes)
     length, reached = end - start, start

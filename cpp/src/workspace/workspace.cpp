@@ -1,5 +1,7 @@
 #include "ninedof/workspace.hpp"
 
+#include <algorithm>
+
 #include "workspace/checks.hpp"
 #include "workspace/limits.hpp"
 #include "workspace/surface.hpp"
@@ -39,7 +41,8 @@ void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bo
   map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(), home);
   // What was extrapolated in all is shared by the pieces.
   double found = 0.0;
-  for (const double piece : map.pieces) found += connected && &piece != map.pieces.data() ? 0.0 : piece;
+  for (std::size_t n = 0; n < (connected ? std::min<std::size_t>(1, map.pieces.size()) : map.pieces.size()); ++n)
+    found += map.pieces[n];
   if (found > 0.0)
     for (double& piece : map.pieces) piece *= map.volume / found;
   map.unseen = tree.unseen;

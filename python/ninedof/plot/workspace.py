@@ -93,7 +93,9 @@ def workspace(
     kinds = [_kind(name) for name in limit_names]
     with style.look():
         figure = style.new_figure(width=0.9 + 3.6 * max(len(sections), 2), height=6.6)
-        rows = figure.add_gridspec(2, 1, height_ratios=[1.55, 1.0], hspace=0.42, left=0.155, right=0.91, top=0.88, bottom=0.09)
+        rows = figure.add_gridspec(
+            2, 1, height_ratios=[1.55, 1.0], hspace=0.42, left=0.155, right=0.91, top=0.88, bottom=0.09
+        )
         above = rows[0].subgridspec(1, len(sections), wspace=0.3)
         colours = (float(np.min(percentiles)), float(np.max(percentiles)))
         shown: Any = None
@@ -137,7 +139,9 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     order = list(KINDS)
     number = np.array([order.index(kind) for kind in kinds] + [-1])[s.limit]
     boundary = np.ma.masked_where((s.state != 1) | (number < 0), number)
-    axes.imshow(boundary, cmap=ListedColormap([c for _, c in KINDS.values()]), vmin=-0.5, vmax=len(order) - 0.5, **options)
+    axes.imshow(
+        boundary, cmap=ListedColormap([c for _, c in KINDS.values()]), vmin=-0.5, vmax=len(order) - 0.5, **options
+    )
     line: dict[str, Any] = {"fill": False, "lw": 1.3, "ec": "white"}
     if section.ball is not None:
         axes.add_patch(Circle(tuple(np.asarray(section.ball[0])), section.ball[1], **line))
@@ -161,7 +165,14 @@ def _legend(figure: Figure, sections: Sequence[Section], kinds: Sequence[str]) -
     there = {kinds[n] for s in sections for n in np.unique(s.plane.limit[s.plane.state == 1]).tolist() if n >= 0}
     entries: list[Any] = [Patch(color=colour, label=words) for kind, (words, colour) in KINDS.items() if kind in there]
     if entries:
-        figure.legend(handles=entries, loc="upper left", ncols=5, bbox_to_anchor=(0.02, 0.995), title="the boundary by what limits it", alignment="left")
+        figure.legend(
+            handles=entries,
+            loc="upper left",
+            ncols=5,
+            bbox_to_anchor=(0.02, 0.995),
+            title="the boundary by what limits it",
+            alignment="left",
+        )
 
 
 def _shares(axes: Any, shares: Mapping[str, float]) -> None:
