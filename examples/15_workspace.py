@@ -24,9 +24,8 @@ print(f"{found.status}: volume {found.volume:.3f}, error {found.error:.4f}, unse
 print(f"looked at {found.evaluations} poses in {found.levels.shape[0]} levels; runs to the box: {found.box_limits}")
 print(f"ball of radius {found.ball_radius:.3f} about {np.round(found.ball_centre, 2) + 0.0}")
 print(f"box of sides {np.round(found.box_high - found.box_low, 2)}")
-print(
-    f"global conditioning index {found.conditioning_index:.4f}, worst condition number {found.worst_condition_number:.3f}"
-)
+kappa = found.worst_condition_number
+print(f"global conditioning index {found.conditioning_index:.4f}, worst condition number {kappa:.3f}")
 print("boundary: " + ", ".join(f"{name} {100 * share:.1f} %" for name, share in found.limits(grouped=True).items()))
 
 print(f"{'O':34}{'volume':>8}{'index':>8}")
@@ -43,9 +42,8 @@ for name, rule in rules.items():
 turning = nd.workspace(
     geometry, archetype="orientation", position=home.position, region={"angle": 1.2}, criteria=criteria, home=home
 )
-print(
-    f"orientations at home: {100 * turning.volume / (8 * np.pi**2):.2f} % of SO(3), any by {turning.ball_radius:.3f} rad"
-)
+share = turning.volume / (8.0 * np.pi**2)
+print(f"orientations at home: {100 * share:.2f} % of SO(3), any turn by {turning.ball_radius:.3f}")
 
 if "--figure" in sys.argv:
     from ninedof import plot

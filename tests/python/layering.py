@@ -28,7 +28,7 @@ CPP_LAYERS = (
     {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
     {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
-    | {"margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
+    | {"pose_margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
     | {"sampling"},
 )
 PRIVATE_LAYER = 8
@@ -55,7 +55,7 @@ PYTHON_LAYERS = (
     {"check", "words"},  # look at a result that is handed to them; Result.check and Result.summary call them
     {"result", "warm", "optimize", "sweep", "pareto", "workspace"},
     {"__init__"},
-    {"records", "front_records", "paper"},
+    {"records", "front_records", "workspace_records", "paper"},
     {"designs"},
     {"plot"},
     {"job", "report", "viewer", "export"},

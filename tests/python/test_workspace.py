@@ -77,11 +77,11 @@ def test_all_criteria_against_numpy(published):
         "leg_limits": (2.0, 6.8),
         "base_cone": 0.5,
         "platform_cone": {"max": 1.1, "axis": [0.1, 0.0, -1.0]},
-        "leg_clearance": 1.72,
+        "leg_clearance": 1.76,
         "condition_number": 7.0,
     }
     found = nd.workspace(published, BOX, criteria=criteria, home=HOME, rotation=TILTED)
-    p = sampled(rng, 60_000)
+    p = sampled(rng, 25_000)
     m = oracle.robots(published, p, TILTED, oracle.half_way(published, p, TILTED))
     home = model.robot(published, HOME)
     near = oracle.legs_allowed(m, 2.0, 6.8)
@@ -93,7 +93,7 @@ def test_all_criteria_against_numpy(published):
     }
     allowed = np.logical_and.reduce(list(each.values()))
     candidates = np.flatnonzero(allowed)
-    close = oracle.clearance(oracle.robots(published, p[candidates], TILTED, m.s[candidates])) < 1.72
+    close = oracle.clearance(oracle.robots(published, p[candidates], TILTED, m.s[candidates])) < 1.76
     allowed[candidates[close]] = False
     assert 0 < close.sum() < len(candidates)
     agrees(found, allowed, p)
@@ -302,7 +302,7 @@ def test_standard_error_of_a_sample_is_the_scatter_of_samples(published):
 
 
 def test_error_falls_with_the_surface(published):
-    """Twice the levels in work that grows like an area: the error is of the order of evaluations to the power minus one."""
+    """Work grows with the boundary's area: the error falls about as one over the poses looked at."""
     found = nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5)}, tolerance=2e-5)
     _, evaluations, _, error = found.levels[2:].T
     slope = np.polyfit(np.log(evaluations - 25_000), np.log(error), 1)[0]

@@ -1,4 +1,4 @@
-"""Workspaces once more: each criterion typed from its definition in plain numpy, for many positions or orientations at once.
+"""Workspaces once more: each criterion typed from its definition in plain numpy, for many poses at once.
 
 Shares with the package only the paper and the numpy robot of the other tests.
 """
@@ -42,7 +42,7 @@ def angles(m, platform, axis=None, home=None):
     return np.arccos(np.clip(cosine, -1.0, 1.0))
 
 
-def clearance(m, samples=200):
+def clearance(m, samples=80):
     """Least distance of legs that share no joint: points along one leg against the other leg, shape (n,)."""
     head, upper_joint = m.p[:, None] + m.u @ np.swapaxes(m.Q, -1, -2), m.p[:, None] + m.ut @ np.swapaxes(m.Q, -1, -2)
     o = np.broadcast_to(m.s[:, None], head.shape)

@@ -29,8 +29,8 @@ Vec3 Placement::point(const Vec3& p, const Mat3& q) const {
   return lower_ + (searched() ? 0.5 : rule_.fraction) * (p + q * upper_ - lower_);
 }
 
-InternalPoint Placement::best(const Vec3& p, const Mat3& q, const std::optional<Vec3>& nearby) const {
-  return best_internal_point(g_, p, q, problem_, nearby);
+InternalPoint Placement::best(const Vec3& p, const Mat3& q) const {
+  return best_internal_point(g_, p, q, problem_);
 }
 
 double Placement::speed_translating() const {

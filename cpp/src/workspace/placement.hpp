@@ -12,8 +12,9 @@ class Placement {
   bool searched() const { return rule_.kind == InternalPointRule::Kind::best; }
   Vec3 point(const Vec3& p, const Mat3& q) const;
 
-  /// The best point and its condition number, warm-started from that of a pose nearby if there is one. NaN where there is none.
-  InternalPoint best(const Vec3& p, const Mat3& q, const std::optional<Vec3>& nearby) const;
+  /// The best point of the chamber between the plates, and its condition number. NaN where there is none. Of the pose alone:
+  /// not of what was found nearby, so that a map does not depend on the order of its poses.
+  InternalPoint best(const Vec3& p, const Mat3& q) const;
 
   /// How fast O, and O seen from the platform's point u~, move at most: by unit of translation, or by radian.
   double speed_translating() const;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "workspace/margins.hpp"
+#include "workspace/pose_margins.hpp"
 
 namespace ninedof {
 

@@ -4,5 +4,6 @@ from ninedof.commands.evaluation import evaluate
 from ninedof.commands.front import pareto
 from ninedof.commands.optimization import optimize
 from ninedof.commands.verdicts import paper
+from ninedof.commands.workspace import workspace
 
-__all__ = ["evaluate", "optimize", "paper", "pareto"]
+__all__ = ["evaluate", "optimize", "paper", "pareto", "workspace"]

@@ -31,7 +31,7 @@ class WorkspaceStatus(StrEnum):
     LIMITED = "limited"
     """`most_evaluations` came first: `error` says how far it got."""
     EMPTY = "empty"
-    """No allowed pose was found, or none connected with home where that is asked for; `unseen` says how sure that is."""
+    """No allowed pose was found, or none connected with home where that is asked for; `unseen` says how sure."""
     STOPPED = "stopped"
     """Interrupted: what was known after the last whole level, NaN if there was none."""
 

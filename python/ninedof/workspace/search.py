@@ -156,7 +156,7 @@ def workspace(
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)
-    settings = {
+    settings: dict[str, Any] = {
         "method": method,
         "tolerance": as_number("tolerance", tolerance),
         "resolution": whole(

@@ -1,4 +1,4 @@
-#include "workspace/margins.hpp"
+#include "workspace/pose_margins.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
     home_.rotation = set_ ? Mat3(Mat3::Identity()) : domain.rotations.front();
     home_.internal_point = placement_.point(home_.position, home_.rotation);
     if (placement_.searched()) {
-      const InternalPoint best = placement_.best(home_.position, home_.rotation, {});
+      const InternalPoint best = placement_.best(home_.position, home_.rotation);
       if (!best.s.hasNaN()) home_.internal_point = best.s;
     }
   }
@@ -117,7 +117,6 @@ double Margins::leg_speed_of(const WorkspaceCriteria& criteria) const {
 
 void Margins::fill(Block& b, const Vec3* x, long count, const Mat3* rotation) const {
   b.one_rotation = rotation != nullptr;
-  std::optional<Vec3> nearby;
   if (rotation) Eigen::Map<RowMajor3>(b.q.data()) = *rotation;
   for (long k = 0; k < count; ++k) {
     const Vec3 p = chart_.positional() ? x[k] : domain_.position;
@@ -126,10 +125,10 @@ void Margins::fill(Block& b, const Vec3* x, long count, const Mat3* rotation) co
     if (!rotation) Eigen::Map<RowMajor3>(&b.q[Block::size(9 * k)]) = q;
     Vec3 s = placement_.point(p, q);
     if (placement_.searched()) {
-      const InternalPoint best = placement_.best(p, q, nearby);
+      const InternalPoint best = placement_.best(p, q);
       b.found[Block::size(k)] = !best.s.hasNaN();
       b.kappa[Block::size(k)] = best.value;
-      if (!best.s.hasNaN()) nearby = s = best.s;
+      if (!best.s.hasNaN()) s = best.s;
     }
     Eigen::Map<Vec3>(&b.s[Block::size(3 * k)]) = s;
   }
