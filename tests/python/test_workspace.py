@@ -75,9 +75,9 @@ def test_all_criteria_against_numpy(published):
     rng = np.random.default_rng(1)
     criteria = {
         "leg_limits": (2.0, 6.8),
-        "base_cone": 0.5,
+        "base_cone": 0.35,
         "platform_cone": {"max": 1.1, "axis": [0.1, 0.0, -1.0]},
-        "leg_clearance": 1.76,
+        "leg_clearance": 1.7,
         "condition_number": 7.0,
     }
     found = nd.workspace(published, BOX, criteria=criteria, home=HOME, rotation=TILTED)
@@ -87,13 +87,13 @@ def test_all_criteria_against_numpy(published):
     near = oracle.legs_allowed(m, 2.0, 6.8)
     each = {
         "leg_limits": near,
-        "base_cone": oracle.angles(m, False, home=home).max(axis=-1) <= 0.5,
+        "base_cone": oracle.angles(m, False, home=home).max(axis=-1) <= 0.35,
         "platform_cone": oracle.angles(m, True, axis=np.array([0.1, 0.0, -1.0])).max(axis=-1) <= 1.1,
         "condition_number": model.condition_number(m) <= 7.0,
     }
     allowed = np.logical_and.reduce(list(each.values()))
     candidates = np.flatnonzero(allowed)
-    close = oracle.clearance(oracle.robots(published, p[candidates], TILTED, m.s[candidates])) < 1.76
+    close = oracle.clearance(oracle.robots(published, p[candidates], TILTED, m.s[candidates])) < 1.7
     allowed[candidates[close]] = False
     assert 0 < close.sum() < len(candidates)
     agrees(found, allowed, p)
