@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 namespace ninedof {
 
@@ -28,13 +27,10 @@ std::array<Vec3, 6> Cones::directions(const Configuration& c) const {
   return out;
 }
 
-Cones::Least Cones::least(const Configuration& c) const {
+std::array<double, 6> Cones::margins(const Configuration& c) const {
   const std::array<Vec3, 6> d = directions(c);
-  Least out{std::numeric_limits<double>::infinity(), 0};
-  for (std::size_t k = 0; k < 6; ++k) {
-    const double margin = angle_ - std::atan2(d[k].cross(axis_[k]).norm(), d[k].dot(axis_[k]));
-    if (!(margin >= out.margin)) out = {margin, static_cast<int>(k)};
-  }
+  std::array<double, 6> out;
+  for (std::size_t k = 0; k < 6; ++k) out[k] = angle_ - std::atan2(d[k].cross(axis_[k]).norm(), d[k].dot(axis_[k]));
   return out;
 }
 

@@ -12,12 +12,8 @@ class Cones {
  public:
   Cones(const Geometry& g, const ConeLimit& limit, bool platform, const Configuration& home);
 
-  /// The limit less the largest angle, radians, and the leg that has it (0..5: l1 l2 l3 and the body's internal ones).
-  struct Least {
-    double margin;
-    int leg;
-  };
-  Least least(const Configuration& c) const;
+  /// The limit less each angle, radians: l1 l2 l3 and the body's internal legs.
+  std::array<double, 6> margins(const Configuration& c) const;
 
  private:
   std::array<Vec3, 6> directions(const Configuration& c) const;  // away from the joint, in the body's frame

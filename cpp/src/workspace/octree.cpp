@@ -12,7 +12,7 @@ namespace {
 
 constexpr double curvature_room =
     2.0;  // how much more than the corners and the centre show a margin may curve between them
-constexpr double guard = 0.05;
+constexpr double guard = 0.1;
 constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and corners shared with neighbours
 
 /// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells that nothing is proved of.
@@ -178,6 +178,7 @@ class Grower {
   std::vector<Leaf> settled_;  // the tree itself stays as it was after the last whole level
   std::vector<double> parents_;
   long evaluations_ = 0, expected_ = 0;
+  double moved_ = 0.0;  // the last change of the extrapolated volume
   double volume_ = std::numeric_limits<double>::quiet_NaN(), error_ = volume_;
 };
 
@@ -281,12 +282,14 @@ void Grower::measure(bool first_piece_alone) {
     if (!any) continue;
     change += held - parents_[p];
   }
-  // The error falls fourfold from level to level: what is left of it is a third of the last change. Two such
-  // extrapolations tell how well that holds; a share of the change guards against their agreeing by chance.
+  // The error falls fourfold from level to level: what is left of it is a third of the last change. Two such extrapolations
+  // tell how well that holds. A share of the change, and of how they differed before, guard against their agreeing by chance.
   const double better = parents_.empty() ? volume : volume + change / 3.0;
+  const double moved = std::abs(better - volume_);
   error_ = parents_.empty()         ? 0.5 * undecided
            : tree.levels.size() < 2 ? std::abs(change) / 3.0
-                                    : std::max(std::abs(better - volume_), guard * std::abs(change));
+                                    : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
+  moved_ = tree.levels.size() < 2 ? 0.0 : moved;
   volume_ = std::clamp(better, 0.0, m_.chart().volume());
   tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
 }

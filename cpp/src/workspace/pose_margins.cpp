@@ -79,38 +79,37 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   const PerMechanism at_home = singularity_margins(g, home_);
   signs_ = {at_home.m < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
 
-  const auto group = [&](bool wanted, double scale) {
-    if (wanted) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
+  // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
+  const auto groups = [&](int count, double scale) {
+    for (int n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
   };
   const double size = size_of(g);
-  group(criteria.legs.has_value() || placement_.searched(), size);
-  group(base_.has_value(), 1.0);
-  group(platform_.has_value(), 1.0);
-  group(criteria.leg_clearance.has_value(), size);
-  group(criteria.condition_number.has_value(), 1.0);
-  for (int k = 0; k < 3; ++k) group(criteria.singularity_free, 1.0);
+  if (criteria.legs)
+    for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
+      if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
+  groups(static_cast<int>(limited_legs_.size()), size);
+  legs_alone_ = !chart_.has_region() && !placement_.searched();
+  if (placement_.searched()) groups(1, size);
+  if (base_) groups(6, 1.0);
+  if (platform_) groups(6, 1.0);
+  if (criteria.leg_clearance) groups(1, size);
+  if (criteria.condition_number) groups(1, 1.0);
+  if (criteria.singularity_free) groups(3, 1.0);
+  legs_alone_ = legs_alone_ && pose_groups_ == static_cast<int>(limited_legs_.size()) && pose_groups_ > 0;
   groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
-  leg_speed_ = leg_speed_of(criteria);
-  legs_alone_ = criteria.legs && pose_groups_ == 1 && !chart_.has_region() && !placement_.searched();
 }
 
-double Margins::leg_speed_of(const WorkspaceCriteria& criteria) const {
-  if (!criteria.legs) return 0.0;
+double Margins::leg_speed() const {
   double most = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const auto limited = [&](Eigen::Index leg) {
-      return criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg]);
-    };
-    const bool moves = chart_.positional();
+  for (const int leg : limited_legs_) {
+    const auto i = static_cast<std::size_t>(leg % 3);
     const double turn = chart_.turning();
-    if (limited(row)) most = std::max(most, moves ? 1.0 : turn * g_.platform_external()[i].norm());
-    if (placement_.searched()) continue;
-    if (limited(row + 3))
-      most = std::max(most, moves ? placement_.relative_translating()
-                                  : turn * placement_.relative_turning(g_.platform_internal()[i]));
-    if (limited(row + 6))
-      most = std::max(most, moves ? placement_.speed_translating() : turn * placement_.speed_turning());
+    const Vec3 &u = g_.platform_external()[i], &u_tilde = g_.platform_internal()[i];
+    const bool moves = chart_.positional();
+    most = std::max(
+        most, leg < 3   ? (moves ? 1.0 : turn * u.norm())
+              : leg < 6 ? (moves ? placement_.relative_translating() : turn * placement_.relative_turning(u_tilde))
+                        : (moves ? placement_.speed_translating() : turn * placement_.speed_turning()));
   }
   return most;
 }
@@ -139,46 +138,29 @@ void Margins::fill(Block& b, const Vec3* x, long count, const Mat3* rotation) co
   if (criteria_.singularity_free) batch::singularity_margins(g_, c, b.det.data());
 }
 
-void Margins::judge_legs(const double* lengths, bool searched, PointMargins& m) const {
-  const LegLimits& l = *criteria_.legs;
-  // Where O is sought, the internal legs are within their limits or O has no place.
-  for (int leg = 0; leg < (searched ? 3 : 9); ++leg) {
-    keep_least(lengths[leg] - l.low[leg], limit::leg_low + leg, m.margin[0], m.limit[0]);
-    keep_least(l.high[leg] - lengths[leg], limit::leg_high + leg, m.margin[0], m.limit[0]);
-  }
-  m.proof = m.margin[0];
-}
-
 PointMargins Margins::judge_one(const Block& b, long k) const {
   PointMargins m;
-  m.margin.fill(infinity);
   m.proof = infinity;
-  const bool searched = placement_.searched();
   std::size_t next = 0;
-  if (criteria_.legs) judge_legs(&b.length[Block::size(9 * k)], searched, m);
-  if (searched) {
-    // A place is there or is not: the legs' margin is then no measure of how nearly. Any size will do that is small beside others.
-    const double step = scale_[0];
-    if (!b.found[Block::size(k)] && m.margin[0] >= 0.0) {
-      m.margin[0] = -step;
-      m.limit[0] = limit::internal_point;
-    }
-    m.margin[0] = std::min(m.margin[0], step);
-  }
-  if (criteria_.legs || searched) ++next;
-  const Configuration c = b.at(k);
   const auto put = [&](double margin, int which) {
     m.margin[next] = margin;
     m.limit[next++] = static_cast<std::uint8_t>(which);
   };
-  if (base_) {
-    const Cones::Least least = base_->least(c);
-    put(least.margin, limit::base_cone + least.leg);
+  for (const int leg : limited_legs_) {
+    const double length = b.length[Block::size(9 * k + leg)];
+    const double above = length - criteria_.legs->low[leg], below = criteria_.legs->high[leg] - length;
+    put(std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
+    m.proof = std::min({m.proof, above, below});
   }
-  if (platform_) {
-    const Cones::Least least = platform_->least(c);
-    put(least.margin, limit::platform_cone + least.leg);
-  }
+  // O has a place or has none: no measure of how nearly. Where an external leg is out of its limits, none was sought.
+  if (placement_.searched())
+    put(b.found[Block::size(k)] || m.proof < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
+  const Configuration c = b.at(k);
+  const auto put_cones = [&](const Cones& cones, int first) {
+    for (const double margin : cones.margins(c)) put(margin, first++);
+  };
+  if (base_) put_cones(*base_, limit::base_cone);
+  if (platform_) put_cones(*platform_, limit::platform_cone);
   if (criteria_.leg_clearance) {
     const Closest closest = closest_legs(g_, c, share_joint_);
     put(std::min(closest.distance, 10.0 * scale_[next]) - *criteria_.leg_clearance,

@@ -15,7 +15,7 @@ namespace ninedof {
 /// Thrown inside the search when a stop is requested; never leaves workspace().
 struct Stopped {};
 
-constexpr int most_groups = 9;
+constexpr int most_groups = 9 + 6 + 6 + 1 + 1 + 3 + 1;  // legs, cones, clearance, condition, singularities, region
 
 /// What is known of one point. Allowed means that every margin is at least zero.
 struct PointMargins {
@@ -41,7 +41,7 @@ class Margins {
   const Chart& chart() const { return chart_; }
   int groups() const { return groups_; }
   /// Lengths per unit of the coordinates, at most.
-  double leg_speed() const { return leg_speed_; }
+  double leg_speed() const;
   /// Whether `proof` says all there is to say.
   bool legs_alone() const { return legs_alone_; }
   /// The home pose in the chart.
@@ -67,8 +67,6 @@ class Margins {
   void fill(Block& b, const Vec3* x, long count, const Mat3* rotation) const;
   void judge(Block& b, long count, PointMargins* out) const;
   PointMargins judge_one(const Block& b, long k) const;
-  void judge_legs(const double* lengths, bool searched, PointMargins& m) const;
-  double leg_speed_of(const WorkspaceCriteria& criteria) const;
 
   const Geometry& g_;
   WorkspaceDomain domain_;
@@ -79,11 +77,11 @@ class Margins {
   Vec3 home_at_;
   std::optional<Cones> base_, platform_;
   std::array<bool, leg_pairs> share_joint_;
+  std::vector<int> limited_legs_;
   std::array<double, 3> signs_{};
   std::array<double, most_groups> scale_{};  // of each group of one pose
   int pose_groups_ = 0, groups_ = 0;
   bool set_ = false, legs_alone_ = false;
-  double leg_speed_ = 0.0;
 };
 
 }  // namespace ninedof

@@ -116,7 +116,7 @@ def workspace(
     seed : int
         Of audit and sample.
     most_evaluations : int
-        Poses after which an octree ends; about 200 bytes each are kept.
+        Poses after which an octree ends; about 350 bytes each are kept.
     threads : int, optional
         One a processor by default. The result does not depend on it.
     progress : callable, optional
