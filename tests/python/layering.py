@@ -28,7 +28,7 @@ CPP_LAYERS = (
     {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
     {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
-    | {"pose_margins", "lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
+    | {"pose_margins", "cell_lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
     | {"sampling"},
 )
 PRIVATE_LAYER = 8

@@ -1,7 +1,7 @@
 #pragma once
 /// Cells divided where the boundary is, until the volume is known well enough.
 
-#include "workspace/lattice.hpp"
+#include "workspace/cell_lattice.hpp"
 
 namespace ninedof {
 

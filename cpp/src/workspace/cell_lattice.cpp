@@ -1,4 +1,4 @@
-#include "workspace/lattice.hpp"
+#include "workspace/cell_lattice.hpp"
 
 #include <algorithm>
 
