@@ -46,29 +46,29 @@ std::uint32_t KeyTable::find(std::uint64_t key) const {
   return slots_[place(key)].index;
 }
 
-Lattice::Lattice(const Margins& margins, int resolution, int threads)
+CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
     : margins_(margins),
       low_(margins.chart().low()),
       step_((margins.chart().high() - margins.chart().low()) / (resolution * static_cast<double>(2 << deepest))),
       resolution_(resolution),
       threads_(threads) {}
 
-Vec3 Lattice::size(int level) const {
+Vec3 CellLattice::size(int level) const {
   return step_ * static_cast<double>(2 << (deepest - level));
 }
 
-Vec3 Lattice::centre(const Cell& c) const {
+Vec3 CellLattice::centre(const Cell& c) const {
   const Vec3 index(static_cast<double>(c.i), static_cast<double>(c.j), static_cast<double>(c.k));
   return low_ + (index + Vec3::Constant(0.5)).cwiseProduct(size(c.level));
 }
 
-Vec3 Lattice::at(std::uint64_t key) const {
+Vec3 CellLattice::at(std::uint64_t key) const {
   const Vec3 index(static_cast<double>(key & mask), static_cast<double>((key >> bits) & mask),
                    static_cast<double>(key >> (2 * bits)));
   return low_ + index.cwiseProduct(step_);
 }
 
-std::vector<NinePoints> Lattice::points_of(const std::vector<Cell>& cells) {
+std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells) {
   std::vector<NinePoints> out(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n) {
     const Cell& c = cells[n];
@@ -85,7 +85,7 @@ std::vector<NinePoints> Lattice::points_of(const std::vector<Cell>& cells) {
   return out;
 }
 
-void Lattice::evaluate(const WorkspaceControl& control, long expected, double volume) {
+void CellLattice::evaluate(const WorkspaceControl& control, long expected, double volume) {
   const long first = evaluations(), count = static_cast<long>(table_.size()) - first;
   known_.resize(table_.size());
   // News between pieces of work, from this thread alone.

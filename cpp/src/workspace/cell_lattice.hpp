@@ -45,9 +45,9 @@ class KeyTable {
 /// The eight corners of a cell, bit 0 of the number for x, 1 for y, 2 for z, then its centre.
 using NinePoints = std::array<std::uint32_t, 9>;
 
-class Lattice {
+class CellLattice {
  public:
-  Lattice(const Margins& margins, int resolution, int threads);
+  CellLattice(const Margins& margins, int resolution, int threads);
 
   static constexpr int deepest = 10;
   Vec3 centre(const Cell& c) const;

@@ -108,12 +108,12 @@ void check(InscribedBox& box, const Margins& margins, const WorkspaceControl& co
 
 }  // namespace
 
-void inscribe(const std::vector<Leaf>& leaves, const Lattice& lattice, const Margins& margins, const Surface& surface,
-              bool first_piece_alone, const WorkspaceControl& control, WorkspaceMap& map) {
+void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
+              const Surface& surface, bool first_piece_alone, const WorkspaceControl& control, WorkspaceMap& map) {
   const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   const std::vector<Vec3> points = thinned(surface.points);
   const Room room(margins.chart(), points);
-  int coarsest = Lattice::deepest;
+  int coarsest = CellLattice::deepest;
   for (const Leaf& leaf : leaves)
     if (leaf.inside == 255 && counted(leaf)) coarsest = std::min<int>(coarsest, leaf.cell.level);
   std::vector<std::pair<double, std::size_t>> found;

@@ -18,7 +18,7 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 /// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells that nothing is proved of.
 class Audit {
  public:
-  void begin(const std::vector<Leaf>& roots, const Lattice& lattice, const Margins& m,
+  void begin(const std::vector<Leaf>& roots, const CellLattice& lattice, const Margins& m,
              const WorkspaceSettings& settings, const WorkspaceControl& control) {
     std::vector<long> judged;
     for (std::size_t n = 0; n < roots.size(); ++n)
@@ -59,7 +59,7 @@ class Audit {
   }
 
   /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
-  void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const Lattice& lattice) {
+  void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice) {
     for (std::size_t n = 0; n < at_.size(); ++n) {
       if (cell_[n] < 0) continue;
       const auto at = static_cast<std::size_t>(cell_[n]);
@@ -79,8 +79,8 @@ class Audit {
 
 class Grower {
  public:
-  Grower(const Margins& margins, Lattice& lattice, const WorkspaceSettings& settings, const std::optional<Vec3>& home,
-         const WorkspaceControl& control)
+  Grower(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+         const std::optional<Vec3>& home, const WorkspaceControl& control)
       : m_(margins), settings_(settings), home_(home), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
@@ -174,7 +174,7 @@ class Grower {
   const WorkspaceSettings& settings_;
   std::optional<Vec3> home_;
   const WorkspaceControl& control_;
-  Lattice& lattice_;
+  CellLattice& lattice_;
   std::vector<Leaf> settled_;  // the tree itself stays as it was after the last whole level
   std::vector<double> parents_;
   long evaluations_ = 0, expected_ = 0;
@@ -300,7 +300,7 @@ std::optional<WorkspaceStatus> Grower::finished(int level) {
     open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
   if (open == 0) return WorkspaceStatus::converged;
   if (level > 0 && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
-  if (level == Lattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
+  if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
     return WorkspaceStatus::limited;
   // Both the error and, upside down, the work change fourfold from level to level.
   long more = evaluations_a_cell * open;
@@ -314,8 +314,8 @@ std::optional<WorkspaceStatus> Grower::finished(int level) {
 
 }  // namespace
 
-Octree grow_octree(const Margins& margins, Lattice& lattice, const WorkspaceSettings& settings, bool first_piece_alone,
-                   const std::optional<Vec3>& home, const WorkspaceControl& control) {
+Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+                   bool first_piece_alone, const std::optional<Vec3>& home, const WorkspaceControl& control) {
   Grower grower(margins, lattice, settings, home, control);
   grower.tree.status = grower.run(first_piece_alone);
   grower.tree.evaluations = grower.evaluations();

@@ -46,7 +46,7 @@ Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
 void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone,
                  const WorkspaceControl& control, WorkspaceMap& map) {
   const int n = settings.resolution;
-  Lattice lattice(m, n, settings.threads);
+  CellLattice lattice(m, n, settings.threads);
   std::vector<Cell> cells;
   std::vector<Vec3> x;
   for (int k = 0; k < n; ++k)
@@ -139,7 +139,7 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Wo
   map.evaluations = total;
   map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
   map.resolution = settings.resolution;
-  const Lattice lattice(m, settings.resolution, settings.threads);
+  const CellLattice lattice(m, settings.resolution, settings.threads);
   summarize(leaves, lattice, false, map);
   map.cells.centre = where;
   double worst = 0.0;

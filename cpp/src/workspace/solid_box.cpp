@@ -123,7 +123,7 @@ InscribedBox traded(InscribedBox box, const std::vector<Vec3>& surface, const Ch
 
 }  // namespace
 
-std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const Lattice& lattice,
+std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const CellLattice& lattice,
                                         const std::vector<Vec3>& surface, const Chart& chart, bool first_piece_alone,
                                         int resolution) {
   const Raster raster(leaves, first_piece_alone, resolution);

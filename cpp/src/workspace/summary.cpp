@@ -55,7 +55,7 @@ std::vector<double> percentiles(std::vector<std::pair<double, double>> values) {
 
 }  // namespace
 
-Surface surface_of(const Octree& tree, Lattice& lattice, const Margins& margins, bool first_piece_alone,
+Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& margins, bool first_piece_alone,
                    int resolution) {
   Surface out;
   out.area.assign(limit::count, 0.0);
@@ -85,7 +85,7 @@ Surface surface_of(const Octree& tree, Lattice& lattice, const Margins& margins,
   return out;
 }
 
-void summarize(const std::vector<Leaf>& leaves, const Lattice& lattice, bool first_piece_alone, WorkspaceMap& map) {
+void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map) {
   std::vector<std::pair<double, double>> values;
   double held = 0.0, sum = 0.0, coarse = 0.0, worst = 0.0;
   WorkspaceCells& cells = map.cells;

@@ -28,7 +28,7 @@ std::vector<std::string> all_names() {
 
 void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected,
                    const WorkspaceControl& control, WorkspaceMap& map) {
-  Lattice lattice(margins, settings.resolution, settings.threads);
+  CellLattice lattice(margins, settings.resolution, settings.threads);
   const std::optional<Vec3> home = connected ? std::optional(margins.home()) : std::nullopt;
   Octree tree = grow_octree(margins, lattice, settings, connected, home, control);
   map.status = tree.status;
