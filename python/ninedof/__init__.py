@@ -50,6 +50,14 @@ from ninedof.study import Study
 from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
 from ninedof.tracking import Tracked, TrackStatus, track
 from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.workspace import (
+    WorkspaceCells,
+    WorkspaceMap,
+    WorkspaceSlice,
+    WorkspaceStatus,
+    spread_rotations,
+    workspace,
+)
 
 __version__: str = _core.version
 
@@ -83,6 +91,10 @@ __all__ = [
     "TrackStatus",
     "Tracked",
     "VelocityMatrices",
+    "WorkspaceCells",
+    "WorkspaceMap",
+    "WorkspaceSlice",
+    "WorkspaceStatus",
     "applicable_bounds",
     "atlas",
     "axis_singular_values",
@@ -117,6 +129,7 @@ __all__ = [
     "singular_values",
     "singularity",
     "singularity_margins",
+    "spread_rotations",
     "stiffness",
     "sweep",
     "sweep_designs",
@@ -126,4 +139,5 @@ __all__ = [
     "uncontrolled_motions",
     "velocity_ellipsoid",
     "velocity_matrices",
+    "workspace",
 ]

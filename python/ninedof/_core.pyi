@@ -284,3 +284,18 @@ def optimize(
     warm: Sequence[Sequence[float]] | _Floats | None = None,
 ) -> Result: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str) -> tuple[list[float], Candidate]: ...
+
+workspace_limits: list[str]
+
+def workspace(
+    g: Geometry,
+    domain: dict[str, Any],
+    kind: str,
+    fraction: float,
+    point: _Floats,
+    criteria: dict[str, Any],
+    settings: dict[str, Any],
+    home: tuple[_Floats, _Floats, _Floats] | None,
+    progress: Callable[[int, int, float], object] | None,
+) -> dict[str, Any]: ...
+def spread_rotations(count: int, angle: float) -> _Floats: ...

@@ -195,6 +195,71 @@ def atlas(
     raise typer.Exit(commands.atlas(designs, seed, out, resume, scheduler, figures, json))
 
 
+Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
+
+
+@app.command(
+    epilog="[bold]Examples[/bold]\n\n"
+    "  ninedof workspace --legs 2.5 6.5 --condition 5 --singularity-free\n\n"
+    "  ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1\n\n"
+    "  ninedof workspace --archetype orientation --angle-deg 60 --legs 2.5 6.5 --json | jq .workspace.volume"
+)
+def workspace(
+    design: Annotated[
+        Path | None, typer.Argument(help="A design file (TOML) or a run folder; the published design if none is given.")
+    ] = None,
+    archetype: Annotated[
+        str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
+    ] = "constant_orientation",
+    x: Ends = None,
+    y: Ends = None,
+    z: Ends = None,
+    legs: Annotated[
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs.")
+    ] = None,
+    condition: Annotated[float | None, typer.Option(help="Greatest condition number.")] = None,
+    base_cone_deg: Annotated[float | None, typer.Option(help="Greatest angle at a base joint from home.")] = None,
+    platform_cone_deg: Annotated[float | None, typer.Option(help="The same at a platform joint.")] = None,
+    clearance: Annotated[float | None, typer.Option(help="Least distance of legs that share no joint.")] = None,
+    singularity_free: Annotated[
+        bool, typer.Option("--singularity-free", help="Connected with home, on its side of every singularity.")
+    ] = False,
+    angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None,
+    tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None,
+    torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None,
+    orientations: Annotated[int | None, typer.Option(help="How many rotations make a set.")] = None,
+    internal_point: Annotated[
+        str | None, typer.Option(help="Where O is: best, or a fraction between the plates; 0.5 by default.")
+    ] = None,
+    method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
+    tolerance: Annotated[float, typer.Option(help="Error wanted, as a share of the volume.")] = 1e-3,
+    resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
+    out: Out = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Find where a robot can work: the volume, its boundary and what limits it."""
+    from ninedof import commands
+
+    criteria = {
+        "leg_limits": legs,
+        "condition_number": condition,
+        "base_cone": base_cone_deg,
+        "platform_cone": platform_cone_deg,
+        "leg_clearance": clearance,
+        "singularity_free": singularity_free,
+    }
+    region = {"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg}
+    box = {"x": x, "y": y, "z": z}
+    search = {"method": method, "tolerance": tolerance, "resolution": resolution}
+    raise typer.Exit(
+        commands.workspace(
+            design, archetype, box, criteria, region, orientations, internal_point, search, out, threads, figures, json
+        )
+    )
+
+
 @app.command(epilog="[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'")
 def paper(threads: Threads = None, json: Json = False) -> None:
     """Print every number of the paper beside ours, with a verdict each."""

@@ -117,7 +117,7 @@ def best_internal_point(
 
     """
     shape, p, q = _poses(geometry, position, rotation)
-    low, high = _limits(limits)
+    low, high = leg_limits(limits)
     length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
     starts = _starts(start, shape)
     workers = thread_argument(threads)
@@ -205,7 +205,7 @@ def best_internal_path(
     shape, p, q = _poses(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
-    low, high = _limits(limits)
+    low, high = leg_limits(limits)
     length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
     weight = as_number("smoothness", smoothness)
     first = np.empty((0, 3))
@@ -246,16 +246,17 @@ def _clearance(criterion: Any, clearance: float | None) -> float:
     return as_number("clearance", clearance)
 
 
-def _limits(limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Floats, Floats]:
+def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
+    """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
     if limits is None:
         return np.zeros(9), np.full(9, np.inf)
     if not isinstance(limits, tuple | list) or len(limits) != 2:
-        raise ValueError(f"limits: got {limits!r}, expected (low, high), each a number or nine")
+        raise ValueError(f"{name}: got {limits!r}, expected (low, high), each a number or nine")
     ends = []
-    for name, end in zip(("low", "high"), limits, strict=True):
-        values = as_floats(f"limits ({name})", end, ())
+    for side, end in zip(("low", "high"), limits, strict=True):
+        values = as_floats(f"{name} ({side})", end, ())
         if values.shape not in ((), (9,)):
-            raise ValueError(f"limits ({name}): got shape {values.shape}, expected a number or shape (9,)")
+            raise ValueError(f"{name} ({side}): got shape {values.shape}, expected a number or shape (9,)")
         ends.append(np.ascontiguousarray(np.broadcast_to(values, 9)))
     return ends[0], ends[1]
 

@@ -13,7 +13,7 @@ from ninedof import _core
 from ninedof.arrays import as_number, thread_argument
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
-from ninedof.redundancy import InternalPoint, InternalPointStatus, _clearance, _limits, _poses, _starts
+from ninedof.redundancy import InternalPoint, InternalPointStatus, _clearance, _poses, _starts, leg_limits
 
 __all__ = ["InternalPointMap", "MapAudit", "best_internal_map"]
 
@@ -121,7 +121,7 @@ def best_internal_map(
 
     """
     shape, p, q = _poses(geometry, position, rotation)
-    low, high = _limits(limits)
+    low, high = leg_limits(limits)
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: got {progress!r}, expected a callable of two arguments")
     (s, value, status, words, active, names), audit, searched, followed = _core.best_internal_map(

@@ -27,7 +27,9 @@ CPP_LAYERS = (
     {"design", "axis_family", "hexagonal_family", "symmetric_family", "general_family", "constraints", "objective"},
     {"optimize", "pareto", "redundancy", "redundancy_path", "redundancy_map"},
     {"batch"},
-    {"workspace"},
+    {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
+    | {"pose_margins", "cell_lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
+    | {"sampling"},
 )
 PRIVATE_LAYER = 8
 
@@ -54,7 +56,7 @@ PYTHON_LAYERS = (
     {"check", "words"},  # look at a result that is handed to them; Result.check and Result.summary call them
     {"result", "warm", "optimize", "paper", "sweep", "atlas", "pareto", "workspace"},
     {"__init__"},
-    {"records", "front_records"},
+    {"records", "front_records", "workspace_records"},
     {"designs"},
     {"plot"},
     {"job", "report", "viewer", "export", "cluster"},
@@ -85,6 +87,7 @@ CORE_USERS = {
     "optimize",
     "sweep",
     "atlas",
+    "workspace",
 }
 
 # Figures are drawn from records and never compute.

@@ -6,5 +6,6 @@ from ninedof.commands.optimization import optimize
 from ninedof.commands.survey import atlas
 from ninedof.commands.sweep import SweepOptions, sweep
 from ninedof.commands.verdicts import paper
+from ninedof.commands.workspace import workspace
 
-__all__ = ["SweepOptions", "atlas", "evaluate", "optimize", "paper", "pareto", "sweep"]
+__all__ = ["SweepOptions", "atlas", "evaluate", "optimize", "paper", "pareto", "sweep", "workspace"]

@@ -12,12 +12,14 @@ from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.poses import PoseConditions, poses
 from ninedof.plot.style import save
 from ninedof.plot.sweep import figure_6, figure_7, sweep
+from ninedof.plot.workspace import Section, workspace
 
 __all__ = [
     "DesignCurves",
     "EllipsoidPanel",
     "Mechanism",
     "PoseConditions",
+    "Section",
     "Sketch",
     "atlas",
     "condition_curves",
@@ -31,4 +33,5 @@ __all__ = [
     "poses",
     "save",
     "sweep",
+    "workspace",
 ]

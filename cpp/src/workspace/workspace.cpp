@@ -1,0 +1,104 @@
+#include "ninedof/workspace.hpp"
+
+#include <algorithm>
+
+#include "workspace/checks.hpp"
+#include "workspace/limits.hpp"
+#include "workspace/surface.hpp"
+
+namespace ninedof {
+namespace {
+
+std::vector<std::string> all_names() {
+  const std::string leg[] = {"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
+  std::vector<std::string> out;
+  for (const char* side : {" low", " high"})
+    for (const std::string& name : leg) out.push_back(name + side);
+  for (const bool platform : {false, true})
+    for (std::size_t k = 0; k < 6; ++k)
+      out.push_back((platform ? "platform_cone " : "base_cone ") + leg[k < 3 ? k : platform ? k : k + 3]);
+  for (int item = 0; item < leg_pairs; ++item) {
+    const auto [a, b] = leg_pair(item);
+    out.push_back("leg_clearance " + leg[a] + " " + leg[b]);
+  }
+  for (const char* name : {"condition_number", "det M", "det B", "det C", "region", "box", "internal_point"})
+    out.emplace_back(name);
+  return out;
+}
+
+void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected,
+                   const WorkspaceControl& control, WorkspaceMap& map) {
+  CellLattice lattice(margins, settings.resolution, settings.threads);
+  const std::optional<Vec3> home = connected ? std::optional(margins.home()) : std::nullopt;
+  Octree tree = grow_octree(margins, lattice, settings, connected, home, control);
+  map.status = tree.status;
+  map.levels = tree.levels;
+  map.evaluations = tree.evaluations;
+  map.resolution = settings.resolution;
+  if (tree.levels.empty()) return;  // stopped before anything was known
+  map.volume = tree.levels.back().volume;
+  map.error = tree.levels.back().error;
+  map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(), home);
+  // What was extrapolated in all is shared by the pieces.
+  double found = 0.0;
+  for (std::size_t n = 0; n < (connected ? std::min<std::size_t>(1, map.pieces.size()) : map.pieces.size()); ++n)
+    found += map.pieces[n];
+  if (found > 0.0)
+    for (double& piece : map.pieces) piece *= map.volume / found;
+  map.unseen = tree.unseen;
+  if (!(map.volume > 0.0) && map.status != WorkspaceStatus::stopped) map.status = WorkspaceStatus::empty;
+  const Surface surface = surface_of(tree, lattice, margins, connected, settings.resolution);
+  map.limit_area = surface.area;
+  summarize(tree.leaves, lattice, connected, map);
+  if (map.status != WorkspaceStatus::stopped) inscribe(tree.leaves, lattice, margins, surface, connected, control, map);
+}
+
+}  // namespace
+
+const char* to_string(WorkspaceStatus status) {
+  switch (status) {
+    case WorkspaceStatus::converged: return "converged";
+    case WorkspaceStatus::limited: return "limited";
+    case WorkspaceStatus::empty: return "empty";
+    case WorkspaceStatus::stopped: return "stopped";
+  }
+  return "";
+}
+
+const std::vector<std::string>& limit_names() {
+  static const std::vector<std::string> names = all_names();
+  return names;
+}
+
+WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                       const WorkspaceCriteria& criteria, const WorkspaceSettings& settings,
+                       const std::optional<Configuration>& home, const WorkspaceControl& control) {
+  require_workspace(domain, rule, criteria, settings, home);
+  const Margins margins(g, domain, rule, criteria, home);
+  WorkspaceMap map;
+  map.low = margins.chart().low();
+  map.high = margins.chart().high();
+  map.chart_volume = margins.chart().volume();
+  map.limit_area.assign(limit::count, 0.0);
+  try {
+    PointMargins at_home;
+    margins.evaluate(&margins.home(), 1, &at_home, control.stop);
+    map.home_allowed = at_home.allowed(margins.groups());
+    if (!map.home_allowed) map.home_limit = static_cast<std::int16_t>(margins.violated(at_home));
+    if (!margins.in_chart(margins.home())) {
+      map.home_allowed = false;
+      map.home_limit = limit::box;
+    }
+    using enum WorkspaceSettings::Method;
+    if (settings.method == octree) map_by_octree(margins, settings, criteria.singularity_free, control, map);
+    if (settings.method == grid) map_by_grid(margins, settings, criteria.singularity_free, control, map);
+    if (settings.method == sample) map_by_sample(margins, settings, control, map);
+  } catch (const Stopped&) {
+    map.status = WorkspaceStatus::stopped;
+  }
+  for (const double area : map.limit_area) map.boundary_area += area;
+  map.box_limits = map.limit_area[limit::box] > 0.0 || map.limit_area[limit::region] > 0.0;
+  return map;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,196 @@
+"""The search for a workspace: one call to the core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.arrays import as_number, thread_argument
+from ninedof.checks import choice, whole
+from ninedof.configuration import Configuration
+from ninedof.geometry import Geometry
+from ninedof.workspace.criteria import criteria_of
+from ninedof.workspace.domain import domain_of, home_of, rule_of
+from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus
+
+__all__ = ["workspace"]
+
+Progress = Callable[[int, int, float], object]
+"""Called with (poses looked at, poses there will be as far as is known, volume so far)."""
+
+METHODS = ("octree", "grid", "sample")
+POINTS = 16384
+POINTS_SEARCHED = 1024  # where O is sought at each of them
+CARTESIAN = ("x", "y", "z")
+ROTATION_VECTOR = ("w_x", "w_y", "w_z")
+TILT_TORSION = ("tilt_x", "tilt_y", "torsion")
+
+
+def workspace(
+    geometry: Geometry,
+    box: tuple[ArrayLike, ArrayLike] | None = None,
+    *,
+    archetype: str = "constant_orientation",
+    criteria: Mapping[str, Any] | None = None,
+    internal_point: ArrayLike | str | Mapping[str, ArrayLike] = 0.5,
+    rotation: Any = None,
+    position: ArrayLike | None = None,
+    region: Mapping[str, Any] | None = None,
+    orientations: Any = None,
+    home: Configuration | None = None,
+    characteristic_length: float = 1.0,
+    method: str = "octree",
+    tolerance: float = 1e-3,
+    resolution: int | None = None,
+    points: int | None = None,
+    shifts: int = 16,
+    seed: int = 0,
+    most_evaluations: int = 2_000_000,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> WorkspaceMap:
+    """Find where the platform can work: the volume, the boundary, and what limits it.
+
+    An octree of cells is divided where the boundary is, so that the work grows with its area. A cell is outside for
+    certain where a leg is further beyond its limits than its length can change within the cell, inside for certain
+    where that holds the other way round and legs are all that is asked for. Otherwise its corners and centre judge it,
+    and poses of a low-discrepancy sequence audit the judgement: a cell in which one disagrees is divided as well.
+    Within the smallest cells the boundary is linear, and what two levels differ by is extrapolated.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    box : (low, high), each array_like, shape (3,)
+        Positions p of the platform to look at, length units, base frame. Not for "orientation".
+    archetype : str
+        "constant_orientation": positions at a fixed `rotation`. "orientation": rotations of a `region` at a fixed
+        `position`. "reachable": positions where some rotation of `orientations` is allowed. "inclusive": positions
+        where all of them are. "dexterous": inclusive of evenly spread rotations of all of SO(3), a statement about
+        those rotations and about no others.
+    criteria : mapping
+        What makes a pose allowed, in any combination; everything is, where nothing is given.
+
+        - "leg_limits": (low, high), each a number or shape (9,) in the order of `leg_lengths`; infinite ones are open.
+        - "base_cone", "platform_cone": greatest angle, radians, between each leg at its joint there and its direction
+          at `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
+        - "leg_clearance": least distance of the axes of legs that share no joint.
+        - "condition_number": its greatest value, at least 1.
+        - "singularity_free": True for poses that are connected with `home` and have det M, det B and det C signed as
+          there, by cells: pieces that meet within one of the smallest are one.
+    internal_point : float, array_like, mapping or "best"
+        Where O is. A number: that fraction of the way from the centroid of the lower to that of the upper internal
+        joints, the default being half way. Shape (3,): fixed in the base. {"platform": (3,)}: fixed in the platform.
+        "best": at each pose where the condition number is least within the leg limits (`best_internal_point`).
+    rotation : array_like, shape (3, 3), or scipy.spatial.transform.Rotation, optional
+        Q of "constant_orientation", or that about which the region of "orientation" lies. The identity by default.
+    position : array_like, shape (3,), optional
+        p of "orientation".
+    region : mapping, optional
+        {"angle": a}: rotation vectors of length at most a, in base axes. {"tilt": t, "torsion": (low, high) or number}:
+        the platform's axis tilted by at most t towards any side, after a turn about it. Of "reachable" and
+        "inclusive" the first kind, from which `orientations` are spread.
+    orientations : int, array_like, shape (n, 3, 3), or Rotation, optional
+        The set of "reachable" and "inclusive", or how many are spread over the region (`spread_rotations`); 60 of
+        them over all of SO(3) by default.
+    home : Configuration, optional
+        The home pose, with its O. The middle of the box or region by default, with O by the rule.
+    characteristic_length : float
+        Of the condition number, length units.
+    method : {"octree", "grid", "sample"}
+        "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence,
+        shifted at random.
+    tolerance : float
+        Error wanted of an octree, as a share of the volume.
+    resolution : int, optional
+        Cells along each side before any is divided, by default 16 (64 for a grid). What is thinner than such a cell is
+        found by the audit, if at all: `WorkspaceMap.unseen` bounds what was not.
+    points : int, optional
+        Audit poses of an octree, or points of each shift of a sample; 16384 by default, 1024 where O is sought.
+    shifts : int
+        Of a sample.
+    seed : int
+        Of audit and sample.
+    most_evaluations : int
+        Poses after which an octree ends; about 350 bytes each are kept.
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    progress : callable, optional
+        Called as progress(poses done, poses in all as far as is known, volume).
+
+    Returns
+    -------
+    WorkspaceMap
+        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped".
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit, naming it.
+
+    References
+    ----------
+    Merlet, Parallel Robots, 2nd ed., Springer 2006, ch. 7 (kinds of workspace). Gosselin and Angeles, A global
+    performance index for the kinematic optimization of robotic manipulators, J. Mech. Design 113 (1991). Bonev and
+    Ryu, A new approach to orientation workspace analysis of 6-DOF parallel manipulators, Mech. Mach. Theory 36 (2001).
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> found = nd.workspace(
+    ...     g, ([-4, -4, 0], [4, 4, 8]), criteria={"leg_limits": (2.5, 6.5), "condition_number": 8.0}
+    ... )
+    >>> found.status, round(found.volume, 1), found.error < 1e-3 * found.volume
+    (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
+
+    """
+    if not isinstance(geometry, Geometry):
+        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
+    choice("method", method, METHODS)
+    domain = domain_of(archetype, box, position, rotation, region, orientations)
+    rule = rule_of(internal_point)
+    settings: dict[str, Any] = {
+        "method": method,
+        "tolerance": as_number("tolerance", tolerance),
+        "resolution": whole(
+            "resolution", (64 if method == "grid" else 16) if resolution is None else resolution, 2, 512
+        ),
+        "most_evaluations": whole("most_evaluations", most_evaluations, 1, 10**9),
+        "points": whole(
+            "points", (POINTS_SEARCHED if rule[0] == "best" else POINTS) if points is None else points, 1, 10**8
+        ),
+        "shifts": whole("shifts", shifts, 2, 1000),
+        "seed": whole("seed", seed, 0, 2**63 - 1),
+        "threads": thread_argument(threads),
+    }
+    begin = perf_counter()
+    found = _core.workspace(
+        geometry, domain, *rule, criteria_of(criteria, characteristic_length), settings, home_of(home), progress
+    )
+    return _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
+
+
+def _map(
+    found: dict[str, Any], chart: str, archetype: str, method: str, resolution: int, seconds: float
+) -> WorkspaceMap:
+    cells, low, high = found.pop("cells"), found["low"], found["high"]
+    side = (high - low) / (resolution * 2.0 ** cells.pop("level")[:, None])
+    cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
+    names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
+    home_limit = found.pop("home_limit")
+    return WorkspaceMap(
+        **found | {"status": WorkspaceStatus(found["status"])},
+        cells=WorkspaceCells(**cells),
+        home_limit="" if home_limit < 0 else LIMITS[home_limit],
+        coordinates=names if archetype == "orientation" else CARTESIAN,
+        archetype=archetype,
+        method=method,
+        seconds=seconds,
+    )
