@@ -112,8 +112,8 @@ def examples():
     parser, seen = doctest.DocTestParser(), {}
     for module in modules:
         for name, thing in [("", module), *inspect.getmembers(module)]:
-            # Of matplotlib's classes and objects the docstrings have examples too: not ours to run.
-            if type(thing).__module__.startswith(("matplotlib", "mpl_toolkits")):
+            # The docstrings of matplotlib's and numpy's objects have examples too: not ours to run.
+            if type(thing).__module__.startswith(("matplotlib", "mpl_toolkits", "numpy")):
                 continue
             ours = inspect.isclass(thing) and thing.__module__.startswith("ninedof")
             members = inspect.getmembers(thing) if ours else []
