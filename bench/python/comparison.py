@@ -58,7 +58,17 @@ def measure(poses, rounds, folder, scratch):
     results.exact_poses = some
     results.exact_error = exact.worst_error(robot, configurations.first(some), ours["2"][:some])
     results.facts = floor.measure(folder, path)
+    require_accuracy(results)
     return results
+
+
+def require_accuracy(results):
+    found = {"extended precision": results.exact_error}
+    if results.facts is not None:
+        found |= {name: entry["error"] for name, entry in results.facts["accuracy"].items()}
+    for name, error in found.items():
+        if not error <= 1e-11:
+            sys.exit(f"{name}: error {error:.2e} times max(1, kappa / 1000), expected at most 1e-11")
 
 
 def main(arguments=None):

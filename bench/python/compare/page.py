@@ -138,13 +138,16 @@ def ratios(results):
     return shown[0] + "; " + ", ".join(shown[1:])
 
 
+def measured(results):
+    machine = f"{processor()}, {os.cpu_count()} processors"
+    return textwrap.fill(f"Measured on: {machine}; {versions(results.facts)}; {results.rounds} rounds.", 110)
+
+
 def text(results, arguments):
     return template("page").format(
         poses=f"{results.poses:,}".replace(",", " "),
-        rounds=results.rounds,
         command=shlex.join(["python", "bench/python/comparison.py", *arguments]),
-        machine=f"{processor()}, {os.cpu_count()} processors",
-        versions=versions(results.facts),
+        measured=measured(results),
         summary=textwrap.fill("In short: " + ratios(results) + ".", 110),
         times=times(results),
         floor=floor_section(results),

@@ -6,7 +6,6 @@ import multiprocessing
 import os
 import subprocess
 import sys
-import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,7 +31,7 @@ def _prepare(path, method, count):
     global _run
     if method.needs == "jax" and hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})  # XLA counts the processors it may use
-    os.chdir(tempfile.gettempdir())  # where CasADi leaves what it compiles
+    os.chdir(path.parent)  # CasADi compiles where it is
     robot, poses = data.read(path)
     prepare = getattr(importlib.import_module(f"compare.{method.module}"), method.function)
     _run = prepare(robot, poses.first(count), **method.options)
@@ -60,7 +59,8 @@ class InPython:
     def __init__(self, method, path, count):
         self.method, self.count = method, count
         folder = str(Path(__file__).parents[1])
-        kept = os.pathsep.join([folder, *filter(None, [os.environ.get("PYTHONPATH")])])
+        before = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
+        kept = os.pathsep.join([folder, *map(os.path.abspath, before)])
         # A fresh interpreter, so that it reads its own NINEDOF_SIMD. It starts with the first piece of work.
         self._pool = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
         with environment(ONE_THREAD | method.environment | {"PYTHONPATH": kept}):
