@@ -133,6 +133,30 @@ TEST_SUITE("batch") {
     }
   }
 
+  TEST_CASE("spectra with one great singular value, where the first bound is nearly a root") {
+    Random random(110);
+    double most = 0.0;
+    for (int robot = 0; robot < 60; ++robot) {
+      const double side = random.log_uniform(1.0, 20.0);
+      const Geometry g = robot == 0 ? Geometry::hexagonal(17.76, 5.55, 2.478, 15.9)
+                                    : Geometry::hexagonal(side, side * random.uniform(0.1, 0.6),
+                                                          random.uniform(0.5, 5.0), random.uniform(5.0, 20.0));
+      Stack s;
+      for (int k = 0; k < 300; ++k) {
+        const double zp = random.log_uniform(0.5, 20.0);
+        Configuration c = neutral(zp, zp * random.uniform(0.02, 0.98), 0.0);
+        if (k % 2 == 0) c.position += 1e-4 * cube(random, 1.0);
+        s.add(c);
+      }
+      const std::vector<double> kappa = conditions(g, s.view(), 1.0);
+      for (std::size_t k = 0; k < kappa.size(); ++k) {
+        const double expected = condition_number(g, s.each[k]);
+        most = std::max(most, std::abs(kappa[k] / expected - 1.0) / std::max(1.0, expected / 1e3));
+      }
+    }
+    CHECK(most < 1e-13);
+  }
+
   TEST_CASE("a result depends on its own configuration alone") {
     Random random(102);
     const Geometry g = random_robot(random).geometry;

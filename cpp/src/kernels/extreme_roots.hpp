@@ -73,9 +73,9 @@ struct Root {
 
 constexpr int most_rounds = 40;  // four to six suffice; a multiple root takes up to thirty
 
+/// From x on, in this direction; `last` is the step that led to x, 0 where x is a mere bound: then a second step is always made.
 template <int n, class P>
-NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction) {
-  P last = x;
+NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction, P last) {
   typename P::Mask open = x >= 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     const P step = halley(characteristic<n>(q, e, x));
@@ -93,7 +93,8 @@ NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction) {
 
 template <int n, class P>
 NINEDOF_INLINE Root<P> least_root(const P* q, const P* e) {
-  return iterate<n>(q, e, laguerre<n>(characteristic_at_zero<n>(q, e)), 1.0);
+  const P first = laguerre<n>(characteristic_at_zero<n>(q, e));
+  return iterate<n>(q, e, first, 1.0, first);
 }
 
 /// From the bound of Laguerre and Samuelson: mean and variance of the roots are known.
@@ -108,7 +109,7 @@ NINEDOF_INLINE Root<P> greatest_root(const P* q, const P* e) {
   }
   const P mean = sum * (1.0 / 6.0);
   const P spread = (5.0 / 6.0) * squares - 5.0 * square(mean);
-  return iterate<6>(q, e, mean + sqrt(max(spread, P(0.0))), -1.0);
+  return iterate<6>(q, e, mean + sqrt(max(spread, P(0.0))), -1.0, P(0.0));
 }
 
 }  // namespace ninedof::kernels::inline NINEDOF_LEVEL

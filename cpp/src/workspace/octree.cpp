@@ -13,6 +13,7 @@ namespace {
 constexpr double curvature_room =
     2.0;  // how much more than the corners and the centre show a margin may curve between them
 constexpr double guard = 0.1;
+constexpr double too_many = 0.05;  // share of the allowed audit poses in cells that deny them: the cells are too coarse
 constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and corners shared with neighbours
 
 /// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells that nothing is proved of.
@@ -37,7 +38,16 @@ class Audit {
       const auto first = static_cast<std::size_t>(from);
       m.evaluate(&at_[first], to - from, &known[first], control.stop);
     });
-    for (const PointMargins& at : known) allowed_.push_back(at.allowed(m.groups()));
+    for (const Leaf& root : roots)
+      if (root.proved) volume_ += root.fraction * root.measure;
+    const double share = cells * size.prod() / poses;
+    for (std::size_t n = 0; n < known.size(); ++n) {
+      allowed_.push_back(known[n].allowed(m.groups()));
+      if (allowed_.back() == 0) continue;
+      const double measure = share * m.chart().density(at_[n]);
+      volume_ += measure;
+      squares_ += measure * measure;
+    }
     // No disagreement among n poses: with 95 % confidence less than 3 / n of where they were drawn from.
     unseen_ = 3.0 / poses * cells * size.prod();
   }
@@ -45,17 +55,32 @@ class Audit {
   long count() const { return static_cast<long>(at_.size()); }
   double unseen() const { return unseen_; }
 
-  /// Opens every cell that one of the poses disagrees with; returns how many poses do.
-  long open(std::vector<Leaf>& leaves) const {
-    long against = 0;
+  /// How far a volume is from what the poses say, where that is more than chance (three standard errors); else 0.
+  double contradicts(double volume, bool only_if_less) const {
+    if (at_.empty() || (only_if_less && volume <= volume_)) return 0.0;
+    const double away = std::abs(volume - volume_);
+    return away > 3.0 * std::sqrt(squares_) + unseen_ ? away : 0.0;
+  }
+
+  /// Opens every cell that one of the poses disagrees with.
+  Doubt open(std::vector<Leaf>& leaves) const {
+    Doubt doubt;
+    long allowed = 0;
+    std::vector<char> counted(leaves.size());
     for (std::size_t n = 0; n < at_.size(); ++n) {
+      allowed += allowed_[n] != 0 ? 1 : 0;
       if (cell_[n] < 0) continue;
-      Leaf& leaf = leaves[static_cast<std::size_t>(cell_[n])];
+      const auto at = static_cast<std::size_t>(cell_[n]);
+      Leaf& leaf = leaves[at];
       if (leaf.proved || leaf.inside == (allowed_[n] != 0 ? 255 : 0)) continue;
-      if (leaf.state != CellState::boundary || leaf.inside == 0 || leaf.inside == 255) ++against;
       leaf.state = CellState::boundary;
+      if (leaf.inside != 0 && leaf.inside != 255) continue;
+      ++doubt.poses;
+      if (counted[at] == 0) doubt.measure += leaf.measure;
+      counted[at] = 1;
     }
-    return against;
+    doubt.coarse = static_cast<double>(doubt.poses) > too_many * static_cast<double>(allowed);
+    return doubt;
   }
 
   /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
@@ -74,7 +99,7 @@ class Audit {
   std::vector<Vec3> at_;
   std::vector<char> allowed_;
   std::vector<long> cell_;
-  double unseen_ = 0.0;
+  double unseen_ = 0.0, volume_ = 0.0, squares_ = 0.0;
 };
 
 class Grower {
@@ -85,6 +110,9 @@ class Grower {
 
   WorkspaceStatus run(bool first_piece_alone) {
     try {
+      PointMargins at_home;
+      m_.evaluate(&m_.home(), 1, &at_home, control_.stop);
+      home_allowed_ = m_.in_chart(m_.home()) && at_home.allowed(m_.groups());
       Audit audit;
       std::vector<Cell> open = roots();
       for (int level = 0;; ++level) {
@@ -94,10 +122,11 @@ class Grower {
           evaluations_ = audit.count();
           tree.unseen = audit.unseen();
         }
-        tree.audited_against = audit.open(now);
+        tree.doubt = audit.open(now);
         open_home(now);
+        if (tree.doubt.coarse) open_all(now);
         keep(now);
-        measure(first_piece_alone);
+        measure(first_piece_alone, audit);
         if (const std::optional<WorkspaceStatus> end = finished(level)) return *end;
         open = divided(now, audit);
       }
@@ -134,13 +163,22 @@ class Grower {
   void weigh(Leaf& leaf, const NinePoints& points) const;
 
   /// The home pose is to be found in a cell with an allowed corner.
-  void open_home(std::vector<Leaf>& leaves) const {
-    if (!home_) return;
+  void open_home(std::vector<Leaf>& leaves) {
+    if (!home_allowed_) return;
     for (Leaf& leaf : leaves) {
-      const Vec3 away = (*home_ - lattice_.centre(leaf.cell)).cwiseAbs(), half = 0.5 * lattice_.size(leaf.cell.level);
-      if ((away.array() <= half.array()).all() && leaf.state == CellState::outside && !leaf.proved)
-        leaf.state = CellState::boundary;
+      const Vec3 away = (m_.home() - lattice_.centre(leaf.cell)).cwiseAbs(),
+                 half = 0.5 * lattice_.size(leaf.cell.level);
+      if ((away.array() > half.array()).any() || leaf.inside != 0 || leaf.proved) continue;
+      leaf.state = CellState::boundary;
+      tree.doubt.measure += leaf.measure;
+      tree.doubt.coarse = true;
     }
+  }
+
+  /// Cells that miss most of the set where they can be checked say nothing about where it is not.
+  static void open_all(std::vector<Leaf>& leaves) {
+    for (Leaf& leaf : leaves)
+      if (leaf.state == CellState::outside && !leaf.proved) leaf.state = CellState::boundary;
   }
 
   void keep(const std::vector<Leaf>& now) {
@@ -167,12 +205,13 @@ class Grower {
     return next;
   }
 
-  void measure(bool first_piece_alone);
+  void measure(bool first_piece_alone, const Audit& audit);
   std::optional<WorkspaceStatus> finished(int level);
 
   const Margins& m_;
   const WorkspaceSettings& settings_;
   std::optional<Vec3> home_;
+  bool home_allowed_ = false;
   const WorkspaceControl& control_;
   CellLattice& lattice_;
   std::vector<Leaf> settled_;  // the tree itself stays as it was after the last whole level
@@ -261,7 +300,7 @@ void Grower::weigh(Leaf& leaf, const NinePoints& points) const {
   }
 }
 
-void Grower::measure(bool first_piece_alone) {
+void Grower::measure(bool first_piece_alone, const Audit& audit) {
   if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
   const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   double volume = 0.0, undecided = 0.0, change = 0.0;
@@ -290,7 +329,10 @@ void Grower::measure(bool first_piece_alone) {
            : tree.levels.size() < 2 ? std::abs(change) / 3.0
                                     : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
   moved_ = tree.levels.size() < 2 ? 0.0 : moved;
+  error_ = tree.doubt.coarse ? std::max(error_, undecided) : error_ + tree.doubt.measure;
   volume_ = std::clamp(better, 0.0, m_.chart().volume());
+  // Of one piece among several the poses only know that it is not the larger.
+  error_ = std::max(error_, audit.contradicts(volume_, first_piece_alone));
   tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
 }
 
@@ -299,7 +341,7 @@ std::optional<WorkspaceStatus> Grower::finished(int level) {
   for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
     open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
   if (open == 0) return WorkspaceStatus::converged;
-  if (level > 0 && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
+  if (level > 0 && !tree.doubt.coarse && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
   if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
     return WorkspaceStatus::limited;
   // Both the error and, upside down, the work change fourfold from level to level.

@@ -22,6 +22,13 @@ struct Leaf {
   std::int32_t piece = -1;
 };
 
+/// Poses known to be allowed, or not, in cells whose corners all say the opposite.
+struct Doubt {
+  long poses = 0;
+  double measure = 0.0;  ///< of those cells
+  bool coarse = false;   ///< so many that the cells are too coarse for the set
+};
+
 /// What the search knows after its last whole level.
 struct Octree {
   WorkspaceStatus status = WorkspaceStatus::stopped;
@@ -30,7 +37,7 @@ struct Octree {
   std::vector<WorkspaceLevel> levels;
   long evaluations = 0;
   double unseen = 0.0;       ///< see WorkspaceMap
-  long audited_against = 0;  ///< audit poses that disagree with a cell of the last level
+  Doubt doubt;  ///< of the last level
 };
 
 /// Divides until the error is small enough. With `home` the cell of that point is divided as long as it has no allowed corner;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ninedof/error.hpp"
 #include "ninedof/parallel.hpp"
 #include "workspace/limits.hpp"
 #include "workspace/sequence.hpp"
@@ -8,6 +9,11 @@
 
 namespace ninedof {
 namespace {
+
+/// With 95 % confidence less than this was missed by `count` points spread evenly over the box.
+double missed(const Margins& m, long count) {
+  return 3.0 * m.chart().box_volume() / static_cast<double>(count);
+}
 
 /// Evaluates `count` points in order, with news between pieces of work.
 std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads,
@@ -46,6 +52,10 @@ Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
 void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone,
                  const WorkspaceControl& control, WorkspaceMap& map) {
   const int n = settings.resolution;
+  if (static_cast<double>(n) * n * n > static_cast<double>(settings.most_evaluations))
+    throw InvalidArgument(
+        "resolution", std::to_string(n),
+        "a grid of at most most_evaluations = " + std::to_string(settings.most_evaluations) + " cells");
   CellLattice lattice(m, n, settings.threads);
   std::vector<Cell> cells;
   std::vector<Vec3> x;
@@ -95,8 +105,11 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         surface.points.push_back(lattice.centre(leaf.cell) + 0.5 * way * size[axis] * Vec3::Unit(axis));
       }
   }
-  // A cell that the boundary cuts is right to within a uniformly distributed part of it.
-  map.error = std::sqrt(undecided / 12.0);
+  // A cell that the boundary cuts is right to within a uniformly distributed part of it. Neighbours err alike along a smooth
+  // boundary: four standard errors of independent ones.
+  map.error = 4.0 * std::sqrt(undecided / 12.0);
+  map.unseen = missed(m, static_cast<long>(x.size()));
+  if (!(map.volume > 0.0)) map.error = map.unseen;
   map.evaluations = static_cast<long>(x.size());
   map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
   map.limit_area = surface.area;
@@ -136,6 +149,8 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Wo
     return std::pair(mean, std::sqrt(square / (settings.shifts - 1.0) / settings.shifts));
   };
   std::tie(map.volume, map.error) = mean_and_error(volume);
+  map.unseen = missed(m, total);
+  if (!(map.volume > 0.0)) map.error = map.unseen;
   map.evaluations = total;
   map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
   map.resolution = settings.resolution;

@@ -195,10 +195,14 @@ class WorkspaceMap:
         away = (at - c.centre[:, fixed]) / c.size[:, fixed]
         hit = np.flatnonzero((away >= -0.5) & ((away < 0.5) | (at >= self.high[fixed])) & (away <= 0.5 + 1e-9))
         scale = pixels / (self.high - self.low)
-        first = np.rint((c.centre[hit] - 0.5 * c.size[hit] - self.low) * scale).astype(int)
-        last = np.rint((c.centre[hit] + 0.5 * c.size[hit] - self.low) * scale).astype(int)
+
+        def pixel(x: Floats) -> Any:
+            """Return the first pixel whose middle is not below x; neighbours must agree, whatever the rounding."""
+            return np.ceil(np.round((x - self.low) * scale - 0.5, 6)).astype(int)
+
+        first, last = pixel(c.centre[hit] - 0.5 * c.size[hit]), pixel(c.centre[hit] + 0.5 * c.size[hit])
         for n, a, b in zip(hit.tolist(), first, last, strict=True):
-            there = (slice(a[v], max(b[v], a[v] + 1)), slice(a[h], max(b[h], a[h] + 1)))
+            there = (slice(a[v], b[v]), slice(a[h], b[h]))
             state[there], limit[there] = c.state[n], c.limit[n]
             kappa[there] = c.condition_number[n] if c.state[n] else np.nan
         middle = (np.arange(pixels) + 0.5)[:, None] / scale + self.low
