@@ -1,9 +1,13 @@
 #include "ninedof/batch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "kernels/dispatch.hpp"
+#include "negligible.hpp"
 #include "ninedof/error.hpp"
+#include "ninedof/hexagonal_family.hpp"
 #include "ninedof/legs.hpp"
 #include "ninedof/singularity.hpp"
 #include "ninedof/symmetric.hpp"
@@ -88,15 +92,13 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
   kernels::table().hexagonal_condition_numbers(designs, count, out);
   settle(count, 1, out, [&](long k, double* to) {
     const double* x = designs + 6 * k;
-    const double h = std::sqrt(3.0) / 6.0;
-    const auto joint = [&](double first, double second, double side) {
-      return Point<double>{0.5 * side * first, -h * (first + 2.0 * second), 0.0};
-    };
-    const AxisSpectrum<double> s =
-        axis_spectrum(AxisDesign<double>{joint(x[0], x[1], 1.0), joint(x[0], x[1], -1.0), joint(x[2], x[3], 1.0),
-                                         joint(x[2], x[3], -1.0), x[4], x[5]},
-                      1.0);
-    *to = std::max(s.axial_max, s.transverse_max) / std::min(s.axial_min, s.transverse_min);
+    const std::array<double, 7> variables{x[0], x[1], x[2], x[3], x[4], x[5], 0.0};
+    const Orbits<double> o = HexagonalFamily().orbits<double>(variables);
+    const AxisSpectrum<double> s = axis_spectrum(
+        AxisDesign<double>{o.base_external, o.base_internal, o.platform_external, o.platform_internal, o.zp, o.zs},
+        1.0);
+    const double high = std::max(s.axial_max, s.transverse_max), low = std::min(s.axial_min, s.transverse_min);
+    *to = low <= negligible * high ? std::numeric_limits<double>::infinity() : high / low;
   });
 }
 

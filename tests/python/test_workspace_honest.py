@@ -11,7 +11,7 @@ LEGS = {"leg_limits": (2.5, 6.5)}
 
 
 def shell(published, width):
-    """Limits of l1 alone, and the volume between two spheres about its base joint, by numpy on a fine grid of l1's square."""
+    """Limits of l1 alone, and the volume between two spheres about a fixed point, by numpy."""
     low, high = np.zeros(9), np.full(9, np.inf)
     low[0], high[0] = 4.9, 4.9 + width
     joint = published.base_external[0] - published.platform_external[0]
