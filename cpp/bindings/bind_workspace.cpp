@@ -211,6 +211,8 @@ py::dict dict_of(const WorkspaceMap& m) {
   out["low"] = array_from(m.low);
   out["high"] = array_from(m.high);
   out["evaluations"] = m.evaluations;
+  out["internal_point_audit"] =
+      std::tuple(m.internal_points.poses, m.internal_points.missed, m.internal_points.largest);
   return out;
 }
 

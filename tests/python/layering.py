@@ -29,7 +29,7 @@ CPP_LAYERS = (
     {"batch"},
     {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
     | {"pose_margins", "cell_lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
-    | {"sampling"},
+    | {"sampling", "best_points"},
 )
 PRIVATE_LAYER = 8
 

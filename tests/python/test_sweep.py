@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import design_oracle as designs
 import numpy as np
@@ -11,8 +12,9 @@ from scipy.spatial.transform import Rotation
 from sweep_work import HOME, G
 
 import ninedof as nd
-from ninedof.sweep.axis import Axis
+from ninedof.sweep.axis import Axis, axes_of
 from ninedof.sweep.index import INDICES
+from ninedof.sweep.poses import best_block
 
 TURNED = nd.Configuration([0.3, -0.2, 4.1], Rotation.from_rotvec([0.1, -0.3, 0.4]), [0.1, 0.25, 2.2])
 NAMES = ("theta_x", "theta_y", "theta_z", "x_p", "y_p", "z_p", "x_s", "y_s", "z_s")
@@ -172,13 +174,61 @@ def test_chunks_and_threads_change_nothing(chunk, threads):
         assert found[name].tobytes() == whole[name].tobytes()
 
 
-@pytest.mark.parametrize("rule", ["carried", "best"])
-def test_chunks_change_nothing_whatever_o_does(rule):
+def test_chunks_change_nothing_where_o_is_carried():
     over = {"x_p": (-1.0, 1.0, 7), "theta_x": (-0.5, 0.5, 5)}
-    whole = nd.sweep(G, TURNED, over, internal_point=rule)["condition_number"]
+    whole = nd.sweep(G, TURNED, over, internal_point="carried")["condition_number"]
     for chunk in (1, 4, 13):
-        found = nd.sweep(G, TURNED, over, internal_point=rule, chunk=chunk)["condition_number"]
+        found = nd.sweep(G, TURNED, over, internal_point="carried", chunk=chunk)["condition_number"]
         assert found.tobytes() == whole.tobytes()
+
+
+MANY = {"x_p": (-1.2, 1.2, 41), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}  # three blocks, the last one short
+
+
+def test_chunks_threads_and_executors_change_nothing_where_o_is_best():
+    whole = nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"]
+    for options in ({"chunk": 1}, {"chunk": 3000, "threads": 1}, {"chunk": 100_000, "threads": 3}):
+        found = nd.sweep(G, TURNED, MANY, internal_point="best", **options)["condition_number"]
+        assert found.tobytes() == whole.tobytes()
+    with ThreadPoolExecutor(2) as pool:
+        found = nd.sweep(G, TURNED, MANY, internal_point="best", executor=pool)["condition_number"]
+    assert found.tobytes() == whole.tobytes()
+
+
+def test_a_best_sweep_stopped_after_a_block_goes_on(tmp_path):
+    def stop(done, total, seconds):
+        if done:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        nd.sweep(G, TURNED, MANY, internal_point="best", out=tmp_path, chunk=1, progress=stop)
+    rest = []
+    found = nd.sweep(
+        G, TURNED, MANY, internal_point="best", out=tmp_path, progress=lambda done, *_: rest.append(done)
+    )["condition_number"]
+    assert rest[-1] == found.size
+    assert found.tobytes() == nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"].tobytes()
+
+
+def test_a_best_sweep_is_no_worse_than_searching_each_pose():
+    p, q, _ = poses(TURNED, {name: np.linspace(*ends).tolist() for name, ends in MANY.items()})
+    each = nd.best_internal_point(G, p, q)
+    found = nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"]
+    assert (each.status == "found").all()
+    assert (found <= each.value * (1.0 + 1e-6)).all()
+
+
+@pytest.mark.parametrize(
+    ("over", "size"),
+    [({"x_p": (0.0, 0.1, 5000)}, 2048), ({"x_p": [0.0, 0.1], "y_p": (0.0, 0.1, 3000)}, 2048), (MANY, 18 * 3 * 37)],
+)
+def test_blocks_of_the_best_o_depend_on_the_grid_alone(over, size):
+    """Rows longer than a block are cut, shorter ones put together; what is told of the question says so."""
+    block = best_block(axes_of(over, NAMES).shape)
+    assert math.prod(block) == size
+    found = nd.sweep(G, HOME, {"x_p": (0.0, 0.1, 3), "y_p": (0.0, 0.1, 2)}, internal_point="best")
+    assert found.attributes["block"] == [3, 2]
+    assert "block" not in nd.sweep(G, HOME, {"x_p": [0.0]}).attributes
 
 
 # --- Axes -------------------------------------------------------------------------------------------------------------

@@ -275,6 +275,60 @@ def test_the_best_o_allows_what_any_rule_allows(published):
     assert (there.value <= 5.0 * (1.0 + 1e-6)).all()
 
 
+SOUGHT = {
+    "positions": {"box": ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0])},
+    "orientations": {"archetype": "orientation", "position": [0.0, 0.0, 4.5], "region": {"angle": 0.8}},
+    "a set": {
+        "box": ([-1.0, -1.0, 4.0], [1.0, 1.0, 5.0]),
+        "archetype": "inclusive",
+        "orientations": np.stack([np.eye(3), TILTED]),
+    },
+}
+
+
+@pytest.mark.parametrize("case", SOUGHT)
+def test_o_continued_from_neighbours_is_as_good_as_searched(published, case):
+    options = SOUGHT[case] | {"criteria": {"leg_limits": (2.5, 6.5), "condition_number": 6.0}, "internal_point": "best"}
+    one, two = (
+        nd.workspace(published, resolution=5, tolerance=0.2, points=100, threads=n, **options) for n in (1, 3)
+    )
+    assert one.volume == two.volume
+    assert_array_equal(one.cells.condition_number, two.cells.condition_number)
+    assert one.internal_point_audit == two.internal_point_audit
+    assert one.internal_point_audit.poses > 32
+    c = one.cells
+    x, kappa = c.centre[::9], c.condition_number[::9]
+    if case == "orientations":
+        searched = nd.best_internal_point(
+            published, [0.0, 0.0, 4.5], Rotation.from_rotvec(x).as_matrix(), limits=(2.5, 6.5)
+        ).value
+    else:
+        q = SOUGHT[case].get("orientations", np.eye(3)[None])
+        searched = np.max(
+            [nd.best_internal_point(published, x, one_q, limits=(2.5, 6.5)).value for one_q in q], axis=0
+        )
+    known = np.isfinite(searched) & np.isfinite(kappa)
+    assert known.sum() > 10
+    worse = kappa[known] > searched[known] * (1.0 + 1e-6)
+    assert worse.mean() <= 0.01
+    assert (kappa[known] >= searched[known] * (1.0 - 1e-4)).mean() > 0.95, "the search misses few that we have"
+
+
+def test_methods_agree_on_the_best_o(published):
+    options = {
+        "box": ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0]),
+        "criteria": {"leg_limits": (2.0, 7.0), "condition_number": 5.0},
+        "internal_point": "best",
+    }
+    tree = nd.workspace(published, resolution=6, tolerance=0.02, points=200, **options)
+    grid = nd.workspace(published, method="grid", resolution=12, **options)
+    sample = nd.workspace(published, method="sample", points=64, shifts=8, **options)
+    assert grid.internal_point_audit.poses >= 32
+    assert sample.internal_point_audit.poses == 0, "each is searched"
+    assert abs(grid.volume - tree.volume) <= 3.0 * grid.error + tree.error
+    assert abs(sample.volume - tree.volume) <= 4.0 * sample.error + tree.error
+
+
 # --- Other methods ----------------------------------------------------------------------------------------------------
 
 

@@ -16,6 +16,7 @@
 #include "ninedof/configuration.hpp"
 #include "ninedof/geometry.hpp"
 #include "ninedof/redundancy.hpp"
+#include "ninedof/redundancy_map.hpp"
 
 namespace ninedof {
 
@@ -52,7 +53,7 @@ struct InternalPointRule {
     fixed,  ///< at `point`, base frame
     between,  ///< at `fraction` of the way from the centroid of the lower to that of the upper internal joints
     platform,  ///< at `point`, platform frame
-    best,  ///< best_internal_point: least condition number under the leg limits
+    best,  ///< where the condition number is least under the leg limits
   };
   Kind kind = Kind::between;
   double fraction = 0.5;
@@ -156,6 +157,7 @@ struct WorkspaceMap {
   std::vector<double> limit_area;  ///< by index into limit_names()
   WorkspaceCells cells;
   std::vector<WorkspaceLevel> levels;
+  MapAudit internal_points;  ///< of the best O: how often going on from nearby points missed a better one
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< of the chart
   int resolution = 0;
   long evaluations = 0;
@@ -177,6 +179,9 @@ std::vector<Mat3> spread_rotations(int count, double angle = 3.14159265358979323
 /// them. All others are divided, again and again. In the smallest the boundary is linear in six tetrahedra, so that
 /// the volume has an error of the order of the square of the cell; `error` compares two levels. Poses of a low-discrepancy
 /// sequence audit the judgement: a cell in which one disagrees is divided as well. `unseen` bounds what could still hide.
+///
+/// The best O is that of best_internal_map at the first corners (or the centres of a grid). At every other point it is continued
+/// from two points around it that are known by then, each pose being searched where that fails. A sample searches all its poses.
 ///
 /// Throws InvalidArgument naming what makes no sense. The same bits for any number of threads.
 WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,

@@ -22,6 +22,12 @@ struct Lead {
   double reach;
 };
 
+/// How far apart the optima of one branch may be at two poses `moved` apart, lengths. O moves no more than the platform, by and
+/// large. `unit` is the size of the robot.
+constexpr double branch_reach(double unit, double moved) {
+  return 0.01 * unit + 0.5 * moved;
+}
+
 /// The best local optimum that the leads end in, those left out that are not in a chamber meant or where another one was or ended;
 /// `so_far` if none is better. `chamber_start` is as in best_internal_point.
 Followed follow(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,

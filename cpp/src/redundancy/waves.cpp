@@ -15,7 +15,6 @@ namespace {
 // Poses between two looks at `proceed`: fixed, though nothing depends on them.
 constexpr std::size_t slice = 512, search_slice = 32;
 constexpr std::size_t least_audit = 32;  // fewer poses say little
-constexpr double one_branch = 0.01;  // sizes of the robot: points nearer than this are of one branch of optima
 constexpr double deficit = 1e-6;   // counts as missed
 
 using Places = std::vector<std::size_t>;
@@ -157,11 +156,11 @@ class Map {
     return follow(geometry_, grid_.poses[k], problem_, start(k), leads, cells_[k]);
   }
 
-  /// Where the line through the points of two neighbours leads, or the point of one. O moves no more than the platform, by and large.
+  /// Where the line through the points of two neighbours leads, or the point of one.
   Lead lead_from(std::size_t k, std::size_t j, std::size_t beyond) const {
     const PlatformPose &here = grid_.poses[k], &there = grid_.poses[j];
     const double moved = (here.position - there.position).norm() + unit_ * (here.rotation - there.rotation).norm();
-    Lead lead{cells_[j].s, one_branch * unit_ + 0.5 * moved};
+    Lead lead{cells_[j].s, branch_reach(unit_, moved)};
     if (beyond == Lattice::none || !placed(beyond)) return lead;
     const Vec3 step = lead.s - cells_[beyond].s;
     if (step.norm() < 2.0 * lead.reach) lead.s += step;

@@ -1,6 +1,7 @@
 #include "workspace/cell_lattice.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "ninedof/parallel.hpp"
 
@@ -9,6 +10,16 @@ namespace {
 
 constexpr int bits = 21;
 constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+
+using Index3 = std::array<std::uint64_t, 3>;
+
+Index3 indices(std::uint64_t key) {
+  return {key & mask, (key >> bits) & mask, key >> (2 * bits)};
+}
+
+std::uint64_t key_of(const Index3& at) {
+  return at[0] | (at[1] << bits) | (at[2] << (2 * bits));
+}
 
 std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
@@ -48,6 +59,7 @@ std::uint32_t KeyTable::find(std::uint64_t key) const {
 
 CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
     : margins_(margins),
+      best_(margins),
       low_(margins.chart().low()),
       step_((margins.chart().high() - margins.chart().low()) / (resolution * static_cast<double>(2 << deepest))),
       resolution_(resolution),
@@ -63,8 +75,8 @@ Vec3 CellLattice::centre(const Cell& c) const {
 }
 
 Vec3 CellLattice::at(std::uint64_t key) const {
-  const Vec3 index(static_cast<double>(key & mask), static_cast<double>((key >> bits) & mask),
-                   static_cast<double>(key >> (2 * bits)));
+  const auto [i, j, k] = indices(key);
+  const Vec3 index(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
   return low_ + index.cwiseProduct(step_);
 }
 
@@ -74,9 +86,8 @@ std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells) {
     const Cell& c = cells[n];
     const int shift = deepest - c.level;  // half a cell is 2^shift steps
     const auto key = [&](std::uint64_t di, std::uint64_t dj, std::uint64_t dk) {
-      const std::uint64_t i = (2 * std::uint64_t{c.i} + di) << shift, j = (2 * std::uint64_t{c.j} + dj) << shift,
-                          k = (2 * std::uint64_t{c.k} + dk) << shift;
-      return i | (j << bits) | (k << (2 * bits));
+      return key_of({(2 * std::uint64_t{c.i} + di) << shift, (2 * std::uint64_t{c.j} + dj) << shift,
+                     (2 * std::uint64_t{c.k} + dk) << shift});
     };
     for (std::uint64_t corner = 0; corner < 8; ++corner)
       out[n][corner] = table_.add(key(2 * (corner & 1), corner & 2, (corner & 4) >> 1));
@@ -88,17 +99,88 @@ std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells) {
 void CellLattice::evaluate(const WorkspaceControl& control, long expected, double volume) {
   const long first = evaluations(), count = static_cast<long>(table_.size()) - first;
   known_.resize(table_.size());
+  if (best_.needed()) {
+    best_.reserve(table_.size());
+    if (first == 0) map_corners(control.stop);
+  }
   // News between pieces of work, from this thread alone.
   const long piece = std::max<long>(margins_.block() * 64, 1);
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
     parallel_for(now, margins_.block(), threads_, [&](long from, long to) {
+      const auto begin = static_cast<std::size_t>(first + done + from);
       std::vector<Vec3> x;
       for (long n = from; n < to; ++n) x.push_back(point(static_cast<std::uint32_t>(first + done + n)));
-      margins_.evaluate(x.data(), to - from, &known_[static_cast<std::size_t>(first + done + from)], control.stop);
+      const BestAt best = [&](long k, std::size_t r, const PlatformPose& pose) {
+        const std::size_t n = begin + static_cast<std::size_t>(k);
+        if (best_.mapped(n)) return best_.at(n, r, pose);
+        const InternalPoint found =
+            best_.between(around(table_.key(static_cast<std::uint32_t>(n))), x[static_cast<std::size_t>(k)], r, pose);
+        best_.keep(n, r, found.s);
+        return found;
+      };
+      margins_.evaluate(x.data(), to - from, &known_[begin], control.stop, best);
     });
     if (control.progress) control.progress(first + done + now, std::max(expected, first + count), volume);
   }
+}
+
+void CellLattice::map_corners(const std::stop_token& stop) {
+  const auto count = static_cast<std::uint64_t>(resolution_) + 1;
+  constexpr int shift = deepest + 1;
+  std::vector<Vec3> x;
+  std::vector<std::size_t> numbers;
+  for (std::uint64_t k = 0; k < count; ++k)
+    for (std::uint64_t j = 0; j < count; ++j)
+      for (std::uint64_t i = 0; i < count; ++i) {
+        const Anchor corner = anchor(key_of({i << shift, j << shift, k << shift}));
+        x.push_back(corner.x);
+        numbers.push_back(corner.number);
+      }
+  best_.map(x, {count, count, count}, numbers, threads_, stop);
+}
+
+Anchors CellLattice::around(std::uint64_t key) const {
+  const Index3 at = indices(key);
+  const int twos = std::countr_zero(at[0] | at[1] | at[2]);  // odd, and so half way between others, in units of `half`
+  const std::uint64_t half = std::uint64_t{1} << twos;
+  Index3 a = at, b = at;
+  bool centre = true;
+  for (std::size_t n = 0; n < 3; ++n) {
+    centre = centre && (at[n] & half) != 0;
+    if ((at[n] & half) == 0) continue;
+    a[n] -= half;
+    b[n] += half;
+  }
+  // The centre of a divided cell's child: a corner of that cell has even multiples of 2 half, its centre odd ones.
+  if (centre && twos < deepest)
+    for (std::size_t n = 0; n < 3; ++n)
+      if ((a[n] & (2 * half)) != 0) std::swap(a[n], b[n]);
+  return {anchor(key_of(a)), anchor(key_of(b))};
+}
+
+Anchors CellLattice::around(const Cell& cell, const Vec3& x) const {
+  constexpr std::uint64_t half = std::uint64_t{1} << deepest;
+  const Vec3 middle = centre(cell);
+  Index3 at{(2 * std::uint64_t{cell.i} + 1) * half, (2 * std::uint64_t{cell.j} + 1) * half,
+            (2 * std::uint64_t{cell.k} + 1) * half};
+  const Anchor inner = anchor(key_of(at));
+  for (std::size_t n = 0; n < 3; ++n)
+    at[n] = x[static_cast<Eigen::Index>(n)] < middle[static_cast<Eigen::Index>(n)] ? at[n] - half : at[n] + half;
+  return {anchor(key_of(at)), inner};
+}
+
+std::vector<PointMargins> CellLattice::within(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
+                                              const std::stop_token& stop) {
+  std::vector<PointMargins> out(x.size());
+  parallel_for(static_cast<long>(x.size()), margins_.block(), threads_, [&](long from, long to) {
+    const auto begin = static_cast<std::size_t>(from);
+    margins_.evaluate(&x[begin], to - from, &out[begin], stop, [&](long k, std::size_t r, const PlatformPose& pose) {
+      const std::size_t n = begin + static_cast<std::size_t>(k);
+      return best_.between(around(cells[n], x[n]), x[n], r, pose);
+    });
+  });
+  return out;
 }
 
 }  // namespace ninedof

@@ -1,10 +1,13 @@
 #pragma once
 /// Cells of an octree on one integer lattice, and the margins at its points, each evaluated once.
+///
+/// Where O is sought, it is mapped over the corners of level 0. Any later point lies half way between two that are known by then:
+/// the ends of an edge, two opposite corners of a face or of a cell, or a corner and the centre of a larger cell.
 
 #include <cstdint>
 #include <vector>
 
-#include "workspace/pose_margins.hpp"
+#include "workspace/best_points.hpp"
 
 namespace ninedof {
 
@@ -56,13 +59,24 @@ class CellLattice {
   Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
   const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
 
-  /// The corners and centres of cells, numbered; evaluate() must follow.
+  /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0.
   std::vector<NinePoints> points_of(const std::vector<Cell>& cells);
   void evaluate(const WorkspaceControl& control, long expected, double volume);
   long evaluations() const { return static_cast<long>(known_.size()); }
+  const MapAudit& audit() const { return best_.audit(); }
+
+  /// The margins at a point of each of some cells of level 0, which are known.
+  std::vector<PointMargins> within(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
+                                   const std::stop_token& stop);
 
  private:
+  void map_corners(const std::stop_token& stop);
+  Anchor anchor(std::uint64_t key) const { return {at(key), table_.find(key)}; }
+  Anchors around(std::uint64_t key) const;
+  Anchors around(const Cell& cell, const Vec3& x) const;
+
   const Margins& margins_;
+  BestPoints best_;
   Vec3 low_, step_;  // of the finest lattice, which has the centres of the deepest cells
   int resolution_, threads_;
   KeyTable table_;

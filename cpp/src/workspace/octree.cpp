@@ -19,25 +19,22 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 /// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells that nothing is proved of.
 class Audit {
  public:
-  void begin(const std::vector<Leaf>& roots, const CellLattice& lattice, const Margins& m,
-             const WorkspaceSettings& settings, const WorkspaceControl& control) {
+  void begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings,
+             const WorkspaceControl& control) {
     std::vector<long> judged;
     for (std::size_t n = 0; n < roots.size(); ++n)
       if (!roots[n].proved) judged.push_back(static_cast<long>(n));
     if (judged.empty()) return;
     const Vec3 shift = sequence_shift(settings.seed, 0), size = lattice.size(0);
+    std::vector<Cell> in;
     const double cells = static_cast<double>(judged.size()), poses = static_cast<double>(settings.points);
     for (long n = 0; n < settings.points; ++n) {
       const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
       cell_.push_back(judged[which]);
-      const Vec3 middle = lattice.centre(roots[static_cast<std::size_t>(cell_.back())].cell);
-      at_.push_back(middle + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
+      in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);
+      at_.push_back(lattice.centre(in.back()) + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
     }
-    std::vector<PointMargins> known(at_.size());
-    parallel_for(static_cast<long>(at_.size()), m.block(), settings.threads, [&](long from, long to) {
-      const auto first = static_cast<std::size_t>(from);
-      m.evaluate(&at_[first], to - from, &known[first], control.stop);
-    });
+    const std::vector<PointMargins> known = lattice.within(in, at_, control.stop);
     for (const Leaf& root : roots)
       if (root.proved) volume_ += root.fraction * root.measure;
     const double share = cells * size.prod() / poses;

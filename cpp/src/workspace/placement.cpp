@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ninedof/conditioning.hpp"
+
 namespace ninedof {
 namespace {
 
@@ -29,8 +31,30 @@ Vec3 Placement::point(const Vec3& p, const Mat3& q) const {
   return lower_ + (searched() ? 0.5 : rule_.fraction) * (p + q * upper_ - lower_);
 }
 
-InternalPoint Placement::best(const Vec3& p, const Mat3& q) const {
-  return best_internal_point(g_, p, q, problem_);
+InternalPoint Placement::best(const PlatformPose& pose) const {
+  return best_internal_point(g_, pose.position, pose.rotation, problem_);
+}
+
+InternalPoint Placement::best(const PlatformPose& pose, std::span<const Lead> leads) const {
+  const InternalPoint before = before_search(g_, pose.position, pose.rotation, problem_).point;
+  if (before.status != InternalPointStatus::singular) return before;
+  const Followed followed = follow(g_, pose, problem_, {}, leads, {});
+  return followed.best.point.status == InternalPointStatus::found ? followed.best.point : best(pose);
+}
+
+InternalPointMap Placement::best(const PoseGrid& grid, int threads, const std::stop_token& stop) const {
+  MapSettings settings;
+  settings.threads = threads;
+  settings.proceed = [&](std::size_t, std::size_t) { return !stop.stop_requested(); };
+  return best_internal_map(g_, grid, problem_, settings);
+}
+
+InternalPoint Placement::found_before(const PlatformPose& pose, const Vec3& s) const {
+  if (s.hasNaN()) return {};
+  return {s,
+          condition_number(g_, {pose.position, pose.rotation, s}, problem_.characteristic_length),
+          InternalPointStatus::found,
+          {}};
 }
 
 double Placement::speed_translating() const {

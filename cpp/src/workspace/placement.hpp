@@ -1,7 +1,12 @@
 #pragma once
 /// Where O is at a pose: the rule of a workspace.
 
+#include <span>
+#include <stop_token>
+
+#include "ninedof/redundancy_map.hpp"
 #include "ninedof/workspace.hpp"
+#include "redundancy/follow.hpp"
 
 namespace ninedof {
 
@@ -12,9 +17,14 @@ class Placement {
   bool searched() const { return rule_.kind == InternalPointRule::Kind::best; }
   Vec3 point(const Vec3& p, const Mat3& q) const;
 
-  /// The best point of the chamber between the plates, and its condition number. NaN where there is none. Of the pose alone:
-  /// not of what was found nearby, so that a map does not depend on the order of its poses.
-  InternalPoint best(const Vec3& p, const Mat3& q) const;
+  /// The best point of the chamber between the plates, and its condition number. NaN where there is none.
+  InternalPoint best(const PlatformPose& pose) const;
+  /// The same, by going on from what is known nearby; by a search where that comes to nothing.
+  InternalPoint best(const PlatformPose& pose, std::span<const Lead> leads) const;
+  /// The same at all poses of a grid.
+  InternalPointMap best(const PoseGrid& grid, int threads, const std::stop_token& stop) const;
+  /// What there is to say of a point that was found before; s may be NaN.
+  InternalPoint found_before(const PlatformPose& pose, const Vec3& s) const;
 
   /// How fast O, and O seen from the platform's point u~, move at most: by unit of translation, or by radian.
   double speed_translating() const;

@@ -15,7 +15,6 @@ constexpr double barely_outside = -std::numeric_limits<double>::min();
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-/// A length that margins of lengths are compared with.
 double size_of(const Geometry& g) {
   double most = 0.0;
   for (const Triple* t : {&g.base_external(), &g.base_internal(), &g.platform_external(), &g.platform_internal()})
@@ -60,6 +59,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
       criteria_(criteria),
       chart_(domain),
       placement_(g, rule, criteria),
+      size_(size_of(g)),
       share_joint_(pairs_sharing_a_joint(g)) {
   set_ = domain.archetype == Archetype::reachable || domain.archetype == Archetype::inclusive;
   if (home) {
@@ -69,7 +69,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
     home_.rotation = set_ ? Mat3(Mat3::Identity()) : domain.rotations.front();
     home_.internal_point = placement_.point(home_.position, home_.rotation);
     if (placement_.searched()) {
-      const InternalPoint best = placement_.best(home_.position, home_.rotation);
+      const InternalPoint best = placement_.best({home_.position, home_.rotation});
       if (!best.s.hasNaN()) home_.internal_point = best.s;
     }
   }
@@ -83,16 +83,15 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   const auto groups = [&](int count, double scale) {
     for (int n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
   };
-  const double size = size_of(g);
   if (criteria.legs)
     for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
       if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
-  groups(static_cast<int>(limited_legs_.size()), size);
+  groups(static_cast<int>(limited_legs_.size()), size_);
   legs_alone_ = !chart_.has_region() && !placement_.searched();
-  if (placement_.searched()) groups(1, size);
+  if (placement_.searched()) groups(1, size_);
   if (base_) groups(6, 1.0);
   if (platform_) groups(6, 1.0);
-  if (criteria.leg_clearance) groups(1, size);
+  if (criteria.leg_clearance) groups(1, size_);
   if (criteria.condition_number) groups(1, 1.0);
   if (criteria.singularity_free) groups(3, 1.0);
   legs_alone_ = legs_alone_ && pose_groups_ == static_cast<int>(limited_legs_.size()) && pose_groups_ > 0;
@@ -114,24 +113,27 @@ double Margins::leg_speed() const {
   return most;
 }
 
-void Margins::fill(Block& b, const Vec3* x, long count, const Mat3* rotation) const {
-  b.one_rotation = rotation != nullptr;
-  if (rotation) Eigen::Map<RowMajor3>(b.q.data()) = *rotation;
+PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
+  if (chart_.positional()) return {x, domain_.rotations[r]};
+  return {domain_.position, chart_.rotation(x)};
+}
+
+void Margins::fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at) const {
+  b.one_rotation = chart_.positional();
   for (long k = 0; k < count; ++k) {
-    const Vec3 p = chart_.positional() ? x[k] : domain_.position;
-    const Mat3 q = rotation ? *rotation : chart_.rotation(x[k]);
-    Eigen::Map<Vec3>(&b.p[Block::size(3 * k)]) = p;
-    if (!rotation) Eigen::Map<RowMajor3>(&b.q[Block::size(9 * k)]) = q;
-    Vec3 s = placement_.point(p, q);
+    const PlatformPose here = pose(x[k], r);
+    Eigen::Map<Vec3>(&b.p[Block::size(3 * k)]) = here.position;
+    if (k == 0 || !b.one_rotation) Eigen::Map<RowMajor3>(&b.q[Block::size(9 * k)]) = here.rotation;
+    Vec3 s = placement_.point(here.position, here.rotation);
     if (placement_.searched()) {
-      const InternalPoint best = placement_.best(p, q);
+      const InternalPoint best = best_at ? best_at(k, r, here) : placement_.best(here);
       b.found[Block::size(k)] = !best.s.hasNaN();
       b.kappa[Block::size(k)] = best.value;
       if (!best.s.hasNaN()) s = best.s;
     }
     Eigen::Map<Vec3>(&b.s[Block::size(3 * k)]) = s;
   }
-  const batch::Configurations c{b.p.data(), b.q.data(), b.s.data(), count, 3, rotation ? 0 : 9, 3};
+  const batch::Configurations c{b.p.data(), b.q.data(), b.s.data(), count, 3, b.one_rotation ? 0 : 9, 3};
   if (criteria_.legs) batch::leg_lengths(g_, c, b.length.data());
   if (!placement_.searched())
     batch::condition_numbers(g_, c, {&criteria_.characteristic_length, 0}, Norm::two, b.kappa.data());
@@ -184,11 +186,12 @@ void Margins::judge(Block& b, long count, PointMargins* out) const {
   for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
-void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop) const {
+void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
+                       const BestAt& best) const {
   if (stop.stop_requested()) throw Stopped{};
   Block b(count);
   if (!chart_.positional()) {
-    fill(b, x, count, nullptr);
+    fill(b, x, count, 0, best);
     judge(b, count, out);
     for (long k = 0; k < count; ++k) {
       out[k].margin[static_cast<std::size_t>(groups_ - 1)] = chart_.region_margin(x[k]);
@@ -197,7 +200,7 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
     return;
   }
   if (!set_) {
-    fill(b, x, count, &domain_.rotations.front());
+    fill(b, x, count, 0, best);
     judge(b, count, out);
     return;
   }
@@ -206,7 +209,7 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
   std::vector<PointMargins> now(static_cast<std::size_t>(count));
   for (std::size_t r = 0; r < domain_.rotations.size(); ++r) {
     if (stop.stop_requested()) throw Stopped{};
-    fill(b, x, count, &domain_.rotations[r]);
+    fill(b, x, count, r, best);
     judge(b, count, now.data());
     for (long k = 0; k < count; ++k) {
       PointMargins& one = now[static_cast<std::size_t>(k)];

@@ -2,6 +2,7 @@
 /// Margins of many points of a chart: what every method of a workspace asks for.
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <stop_token>
 
@@ -31,6 +32,9 @@ struct PointMargins {
   }
 };
 
+/// The best O at the k-th of some points, with the r-th rotation of the domain.
+using BestAt = std::function<InternalPoint(long k, std::size_t r, const PlatformPose& pose)>;
+
 class Margins {
  public:
   Margins(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
@@ -39,6 +43,12 @@ class Margins {
   Margins& operator=(const Margins&) = delete;
 
   const Chart& chart() const { return chart_; }
+  const Placement& placement() const { return placement_; }
+  /// The poses of a point: one for each rotation of a set.
+  std::size_t poses() const { return set_ ? domain_.rotations.size() : 1; }
+  PlatformPose pose(const Vec3& x, std::size_t r) const;
+  /// The size of the robot: lengths are compared with it.
+  double size() const { return size_; }
   int groups() const { return groups_; }
   /// Lengths per unit of the coordinates, at most.
   double leg_speed() const;
@@ -56,15 +66,16 @@ class Margins {
   /// Whether a few thousand poses more do not matter.
   bool cheap() const { return !placement_.searched(); }
 
-  /// Throws Stopped.
-  void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop) const;
+  /// Throws Stopped. `best` says where O is, if it is sought; without it each pose is searched.
+  void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
+                const BestAt& best = {}) const;
 
   /// What forbids a point, by margins made comparable; -1 for nothing.
   int violated(const PointMargins& m) const;
 
  private:
   struct Block;
-  void fill(Block& b, const Vec3* x, long count, const Mat3* rotation) const;
+  void fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best) const;
   void judge(Block& b, long count, PointMargins* out) const;
   PointMargins judge_one(const Block& b, long k) const;
 
@@ -73,6 +84,7 @@ class Margins {
   WorkspaceCriteria criteria_;
   Chart chart_;
   Placement placement_;
+  double size_;
   Configuration home_;
   Vec3 home_at_;
   std::optional<Cones> base_, platform_;

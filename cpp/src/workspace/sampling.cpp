@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ninedof/error.hpp"
 #include "ninedof/parallel.hpp"
+#include "workspace/best_points.hpp"
 #include "workspace/limits.hpp"
 #include "workspace/sequence.hpp"
 #include "workspace/surface.hpp"
@@ -17,14 +19,20 @@ double missed(const Margins& m, long count) {
 
 /// Evaluates `count` points in order, with news between pieces of work.
 std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads,
-                                    const WorkspaceControl& control, long before, long total) {
+                                    const WorkspaceControl& control, long before, long total,
+                                    const BestPoints* mapped = nullptr) {
   std::vector<PointMargins> out(x.size());
   const long count = static_cast<long>(x.size()), piece = 64 * m.block();
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
     parallel_for(now, m.block(), threads, [&](long from, long to) {
       const auto first = static_cast<std::size_t>(done + from);
-      m.evaluate(&x[first], to - from, &out[first], control.stop);
+      BestAt best;
+      if (mapped)
+        best = [&](long k, std::size_t r, const PlatformPose& pose) {
+          return mapped->at(first + static_cast<std::size_t>(k), r, pose);
+        };
+      m.evaluate(&x[first], to - from, &out[first], control.stop, best);
     });
     if (control.progress) control.progress(before + done + now, total, std::numeric_limits<double>::quiet_NaN());
   }
@@ -67,7 +75,17 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         x.push_back(lattice.centre(cells.back()));
       }
   const Vec3 size = lattice.size(0);
-  const std::vector<PointMargins> known = evaluated(m, x, settings.threads, control, 0, static_cast<long>(x.size()));
+  BestPoints best(m);
+  if (best.needed()) {
+    std::vector<std::size_t> numbers(x.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    best.reserve(x.size());
+    const auto side = static_cast<std::size_t>(n);
+    best.map(x, {side, side, side}, numbers, settings.threads, control.stop);
+    map.internal_points = best.audit();
+  }
+  const std::vector<PointMargins> known =
+      evaluated(m, x, settings.threads, control, 0, static_cast<long>(x.size()), best.needed() ? &best : nullptr);
   std::vector<Leaf> leaves;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     leaves.push_back(leaf_of(known[c], m, size.prod() * m.chart().density(x[c])));

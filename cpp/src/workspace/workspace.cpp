@@ -35,6 +35,7 @@ void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bo
   map.levels = tree.levels;
   map.evaluations = tree.evaluations;
   map.resolution = settings.resolution;
+  map.internal_points = lattice.audit();
   if (tree.levels.empty()) return;  // stopped before anything was known
   map.volume = tree.levels.back().volume;
   map.error = tree.levels.back().error;

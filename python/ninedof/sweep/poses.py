@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,10 +12,10 @@ from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
-from ninedof.redundancy import best_internal_point
+from ninedof.redundancy_map import best_internal_map
 from ninedof.sweep.index import Index
 
-__all__ = ["COORDINATES", "RULES", "Poses"]
+__all__ = ["COORDINATES", "RULES", "Poses", "best_block"]
 
 ROTATION, POSITION, INTERNAL = (
     ("theta_x", "theta_y", "theta_z"),
@@ -25,6 +26,9 @@ COORDINATES = (*ROTATION, *POSITION, *INTERNAL)
 """In the order of `Configuration.moved`."""
 RULES = ("held", "carried", "best")
 """Where O is while the platform moves."""
+
+BLOCK = 2048
+"""Points that are placed together, about: O at each continues from its neighbours. A tenth of a second."""
 
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 
@@ -38,14 +42,17 @@ class Poses:
     relative: bool
     rule: str
     length: float | str
+    block: tuple[int, ...] = (1,)
+    """Of the rule "best": the sides of the blocks of the grid in which O is placed. A chunk is made of whole ones."""
 
     def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points."""
-        c = self.configurations(at, count)
+        c = self.configurations(at, count, threads)
         return {i.name: i.values(self.geometry, c, self.length, threads) for i in indices}
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
+        own = {"block": list(self.block)} if self.rule == "best" else {}
         return {
             "kind": "sweep",
             "geometry": {name: getattr(self.geometry, name) for name in TRIPLES},
@@ -53,9 +60,10 @@ class Poses:
             "relative": self.relative,
             "internal_point": self.rule,
             "characteristic_length": self.length,
+            **own,
         }
 
-    def configurations(self, values: dict[str, Floats], count: int) -> Configuration:
+    def configurations(self, values: dict[str, Floats], count: int, threads: int | None = None) -> Configuration:
         """Return n configurations for n values of each swept coordinate."""
         p, s = (self._column(names, values, own, count) for names, own in self._points())
         turn = self._column(ROTATION, values, np.zeros(3), count)
@@ -67,12 +75,24 @@ class Poses:
             q = Configuration._of(np.zeros((count, 3)), q, np.zeros((count, 3))).moved(tangent).rotation
         if self.rule == "carried":
             s = s + self._carried(p, q)
-        c = Configuration._of(p, q, s)
-        if self.rule != "best":
-            return c
+        return Configuration._of(p, q, s if self.rule != "best" else self._best(p, q, threads))
+
+    def _best(self, p: Floats, q: Floats, threads: int | None) -> Floats:
         assert not isinstance(self.length, str), "refused before"
-        found = best_internal_point(self.geometry, c.position, c.rotation, characteristic_length=self.length)
-        return found.configuration
+        s = np.empty_like(p)
+        size = math.prod(self.block)
+        for first in range(0, len(p), size):
+            part = slice(first, first + size)
+            sides = (-1, *self.block[1:])
+            found = best_internal_map(
+                self.geometry,
+                p[part].reshape(*sides, 3),
+                q[part].reshape(*sides, 3, 3),
+                characteristic_length=self.length,
+                threads=threads,
+            )
+            s[part] = found.configuration.internal_point.reshape(-1, 3)
+        return s
 
     def _points(self) -> tuple[tuple[tuple[str, ...], Floats], ...]:
         own = self.home.internal_point if self.rule != "carried" else np.zeros(3)
@@ -93,3 +113,19 @@ class Poses:
         # Written out: a product by BLAS may round otherwise in a chunk of another size.
         out: Floats = p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)
         return out
+
+
+def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the sides of the blocks of a grid in which the best O is placed, by its shape alone.
+
+    The last axes whole, as far as they are in one block, and a part of the axis before them. Blocks are consecutive
+    points, so that any chunk of whole blocks has the same values. One that goes on into the next row, or plane, has
+    poses beside each other that are not near: that costs time, not accuracy.
+    """
+    whole: tuple[int, ...] = ()
+    for count in reversed(shape):
+        size = math.prod(whole)
+        if count * size > BLOCK:
+            return (BLOCK // size, *whole)
+        whole = (count, *whole)
+    return whole

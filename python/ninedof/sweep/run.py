@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from ninedof import _core
@@ -17,7 +19,7 @@ from ninedof.geometry import Geometry
 from ninedof.lengths import KINDS
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.index import OwnIndex, indices_of
-from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses
+from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sink import Sink
 from ninedof.sweep.variants import Variants
@@ -26,7 +28,7 @@ from ninedof.sweep.work import GridWork
 __all__ = ["sweep", "sweep_designs"]
 
 # A chunk takes under a tenth of a second, so that Ctrl-C is heard.
-POSES, SEARCHES, DESIGNS = 65536, 64, 1024
+POSES, DESIGNS = 65536, 1024
 
 What = str | OwnIndex | Iterable[str | OwnIndex]
 
@@ -71,7 +73,7 @@ def sweep(
     internal_point : {"held", "carried", "best"}
         Where O is while the platform moves: where it is at home, as in the paper's Fig. 6; carried along as if fixed to
         the platform, with swept x_s, y_s, z_s displacing it from there; or where the condition number is least
-        (`best_internal_point`; NaN where there is no such place).
+        (`best_internal_map`, over blocks of some 2000 points; NaN where there is no such place).
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each configuration.
     executor : concurrent.futures.Executor, or callable that makes one, optional
@@ -82,7 +84,7 @@ def sweep(
         Folder that keeps finished chunks. The same call takes up an interrupted sweep where it stopped, whenever it
         was killed. A folder that answers another question is refused.
     chunk : int, optional
-        Points a chunk. The values do not depend on it.
+        Points a chunk; with "best" rounded up to whole blocks. The values do not depend on it.
     threads : int, optional
         Threads within a chunk; one a processor by default, and one with an executor.
     progress : callable, optional
@@ -120,10 +122,14 @@ def sweep(
         raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
     if rule == "best" and isinstance(length, str):
         raise ValueError(f'characteristic_length: got {length!r} with internal_point="best", expected a number')
+    points = chunk_argument(chunk, POSES)
     poses = Poses(geometry, home, bool(relative), rule, length)
-    default = SEARCHES if rule == "best" else POSES
+    if rule == "best":
+        block = best_block(grid.shape)
+        poses, size = replace(poses, block=block), math.prod(block)
+        points = size if chunk is None else -(-points // size) * size
     workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
-    work = GridWork(poses, grid, indices_of(index), chunk_argument(chunk, default), workers)
+    work = GridWork(poses, grid, indices_of(index), points, workers)
     return _run(work, {n: "rad" if n in ROTATION else "length" for n in COORDINATES}, executor, out, progress)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from ninedof import _core
 from ninedof.arrays import Floats
 from ninedof.checks import choice, finite, whole
+from ninedof.redundancy_map import MapAudit
 
 __all__ = ["WorkspaceCells", "WorkspaceMap", "WorkspaceSlice", "WorkspaceStatus"]
 
-FORMAT = "ninedof-workspace-1"
+FORMAT = "ninedof-workspace-2"
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
 GROUPS = ("base_cone", "platform_cone", "leg_clearance")
 
@@ -124,6 +125,9 @@ class WorkspaceMap:
     method: str
     evaluations: int
     seconds: float
+    internal_point_audit: MapAudit
+    """Of the best O: how often continuing it from nearby poses missed a better one. A miss at a pose audited is mended,
+    elsewhere it stands: the workspace is then too small there. No poses where O is by a rule, or each is searched."""
 
     limit_names = LIMITS
 
@@ -229,6 +233,7 @@ class WorkspaceMap:
                 continue
             out[field.name] = value.tolist() if isinstance(value, np.ndarray) else value
         out["status"] = str(self.status)
+        out["internal_point_audit"] = asdict(self.internal_point_audit)
         out["coordinates"] = list(self.coordinates)
         out["limits"] = self.limits()
         out["share"] = self.share
@@ -256,6 +261,8 @@ class WorkspaceMap:
             value = getattr(self, field.name)
             if isinstance(value, np.ndarray):
                 arrays[field.name] = value
+            elif field.name == "internal_point_audit":
+                words[field.name] = asdict(value)
             elif field.name != "cells":
                 words[field.name] = value
         temporary = file.with_name(f".{file.name}.{os.getpid()}.npz")
@@ -295,6 +302,7 @@ class WorkspaceMap:
             cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
             words["status"] = WorkspaceStatus(words["status"])
             words["coordinates"] = tuple(words["coordinates"])
+            words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
             return cls(cells=cells, **words, **data)
         except (KeyError, TypeError) as error:
             raise ValueError(f"{file}: got a map without {error}, expected a whole one") from None

@@ -14,6 +14,7 @@ from ninedof.arrays import as_number, thread_argument
 from ninedof.checks import choice, whole
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
+from ninedof.redundancy_map import MapAudit
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus
@@ -85,7 +86,8 @@ def workspace(
     internal_point : float, array_like, mapping or "best"
         Where O is. A number: that fraction of the way from the centroid of the lower to that of the upper internal
         joints, the default being half way. Shape (3,): fixed in the base. {"platform": (3,)}: fixed in the platform.
-        "best": at each pose where the condition number is least within the leg limits (`best_internal_point`).
+        "best": at each pose where the condition number is least within the leg limits: as `best_internal_map` has it
+        at the corners of the first cells, continued from two points around it elsewhere.
     rotation : array_like, shape (3, 3), or scipy.spatial.transform.Rotation, optional
         Q of "constant_orientation", or that about which the region of "orientation" lies. The identity by default.
     position : array_like, shape (3,), optional
@@ -116,7 +118,7 @@ def workspace(
     seed : int
         Of audit and sample.
     most_evaluations : int
-        Poses after which an octree ends; about 350 bytes each are kept.
+        Poses after which an octree ends; about 350 bytes each are kept, and 24 more for each O that is sought.
     threads : int, optional
         One a processor by default. The result does not depend on it.
     progress : callable, optional
@@ -184,7 +186,7 @@ def _map(
     side = (high - low) / (resolution * 2.0 ** cells.pop("level")[:, None])
     cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
     names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
-    home_limit = found.pop("home_limit")
+    home_limit, audit = found.pop("home_limit"), found.pop("internal_point_audit")
     return WorkspaceMap(
         **found | {"status": WorkspaceStatus(found["status"])},
         cells=WorkspaceCells(**cells),
@@ -193,4 +195,5 @@ def _map(
         archetype=archetype,
         method=method,
         seconds=seconds,
+        internal_point_audit=MapAudit(*audit),
     )
