@@ -203,9 +203,9 @@ def test_a_best_sweep_stopped_after_a_block_goes_on(tmp_path):
     with pytest.raises(InterruptedError):
         nd.sweep(G, TURNED, MANY, internal_point="best", out=tmp_path, chunk=1, progress=stop)
     rest = []
-    found = nd.sweep(
-        G, TURNED, MANY, internal_point="best", out=tmp_path, progress=lambda done, *_: rest.append(done)
-    )["condition_number"]
+    found = nd.sweep(G, TURNED, MANY, internal_point="best", out=tmp_path, progress=lambda done, *_: rest.append(done))[
+        "condition_number"
+    ]
     assert rest[-1] == found.size
     assert found.tobytes() == nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"].tobytes()
 

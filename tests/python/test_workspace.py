@@ -289,9 +289,7 @@ SOUGHT = {
 @pytest.mark.parametrize("case", SOUGHT)
 def test_o_continued_from_neighbours_is_as_good_as_searched(published, case):
     options = SOUGHT[case] | {"criteria": {"leg_limits": (2.5, 6.5), "condition_number": 6.0}, "internal_point": "best"}
-    one, two = (
-        nd.workspace(published, resolution=5, tolerance=0.2, points=100, threads=n, **options) for n in (1, 3)
-    )
+    one, two = (nd.workspace(published, resolution=5, tolerance=0.2, points=100, threads=n, **options) for n in (1, 3))
     assert one.volume == two.volume
     assert_array_equal(one.cells.condition_number, two.cells.condition_number)
     assert one.internal_point_audit == two.internal_point_audit
@@ -304,9 +302,7 @@ def test_o_continued_from_neighbours_is_as_good_as_searched(published, case):
         ).value
     else:
         q = SOUGHT[case].get("orientations", np.eye(3)[None])
-        searched = np.max(
-            [nd.best_internal_point(published, x, one_q, limits=(2.5, 6.5)).value for one_q in q], axis=0
-        )
+        searched = np.max([nd.best_internal_point(published, x, one_q, limits=(2.5, 6.5)).value for one_q in q], axis=0)
     known = np.isfinite(searched) & np.isfinite(kappa)
     assert known.sum() > 10
     worse = kappa[known] > searched[known] * (1.0 + 1e-6)
