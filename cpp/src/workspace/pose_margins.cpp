@@ -172,7 +172,9 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
   if (criteria_.condition_number) {
     const double margin = *criteria_.condition_number / m.condition_number - 1.0;
-    put(std::isnan(margin) ? -1.0 : margin, limit::condition_number);
+    // Without a place for O there is none; that is the limit then, and not this.
+    const double none = placement_.searched() ? 1.0 : -1.0;
+    put(std::isnan(margin) ? none : margin, limit::condition_number);
   }
   if (criteria_.singularity_free)
     for (int d = 0; d < 3; ++d) {
