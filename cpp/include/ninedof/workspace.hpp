@@ -140,7 +140,8 @@ struct WorkspaceMap {
   WorkspaceStatus status = WorkspaceStatus::empty;
   double volume = std::numeric_limits<double>::quiet_NaN();  ///< length^3, or radians^3 (8 pi^2 is all of SO(3))
   double error = std::numeric_limits<double>::quiet_NaN();  ///< estimate; a standard error for a sample
-  double unseen = 0.0;  ///< 95 % bound for the volume of features that every cell and audit pose, or every point, missed
+  double unseen =
+      0.0;  ///< 95 % bound for the volume of features that every cell and audit pose, or every point, missed
   double chart_volume = 0.0;  ///< of the box or region
   bool box_limits = false;  ///< the workspace runs to the box (or region): a larger one would hold more
   bool home_allowed = false;
