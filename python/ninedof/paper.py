@@ -31,6 +31,12 @@ def published_geometry() -> Geometry:
     return Geometry.hexagonal(a1=A1, a2=BASE_SIDE, b1=PLATFORM_SIDE, b2=0.0)
 
 
+def published_variables() -> dict[str, float]:
+    """Return the published design at its best zs."""
+    sides = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0}
+    return {**sides, "zp": ZP, "zs": published_zs()[2]}
+
+
 def published_zs() -> tuple[float, float, float]:
     """Return the heights of O at which the published design has k = 3.9110, below and above the best, and the best."""
     found = _solved("published plates and height").best

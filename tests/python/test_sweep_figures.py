@@ -253,11 +253,15 @@ def test_the_named_figures(here, capsys, figure):
     assert Path("run/sweep.svg").is_file()
 
 
-def test_the_atlas_command(here, capsys):
+def test_the_atlas_command(here, capsys, monkeypatch):
+    marked = []
+    draw = plot.atlas
+    monkeypatch.setattr(plot, "atlas", lambda result, optimum: marked.append(optimum) or draw(result, optimum))
     status, out, _ = run(capsys, "atlas --designs 50000 --out run")
     assert status == 0
     assert "best of all designs" in out
     assert {p.name for p in (here / "run").iterdir()} == {"chunks", "atlas.npz", "atlas.png", "atlas.svg"}
+    np.testing.assert_allclose(marked, [(2.0, 3.762659078596)], rtol=1e-9)  # docs/values.md
     data = json.loads(run(capsys, "atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
     assert data["atlas"]["designs"] == 50000
     assert {"radius_ratio", "condition_number", "design"} == set(data["atlas"]["best"][0])

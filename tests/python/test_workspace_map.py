@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import sys
 import threading
 
 import numpy as np
@@ -293,3 +294,34 @@ def test_the_figure_shows_what_it_is_given(found):
     assert set(words) == {"external legs", "upper internal legs", "condition number"}
     with pytest.raises(ValueError, match="sections: got 0"):
         plot.workspace([], found.limit_names, found.limits(), found.percentiles, found.levels)
+
+
+def test_ctrl_c_before_the_first_level_is_said_and_kept(tmp_path, capsys, monkeypatch):
+    """Nothing is known then: every number is NaN, and the command ends as after any other interruption."""
+
+    search = nd.workspace
+
+    def interrupted(*arguments, **options):
+        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+        return search(*arguments, **options | {"resolution": 128, "most_evaluations": 10**9})
+
+    monkeypatch.setattr(sys.modules["ninedof.commands.workspace"], "find_workspace", interrupted)
+    code, out = run(["--condition", "6", "--internal-point", "best", "--json", "--out", str(tmp_path / "run")], capsys)
+    assert code == 130
+    numbers = json.loads(out.out)["workspace"]
+    assert numbers["status"] == "stopped"
+    assert numbers["levels"] == []
+    again = nd.WorkspaceMap.load(tmp_path / "run" / "map.npz")
+    assert again.percentiles.shape == (101,)
+    assert np.isnan(again.percentiles).all()
+    assert "interrupted" in out.err
+
+
+def test_the_command_starts_from_the_published_design_at_its_best(tmp_path, capsys):
+    code, _ = run(["--legs", "0", "1", "--json", "--no-figures", "--out", str(tmp_path / "run")], capsys)
+    assert code == 3
+    asked = json.loads((tmp_path / "run" / "record.json").read_text())["asked"]
+    zs = asked["home"]["internal_point"][2]
+    heights = nd.Configuration.neutral(asked["home"]["position"][2], zs + np.array([-1e-4, 0.0, 1e-4]))
+    around = nd.condition_number(nd.Geometry(**asked["geometry"]), heights)
+    assert around.argmin() == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from pathlib import Path
 
@@ -9,13 +10,15 @@ import numpy as np
 from rich.table import Table
 
 from ninedof.atlas import atlas as survey
+from ninedof.atlas.sample import VARIABLES, squared_radius_ratio
 from ninedof.commands.kept import compute, run_folder, write
 from ninedof.commands.screen import DONE, INTERRUPTED, Screen
+from ninedof.optimize import optimize
+from ninedof.study import Study
 from ninedof.sweep import SweepResult
 
 __all__ = ["atlas"]
 
-OPTIMUM = (2.0, 3.762659)  # of the paper's study, proved: marked in the figure
 SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 
 
@@ -51,7 +54,10 @@ def atlas(
     def draw() -> object:
         from ninedof import plot
 
-        return plot.atlas(result, OPTIMUM)
+        best = optimize(Study.paper()).best
+        assert best is not None, "the paper's study has an optimum"
+        sides = np.array([[best.variables[name] for name in VARIABLES]])
+        return plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
 
     write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]
     return DONE

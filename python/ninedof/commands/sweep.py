@@ -18,8 +18,7 @@ from ninedof.checks import shown
 from ninedof.commands.evaluation import chosen_design, length_option
 from ninedof.commands.kept import compute, run_folder, write
 from ninedof.commands.screen import DONE, INTERRUPTED, Screen
-from ninedof.configuration import Configuration
-from ninedof.designs import HEXAGON, Design
+from ninedof.designs import Design, hexagonal_design
 from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
 from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
@@ -126,16 +125,10 @@ def parse_over(text: str) -> tuple[str, Values]:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
 
-def _published() -> dict[str, float]:
-    sides = (paper.A1, paper.BASE_SIDE, paper.PLATFORM_SIDE, 0.0)
-    return {**dict(zip(HEXAGON, sides, strict=True)), "zp": paper.ZP, "zs": paper.published_zs()[2]}
-
-
 def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
     """Return the design that is moved: the published one at its best zs where none is given."""
     if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
-        values = _published()
-        return Design(paper.published_geometry(), Configuration.neutral(values["zp"], values["zs"]), 1.0)
+        return hexagonal_design(paper.published_variables())
     return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
 
 
@@ -148,7 +141,7 @@ def _variables(
     given = {name: value for name, value in sides.items() if value is not None}
     if both := sorted(set(given) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
-    values = given or _published()
+    values = given or paper.published_variables()
     if theta_z_deg is not None:
         values["theta_z"] = math.radians(theta_z_deg)
     return {name: value for name, value in values.items() if name not in over}

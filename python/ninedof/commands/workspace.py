@@ -25,7 +25,6 @@ __all__ = ["workspace"]
 
 ANGLES = ("base_cone", "platform_cone")
 SHOWN = 8  # limits in the table
-ZS = 2.4432  # of the published design, where its condition number is least
 
 
 def workspace(
@@ -68,7 +67,7 @@ def workspace(
     """
     screen = Screen(json)
     thread_argument(threads)
-    given = _published() if design is None else load_design(design)
+    given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
     asked = _arguments(given, archetype, box, criteria, region_deg, orientations, internal_point) | dict(search)
     directory = job.new_directory(out)
     with _bar(screen, f"{archetype.replace('_', ' ')} workspace") as progress:
@@ -88,12 +87,6 @@ def workspace(
     if found.interrupted:
         return INTERRUPTED
     return DONE if found.volume > 0.0 else NO_RESULT
-
-
-def _published() -> Design:
-    return hexagonal_design(
-        {"a1": paper.A1, "a2": paper.BASE_SIDE, "b1": paper.PLATFORM_SIDE, "b2": 0.0, "zp": paper.ZP, "zs": ZS}
-    )
 
 
 def _arguments(

@@ -187,6 +187,8 @@ def _map(
     cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
     names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
     home_limit, audit = found.pop("home_limit"), found.pop("internal_point_audit")
+    if not found["percentiles"].size:  # stopped before the first level
+        found["percentiles"] = np.full(101, np.nan)
     return WorkspaceMap(
         **found | {"status": WorkspaceStatus(found["status"])},
         cells=WorkspaceCells(**cells),
