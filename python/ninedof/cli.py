@@ -148,8 +148,8 @@ def sweep(
         bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
     ] = False,
     internal_point: Annotated[
-        str, typer.Option(help="Where O is while the platform moves: held, carried or best.")
-    ] = "held",
+        str | None, typer.Option(help="Where O is while the platform moves: held (default), carried or best.")
+    ] = None,
     a1: Annotated[float | None, typer.Option(help="Base side (eq. 37).")] = None,
     a2: Annotated[float | None, typer.Option(help="Base side.")] = None,
     b1: Annotated[float | None, typer.Option(help="Platform side (eq. 38).")] = None,

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -12,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof import paper
+from ninedof.chunks.store import MANIFEST
 from ninedof.conditioning import condition_number
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
@@ -22,7 +25,7 @@ from ninedof.result import Result
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
 
-__all__ = ["new_directory", "record_comparison", "record_result"]
+__all__ = ["new_directory", "record_comparison", "record_result", "run_directory"]
 
 Say = Callable[[str], object]
 """Told what is being done, a few words at a time."""
@@ -30,6 +33,7 @@ Say = Callable[[str], object]
 Named = tuple[str, Geometry, Configuration, float, float]
 """A design to draw: name, geometry, neutral configuration, condition number there, characteristic length."""
 
+RUNS = Path("runs")
 TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
 FEWEST_TRACED = 10  # however many poses a run has to look at
 
@@ -46,10 +50,37 @@ def new_directory(out: Path | None) -> Path:
         return out
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
     for attempt in itertools.count():
-        path = Path("runs") / (f"{stamp}-{attempt}" if attempt else stamp)
+        path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
         if _create(path, exist_ok=False):
             return path
     raise AssertionError("unreachable")
+
+
+@contextmanager
+def run_directory(out: Path | None) -> Iterator[Path]:
+    """Create the run folder as `new_directory` does; input refused before anything was kept takes it away again."""
+    there = out is not None and out.exists()
+    directory = new_directory(out)
+    try:
+        yield directory
+    except ValueError:
+        if not any(path.is_file() and not _is_preparation(path) for path in directory.rglob("*")):
+            _remove(directory, there)
+        raise
+
+
+def _is_preparation(path: Path) -> bool:
+    return path.name.startswith(".") or path.name == MANIFEST
+
+
+def _remove(directory: Path, keep: bool) -> None:
+    for entry in directory.iterdir():
+        shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
+    if not keep:
+        directory.rmdir()
+        if directory.parent == RUNS:
+            with suppress(OSError):  # other runs are there
+                RUNS.rmdir()
 
 
 def _create(path: Path, exist_ok: bool) -> bool:

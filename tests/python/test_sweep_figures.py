@@ -281,7 +281,25 @@ def test_the_bar_says_how_long_it_takes(capsys):
 
 BAD = {
     "sweep": "sweep: got no --over",
-    "sweep figure-6 --over x_p=0:1:3": "got figure-6 and --over",
+    "sweep figure-6 --over x_p=0:1:3": "--over: got x_p=0:1:3, expected none with figure-6",
+    "sweep figure-6 --a1 3": "--a1: got 3.0, expected none with figure-6",
+    "sweep figure-6 --lc 2": "--lc: got 2, expected none with figure-6",
+    "sweep figure-6 --index leg_ratio": "--index: got leg_ratio, expected none with figure-6",
+    "sweep figure-6 --absolute": "--absolute: got it, expected none with figure-6",
+    "sweep figure-6 --internal-point held": "--internal-point: got held, expected none with figure-6",
+    "sweep figure-7 --chunk 5": "--chunk: got 5, expected none with figure-7",
+    "sweep figure-7 --threads 2": "--threads: got 2, expected none with figure-7",
+    "sweep figure-7 --theta-z-deg 0": "--theta-z-deg: got 0.0, expected none with figure-7",
+    "sweep figure-6 --points 1": "points: got 1",
+    "sweep figure-9": "sweep: got figure-9, expected one of figure-6, figure-7, or a design",
+    "sweep figure-9 --over x_p=0:1:3": "sweep: got figure-9, expected one of",
+    "sweep --over x_p=0:1:3 --points 3": "--points: got 3, expected none with --over",
+    "sweep --over a1=0:1:3 --absolute": "--absolute: got it, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --internal-point best": "--internal-point: got best, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --threads 1": "--threads: got 1, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --lc 0": "characteristic_length: got 0.0",
+    "sweep --over a1=-1:1:3": "a1: got -1, expected a side of 0 at least",
+    "sweep --over x_p_deg=0:1:3": "over: got 'x_p_deg'",
     "sweep --over x_p": "--over: got 'x_p', expected NAME=LOW:HIGH:COUNT",
     "sweep --over x_p=0:1": "expected NAME=LOW:HIGH:COUNT",
     "sweep --over x_p=0:1:2.5": "expected NAME=LOW:HIGH:COUNT",
@@ -299,6 +317,8 @@ BAD = {
     "sweep --over x_p=0:1:3 --threads 0": "threads: got 0",
     "atlas --designs 0": "designs: got 0",
     "atlas --seed -1": "seed: got -1",
+    "workspace --legs 3 2": "l1",
+    "workspace --legs 2 3 --resolution 1": "resolution: got 1",
 }
 
 
@@ -308,7 +328,12 @@ def test_bad_input_ends_in_one_line_and_status_2(here, capsys, line):
     assert status == 2
     assert out == ""
     assert BAD[line] in " ".join(err.split())
-    assert not [p for p in here.rglob("*") if p.is_file() and p.name != ".lock"]
+    assert "%" not in err or "a1=-1" in line  # no bar before the first point
+    assert not list(here.iterdir())
+    (here / "mine").mkdir()
+    assert run(capsys, f"{line} --out mine")[0] == 2
+    assert not list(here.glob("*/*"))
+    assert (here / "mine").exists()
 
 
 def test_without_dask_it_says_what_to_install(here, capsys, monkeypatch):

@@ -22,15 +22,18 @@ __all__ = ["compute", "run_folder", "write"]
 CHUNKS = "chunks"
 
 
-def run_folder(out: Path | None, resume: bool) -> Path:
-    """Return a new run folder, or that of an interrupted run."""
+@contextmanager
+def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
+    """Give a new run folder, or that of an interrupted run."""
     if not resume:
-        return job.new_directory(out)
+        with job.run_directory(out) as directory:
+            yield directory
+        return
     if out is None:
         raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
     if not (out / CHUNKS).is_dir():
         raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
-    return out
+    yield out
 
 
 def compute(

@@ -68,8 +68,18 @@ class Screen:
             TextColumn("{task.fields[left]}"),
             TimeElapsedColumn(),
         )
-        with Progress(*columns, console=self.progress_console) as shown:
+        with from_first_news(Progress(*columns, console=self.progress_console)) as shown:
             yield PointBar(shown, title)
+
+
+@contextmanager
+def from_first_news(shown: Progress) -> Iterator[Progress]:
+    """Leave it to the first news to start a bar: input that is refused before shows none."""
+    try:
+        yield shown
+    finally:
+        if shown.live.is_started:
+            shown.stop()
 
 
 class PointBar:
@@ -83,6 +93,7 @@ class PointBar:
     def show(self, done: int, total: int, to_go: float) -> None:
         """Take the progress of a sweep."""
         left = "" if math.isnan(to_go) or done == total else f"{_clock(to_go)} to go"
+        self._shown.start()
         self._shown.update(self._task, completed=done, total=total, left=left)
 
 

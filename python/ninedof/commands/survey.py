@@ -33,9 +33,9 @@ def atlas(
 ) -> int:
     """Survey; print, record, return the exit status."""
     screen = Screen(json)
-    directory = run_folder(out, resume)
     asked = partial(survey, designs, seed)
-    result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
+    with run_folder(out, resume) as directory:
+        result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
     if result is None:
         return INTERRUPTED
     screen.print(_table(result))

@@ -38,7 +38,7 @@ class SweepOptions:
     over: Sequence[str]
     index: Sequence[str]
     absolute: bool
-    internal_point: str
+    internal_point: str | None
     lc: str | None
     points: int | None
     chunk: int | None
@@ -60,14 +60,13 @@ def sweep(
     screen = Screen(json)
     thread_argument(options.threads)
     if what in FIGURES:
-        if options.over or any(v is not None for v in sides.values()):
-            raise ValueError(f"sweep: got {what} and --over or a design, expected one of the two")
+        _expect_none(f"with {what}", vars(options) | dict(sides) | {"theta_z_deg": theta_z_deg, "points": None})
         asked: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), options.points)
         title = what.replace("figure-", "Fig. ")
     else:
         asked, title = _asked(what, sides, theta_z_deg, options)
-    directory = run_folder(out, resume)
-    result = compute(asked, title, directory, scheduler, screen)
+    with run_folder(out, resume) as directory:
+        result = compute(asked, title, directory, scheduler, screen)
     if result is None:
         return INTERRUPTED
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
@@ -82,8 +81,11 @@ def _asked(
     what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, options: SweepOptions
 ) -> tuple[Callable[..., SweepResult], str]:
     """Return the sweep of the options, and its title."""
+    if what is not None and what.startswith("figure-") and not Path(what).exists():
+        raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
     if not options.over:
         raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
+    _expect_none("with --over", {"points": options.points})
     over = dict(parse_over(text) for text in options.over)
     if len(over) < len(options.over):
         raise ValueError(f"--over: got {', '.join(options.over)}, expected different names")
@@ -91,9 +93,11 @@ def _asked(
     title = f"over {', '.join(over)}"
     length = None if options.lc is None else length_option(options.lc)
     if any(name not in COORDINATES for name in over):
+        unheard = {name: getattr(options, name) for name in ("absolute", "internal_point", "threads")}
+        _expect_none("in a sweep over designs", unheard)
         held = _variables(what, sides, theta_z_deg, over)
-        asked = partial(sweep_designs, held, over, index, characteristic_length=length or 1.0, chunk=options.chunk)
-        return asked, title
+        length = 1.0 if length is None else length
+        return partial(sweep_designs, held, over, index, characteristic_length=length, chunk=options.chunk), title
     design = _design(what, sides, theta_z_deg)
     return partial(
         sweep_poses,
@@ -102,25 +106,36 @@ def _asked(
         over,
         index,
         relative=not options.absolute,
-        internal_point=options.internal_point,
+        internal_point=options.internal_point or "held",
         characteristic_length=design.characteristic_length if length is None else length,
         chunk=options.chunk,
         threads=options.threads,
     ), title
 
 
+def _expect_none(where: str, given: Mapping[str, Any]) -> None:
+    """Refuse options that nothing would read."""
+    for name, value in given.items():
+        if value is not None and value is not False and value != ():
+            text = " ".join(value) if isinstance(value, list) else value
+            got = "it" if value is True else text
+            raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
+
+
 def parse_over(text: str) -> tuple[str, Values]:
-    """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; a name that ends in _deg has degrees."""
+    """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; an angle's name may end in _deg."""
     expected = "NAME=LOW:HIGH:COUNT, or NAME=VALUE,VALUE,..."
     name, equals, rest = text.partition("=")
     parts = rest.split(":")
     try:
         if not equals or len(parts) not in (1, 3):
             raise ValueError
-        unit = math.radians if name.endswith("_deg") else float
+        in_degrees = name.startswith("theta") and name.endswith("_deg")
+        unit = math.radians if in_degrees else float
+        name = name.removesuffix("_deg") if in_degrees else name
         if len(parts) == 1:
-            return name.removesuffix("_deg"), np.array([unit(float(value)) for value in rest.split(",")])
-        return name.removesuffix("_deg"), (unit(float(parts[0])), unit(float(parts[1])), int(parts[2]))
+            return name, np.array([unit(float(value)) for value in rest.split(",")])
+        return name, (unit(float(parts[0])), unit(float(parts[1])), int(parts[2]))
     except ValueError:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from ninedof import job, paper
 from ninedof.arrays import thread_argument
-from ninedof.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen, from_first_news
 from ninedof.designs import Design, hexagonal_design, load_design
 from ninedof.lengths import characteristic_length
 from ninedof.workspace import WorkspaceMap
@@ -69,8 +69,8 @@ def workspace(
     thread_argument(threads)
     given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
     asked = _arguments(given, archetype, box, criteria, region_deg, orientations, internal_point) | dict(search)
-    directory = job.new_directory(out)
-    with _bar(screen, f"{archetype.replace('_', ' ')} workspace") as progress:
+    title = f"{archetype.replace('_', ' ')} workspace"
+    with job.run_directory(out) as directory, _bar(screen, title) as progress:
         found = find_workspace(given.geometry, **asked, home=given.configuration, threads=threads, progress=progress)
     screen.print(_table(found))
     for sentence in _sentences(found):
@@ -162,11 +162,12 @@ def _bar(screen: Screen, title: str) -> Iterator[Any]:
         TextColumn("to go"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=screen.progress_console) as shown:
+    with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
         task = shown.add_task(title, total=None, volume="")
 
         def progress(done: int, expected: int, volume: float) -> None:
             words = "" if math.isnan(volume) else f", volume {volume:.5g}"
+            shown.start()
             shown.update(task, completed=done, total=expected, volume=words)
 
         yield progress
