@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ninedof.chunks.store import write_whole
 from ninedof.records import FILE, to_json, versions
 from ninedof.workspace import WorkspaceMap
 
@@ -42,10 +43,5 @@ def write_workspace(
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "files": [MAP, *files],
     }
-    temporary = folder / f".{FILE}.{os.getpid()}"
-    try:
-        temporary.write_text(to_json(data) + "\n", encoding="utf-8")
-        temporary.replace(folder / FILE)
-    finally:
-        temporary.unlink(missing_ok=True)
+    write_whole(folder / FILE, (to_json(data) + "\n").encode())
     return folder / FILE

@@ -292,6 +292,20 @@ def test_two_runs_do_not_share_a_folder(tmp_path):
         asked(tmp_path / "out")
 
 
+def test_two_stores_of_one_process_do_not_share_a_folder(tmp_path):
+    with Store(tmp_path / "out", QUESTION, 20):
+        (tmp_path / "link").symlink_to(tmp_path / "out")
+        for name in ("out", "link"):
+            with pytest.raises(ValueError, match="where another run is at work"):
+                Store(tmp_path / name, QUESTION, 20)
+        with Store(tmp_path / "other", QUESTION, 20):
+            pass
+    for _ in range(2):
+        again = Store(tmp_path / "out", QUESTION, 20)
+        again.close()
+        again.close()
+
+
 # --- Interrupted ------------------------------------------------------------------------------------------------------
 
 

@@ -97,14 +97,33 @@ def test_save_and_load(found, tmp_path):
         assert_array_equal(getattr(again.cells, name), value)
     assert again.status is nd.WorkspaceStatus.CONVERGED
     assert_array_equal(again.slice("x", 0.1).state, found.slice("x", 0.1).state)
-    with pytest.raises(ValueError, match=r"map\.txt"):
-        found.save(tmp_path / "map.txt")
+    assert found.save(tmp_path / "map") == path
     (tmp_path / "other.npz").write_bytes(b"nothing")
     with pytest.raises(ValueError, match=r"other\.npz"):
         nd.WorkspaceMap.load(tmp_path / "other.npz")
     with pytest.raises(ValueError, match=r"none\.npz"):
         nd.WorkspaceMap.load(tmp_path / "none.npz")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["map.npz", "other.npz"]
+
+
+@pytest.mark.parametrize("kind", ["map", "sweep"])
+def test_damaged_files_are_refused_by_name(published, found, tmp_path, kind):
+    swept = nd.sweep(published, HOME, {"x_p": (0.0, 1.0, 5)})
+    path = (found if kind == "map" else swept).save(tmp_path / "file")
+    load = nd.WorkspaceMap.load if kind == "map" else nd.SweepResult.load
+    whole = path.read_bytes()
+    rng = np.random.default_rng(0)
+    places = [*rng.integers(0, len(whole), 40).tolist(), *range(60), *range(len(whole) - 60, len(whole))]
+    refused = 0
+    for place in places:
+        for damaged in (whole[:place], whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :]):
+            path.write_bytes(damaged)
+            try:
+                load(path)  # some bytes of a zip file mean nothing
+            except ValueError as error:
+                refused += 1
+                assert str(error).startswith(f"{path}: ")  # noqa: PT017
+    assert refused > 150
 
 
 # --- Ends of the range ------------------------------------------------------------------------------------------------

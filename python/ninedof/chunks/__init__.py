@@ -1,7 +1,7 @@
 """Long work in chunks: each computed alone, anywhere, kept as soon as it is finished, and never twice.
 
 `work` says what a chunk is, `store` keeps finished ones in a folder, `crew` hands them to an executor, `run` is what a
-caller calls.
+caller calls; `npz` keeps what came of it all.
 """
 
 from ninedof.chunks.run import Progress, chunk_argument, kept, run

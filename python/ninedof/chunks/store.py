@@ -10,6 +10,7 @@ import json
 import math
 import os
 import secrets
+import threading
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,11 @@ FORMAT = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
 MARK = b"ninedof chunk 1\n"
 DIGEST = 32  # bytes
+
+
+_taken: set[Path] = set()  # folders that stores of this process have: a lock of the process does not keep us apart
+_mutex = threading.Lock()
+os.register_at_fork(after_in_child=_taken.clear)  # the lock stays with the parent
 
 
 class Store:
@@ -56,6 +62,7 @@ class Store:
         self.chunk = chunk
         self._fingerprint = fingerprint(question)
         self._create()
+        self._own = self.folder.resolve()
         self._lock = self._locked()
         try:
             self._open(question)
@@ -65,7 +72,11 @@ class Store:
 
     def close(self) -> None:
         """Let another run use the folder."""
-        os.close(self._lock)
+        with _mutex:
+            if self._lock >= 0:  # closed once
+                os.close(self._lock)
+                _taken.discard(self._own)
+            self._lock = -1
 
     def __enter__(self) -> Store:
         return self
@@ -115,15 +126,18 @@ class Store:
 
     def _locked(self) -> int:
         """Take the folder for this process. The system frees it at our end, however that comes."""
-        lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
-        try:
-            # A lock of the process: unlike flock, workers that outlive a killed parent do not hold it.
-            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            os.close(lock)
-            raise ValueError(
-                f"out: got {self.folder}, where another run is at work, expected a folder of its own"
-            ) from None
+        refusal = f"out: got {self.folder}, where another run is at work, expected a folder of its own"
+        with _mutex:
+            if self._own in _taken:  # not even opened: to close any file of the lock would give it up
+                raise ValueError(refusal)
+            lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
+            try:
+                # A lock of the process: unlike flock, workers that outlive a killed parent do not hold it.
+                fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                os.close(lock)
+                raise ValueError(refusal) from None
+            _taken.add(self._own)
         return lock
 
     def _open(self, question: Mapping[str, Any]) -> None:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.chunks.store import plain, write_whole
+from ninedof.chunks.npz import read_npz, write_npz
+from ninedof.chunks.store import plain
+from ninedof.chunks.work import Arrays
 from ninedof.extras import optional
 
 __all__ = ["SweepResult"]
@@ -119,8 +119,6 @@ class SweepResult:
             numpy's own suffix .npz is added if it is missing.
 
         """
-        file = Path(path)
-        file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
         head = {
             "format": FORMAT,
             "dims": plain(self.dims),
@@ -130,10 +128,7 @@ class SweepResult:
         contents: dict[str, Any] = {HEAD: np.array(json.dumps(head))}
         contents |= {COORDINATE + name: values for name, values in self.coords.items()}
         contents |= {ARRAY + name: values for name, values in self.arrays.items()}
-        buffer = io.BytesIO()
-        np.savez(buffer, **contents)
-        write_whole(file, buffer.getvalue())
-        return file
+        return write_npz(path, contents)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> SweepResult:
@@ -149,24 +144,22 @@ class SweepResult:
             If there is no such file, or it is not one of ours; the message names it.
 
         """
-        try:
-            with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
-                contents = dict(found)
-            head = json.loads(str(contents[HEAD]))
-            if head["format"] != FORMAT:
-                raise KeyError
-            dims = {name: tuple(of) for name, of in head["dims"].items()}
-            return cls(
-                arrays={name: contents[ARRAY + name] for name in dims},
-                dims=dims,
-                coords={n.removeprefix(COORDINATE): v for n, v in contents.items() if n.startswith(COORDINATE)},
-                units=head["units"],
-                attributes=head["attributes"],
-            )
-        except OSError as error:
-            raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None
-        except (KeyError, TypeError, ValueError, IndexError, EOFError, BadZipFile):
-            raise ValueError(f"{os.fspath(path)}: got no {FORMAT!r} file, expected one that `save` wrote") from None
+        return read_npz(path, repr(FORMAT), cls._made)
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> SweepResult:
+        """Return the result that arrays of a file make; those of another file lack something."""
+        head = json.loads(str(contents[HEAD]))
+        if head["format"] != FORMAT:
+            raise ValueError
+        dims = {name: tuple(of) for name, of in head["dims"].items()}
+        return cls(
+            arrays={name: contents[ARRAY + name] for name in dims},
+            dims=dims,
+            coords={n.removeprefix(COORDINATE): v for n, v in contents.items() if n.startswith(COORDINATE)},
+            units=head["units"],
+            attributes=head["attributes"],
+        )
 
 
 def _attribute(value: Any) -> Any:

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from ninedof import _core
 from ninedof.arrays import Floats
 from ninedof.checks import choice, finite, whole
+from ninedof.chunks import Arrays
+from ninedof.chunks.npz import read_npz, write_npz
 from ninedof.redundancy_map import MapAudit
 
 __all__ = ["WorkspaceCells", "WorkspaceMap", "WorkspaceSlice", "WorkspaceStatus"]
@@ -245,16 +247,13 @@ class WorkspaceMap:
         Parameters
         ----------
         path : path
-            Ends in .npz.
+            numpy's own suffix .npz is added if it is missing.
 
         Returns
         -------
         pathlib.Path
 
         """
-        file = Path(path)
-        if file.suffix != ".npz":
-            raise ValueError(f"path: got {file}, expected a name that ends in .npz")
         arrays = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
         words: dict[str, Any] = {"format": FORMAT, "limit_names": list(LIMITS)}
         for field in fields(self):
@@ -265,13 +264,7 @@ class WorkspaceMap:
                 words[field.name] = asdict(value)
             elif field.name != "cells":
                 words[field.name] = value
-        temporary = file.with_name(f".{file.name}.{os.getpid()}.npz")
-        try:
-            np.savez_compressed(temporary, words=np.array(json.dumps(words)), **arrays)
-            temporary.replace(file)
-        finally:
-            temporary.unlink(missing_ok=True)
-        return file
+        return write_npz(path, {"words": np.array(json.dumps(words)), **arrays}, compressed=True)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> WorkspaceMap:
@@ -287,25 +280,20 @@ class WorkspaceMap:
             If there is no such file or it holds no map; the message names it.
 
         """
-        file = Path(path)
-        try:
-            with np.load(file, allow_pickle=False) as found:
-                data = {name: found[name] for name in found.files}
-            words = json.loads(str(data.pop("words")))
-        except OSError as error:
-            raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None
-        except (ValueError, KeyError):
-            raise ValueError(f"{file}: got another file, expected a map written by ninedof") from None
-        if words.pop("format", None) != FORMAT or tuple(words.pop("limit_names", ())) != LIMITS:
-            raise ValueError(f"{file}: got a map of another version, expected {FORMAT!r}")
-        try:
-            cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
-            words["status"] = WorkspaceStatus(words["status"])
-            words["coordinates"] = tuple(words["coordinates"])
-            words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
-            return cls(cells=cells, **words, **data)
-        except (KeyError, TypeError) as error:
-            raise ValueError(f"{file}: got a map without {error}, expected a whole one") from None
+        return read_npz(path, repr(FORMAT), cls._made)
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> WorkspaceMap:
+        """Return the map that arrays of a file make; those of another file lack something."""
+        data: dict[str, Any] = dict(contents)
+        words = json.loads(str(data.pop("words")))
+        if words.pop("format") != FORMAT or tuple(words.pop("limit_names")) != LIMITS:
+            raise ValueError
+        cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
+        words["status"] = WorkspaceStatus(words["status"])
+        words["coordinates"] = tuple(words["coordinates"])
+        words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
+        return cls(cells=cells, **words, **data)
 
 
 def _group(name: str) -> str:
