@@ -1,9 +1,11 @@
 """Chunks by threads, processes and a Dask cluster: the same bits, and a lost worker costs its chunk and not the run."""
 
+import gc
 import multiprocessing
 import os
 import pickle
 import signal
+import socket
 import threading
 import time
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -314,12 +316,30 @@ def test_the_command_line_uses_a_scheduler(cluster, tmp_path, capsys):
     assert found["condition_number"].shape == (23,)
 
 
-def test_a_missing_scheduler_is_said(tmp_path, capsys, monkeypatch):
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("nonsense", "got 'nonsense', expected one as tcp://host:8786"),
+        ("foo://127.0.0.1:8786", "got 'foo://127.0.0.1:8786', expected one as"),
+        ("tcp://127.0.0.1:99999", "expected one as"),
+        ("tcp://127.0.0.1:1", "got tcp://127.0.0.1:1, where no scheduler answers (Connection refused)"),
+        ("tcp://127.0.0.1:SILENT", "where no scheduler answers (timed out)"),
+    ],
+)
+def test_a_missing_scheduler_is_said_in_one_line(tmp_path, capsys, monkeypatch, address, words):
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     from ninedof.cli import main
 
     monkeypatch.setattr("ninedof.cluster.PATIENCE", 0.2)
-    with pytest.raises(SystemExit) as end:
-        main(["sweep", "--over", "x_p=0:1:3", "--scheduler", "tcp://127.0.0.1:1", "--out", str(tmp_path / "run")])
-    assert end.value.code == 1
-    assert "127.0.0.1:1" in capsys.readouterr().err
+    out = tmp_path / "run"
+    with socket.create_server(("127.0.0.1", 0)) as silent:  # listens and says nothing
+        address = address.replace("SILENT", str(silent.getsockname()[1]))
+        with pytest.raises(SystemExit) as end:
+            main(["sweep", "--over", "x_p=0:1:3", "--scheduler", address, "--out", str(out)])
+    gc.collect()  # a client half made would speak up now
+    assert end.value.code == 2
+    err = capsys.readouterr().err
+    assert err.startswith("ninedof: --scheduler: got ")
+    assert words in err
+    assert err.count("\n") == 1
+    assert not out.exists()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,8 +71,9 @@ def _executor(scheduler: str | None) -> Iterator[Executor | None]:
     if scheduler is None:
         yield None
         return
-    try:
-        with dask_executor(scheduler) as executor:
-            yield executor
-    except MissingExtra as error:
-        raise ValueError(f"--scheduler: {error}") from None
+    with ExitStack() as stack:
+        try:
+            executor = stack.enter_context(dask_executor(scheduler))
+        except (MissingExtra, ValueError) as error:
+            raise ValueError(f"--scheduler: {str(error).removeprefix('address: ')}") from None
+        yield executor
