@@ -42,16 +42,21 @@ def as_number(name: str, value: Any) -> float:
 
 def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int, ...], list[Floats]]:
     """Broadcast the leading dimensions of named arrays, each given with its number of trailing ones."""
-    leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]
-    try:
-        shape = np.broadcast_shapes(*leading)
-    except ValueError:
-        got = ", ".join(f"{name} {lead}" for name, lead in zip(arrays, leading, strict=True))
-        raise ValueError(f"leading dimensions do not broadcast: got {got}") from None
+    shape = leading_shape(arrays)
     return shape, [
         np.ascontiguousarray(np.broadcast_to(a, shape + a.shape[a.ndim - trailing :]))
         for a, trailing in arrays.values()
     ]
+
+
+def leading_shape(arrays: dict[str, tuple[Floats, int]]) -> tuple[int, ...]:
+    """Return the shape to which they broadcast."""
+    leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]
+    try:
+        return np.broadcast_shapes(*leading)
+    except ValueError:
+        got = ", ".join(f"{name} {lead}" for name, lead in zip(arrays, leading, strict=True))
+        raise ValueError(f"leading dimensions do not broadcast: got {got}") from None
 
 
 def frozen(array: Floats) -> Floats:
@@ -62,11 +67,22 @@ def frozen(array: Floats) -> Floats:
 
 
 def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
-    """Return `out` if it is None or an array of this shape; the core checks the rest."""
-    if out is not None and (not isinstance(out, np.ndarray) or out.shape != shape):
-        got = f"shape {out.shape}" if isinstance(out, np.ndarray) else repr(type(out).__name__)
-        raise ValueError(f"out: got {got}, expected a float64 array of shape {shape}")
-    return out
+    """Return `out` if it is None or an array that can take a result of this shape."""
+    if out is None:
+        return None
+    if not isinstance(out, np.ndarray):
+        got = repr(type(out).__name__)
+    elif out.shape != shape:
+        got = f"shape {out.shape}"
+    elif out.dtype != np.float64:
+        got = f"dtype {out.dtype}"
+    elif not out.flags.c_contiguous:
+        got = f"strides {out.strides}"
+    elif not out.flags.writeable:
+        got = "a read-only array"
+    else:
+        return out
+    raise ValueError(f"out: got {got}, expected a writeable C-contiguous float64 array of shape {shape}")
 
 
 def _shape_text(trailing: tuple[int, ...]) -> str:

@@ -181,3 +181,49 @@ def test_relabelled_joints(seed):
     legs, upper, lower = (rng.permutation(3) for _ in range(3))
     other = m._replace(r=m.r[legs], u=m.u[legs], ut=m.ut[upper], rh=m.rh[lower])
     assert_allclose(singular_values(other), singular_values(m), rtol=lost(m))
+
+
+def test_many_hexagonal_designs_are_gathered_block_by_block():
+    """More than one block, every way of broadcasting, and no second copy of all arguments in memory."""
+    import tracemalloc
+
+    rng = np.random.default_rng(5)
+    a1, a2 = rng.uniform(0.5, 5.0, (2, 3, 70_001))
+    b1, zp = rng.uniform(0.5, 5.0, (70_001, 6)).T[:2]  # strided
+    b1[7] = np.nan
+    tracemalloc.start()
+    found = nd.hexagonal_condition_number(a1, a2, b1, 1, zp, np.float32(0.25))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert found.shape == (3, 70_001)
+    assert peak < 5.5 * found.nbytes
+    assert np.isnan(found[:, 7]).all()
+    for i, j in ((0, 0), (0, 65_535), (0, 65_536), (1, 131_072 - 70_001), (2, 70_000)):
+        g = nd.Geometry.hexagonal(a1[i, j], a2[i, j], b1[j], 1.0)
+        expected = nd.condition_number(g, nd.Configuration.neutral(zp[j], 0.25))
+        assert_allclose(found[i, j], expected, rtol=1e-10)
+    out = np.zeros_like(found)
+    assert nd.hexagonal_condition_number(a1, a2, b1, 1, zp, 0.25, out=out, threads=1) is out
+    assert out.tobytes() == found.tobytes()
+    assert nd.hexagonal_condition_number([], 1, 1, 1, 1, 0.5).shape == (0,)
+    with pytest.raises(ValueError, match="leading dimensions do not broadcast"):
+        nd.hexagonal_condition_number([1, 2], [1, 2, 3], 1, 1, 1, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("out", "words"),
+    [
+        ([0.0] * 5, "got 'list'"),
+        (np.zeros(4), r"got shape \(4,\)"),
+        (np.zeros(5, np.float32), "got dtype float32"),
+        (np.zeros(10)[::2], r"got strides \(16,\)"),
+        (np.broadcast_to(np.zeros(5), 5), "got a read-only array"),
+    ],
+)
+def test_an_out_that_does_not_fit_is_described(published, stack, out, words):
+    for call in (
+        lambda: nd.condition_number(published, stack, out=out),
+        lambda: nd.hexagonal_condition_number(1, 1, 1, 1, 1, np.full(5, 0.5), out=out),
+    ):
+        with pytest.raises(ValueError, match=rf"^out: {words}, expected a writeable C-contiguous float64 array of"):
+            call()

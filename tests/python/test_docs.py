@@ -69,3 +69,23 @@ def test_the_readme_has_one_line_for_each_command(name):
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     (block,) = re.findall(rf"<!-- ci:{name} -->\n```\w*\n(.*?)```", text, flags=re.DOTALL)
     assert block.count("\n") == 1
+
+
+SMALLER = {"1_000_000": "1_000", "201)": "5)"}
+
+
+def test_the_python_of_the_readme_runs_as_written(capsys):
+    """Block after block, as a reader would type them; only sizes are smaller."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
+    assert len(blocks) >= 9
+    code = "\n".join(blocks)
+    for large, small in SMALLER.items():
+        assert large in code
+        code = code.replace(large, small)
+    known: dict[str, object] = {}
+    exec(compile(code, "README.md", "exec"), known)
+    shown = capsys.readouterr().out
+    assert "optimal" in shown
+    assert round(known["found"].volume, 1) == 7.8
+    assert round(known["result"].condition_number, 6) == 3.749827
