@@ -189,7 +189,8 @@ def hexagonal_condition_number(
         if np.isinf(values).any():
             raise ValueError(f"{name}: got an infinite number, expected finite ones")
     shape = leading_shape({name: (values, 0) for name, values in columns.items()})
-    found = np.empty(shape) if checked_out(out, shape) is None else out
+    checked_out(out, shape)
+    found = np.empty(shape) if out is None else out
     each = [v.reshape(-1) if v.size == 1 else np.broadcast_to(v, shape).reshape(-1) for v in columns.values()]
     flat, count = found.reshape(-1), thread_argument(threads)
     designs = np.empty((min(GATHERED, flat.size), len(each)))
@@ -199,7 +200,7 @@ def hexagonal_condition_number(
         for k, values in enumerate(each):
             rows[:, k] = values if values.size == 1 else values[first : first + GATHERED]
         _core.hexagonal_condition_numbers(rows, count, part)
-    return out if out is not None else found[()]
+    return found if out is not None else found[()]
 
 
 def _column(name: str, value: ArrayLike) -> Floats:

@@ -265,6 +265,18 @@ def test_bad_input_is_named(options, words):
         nd.atlas(**({"designs": 10} | options))
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("flat", ["a1 a2", "b1 b2", "a1 a2 b1 b2", "zp", "a1 a2 b1 b2 zp"])
+def test_plates_of_no_size_are_counted_without_a_word(flat):
+    found = nd.atlas(1000, bounds=dict.fromkeys(flat.split(), (0.0, 0.0)))
+    assert found["histogram"].sum() == 1000
+
+
+@pytest.mark.filterwarnings("error")
+def test_enormous_plates_are_counted_too():
+    assert nd.atlas(100, bounds={"a1": (1e300, 1e300)})["histogram"][-1].sum() == 100
+
+
 def test_progress():
     seen = []
     nd.atlas(10_000, chunk=1000, progress=lambda *a: seen.append(a))

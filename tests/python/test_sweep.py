@@ -458,3 +458,21 @@ def test_least_and_names(labelled):
     assert repr(labelled).startswith("<SweepResult leg_lengths(theta_z: 5, x_p: 2, leg: 9), condition_number(")
     with pytest.raises(KeyError, match="expected one of leg_lengths, condition_number, theta_z, x_p, leg"):
         labelled["kappa"]
+
+
+def complex_index(geometry, c, length):
+    return np.full(c.shape, 1j)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"over": {"x_p": (0, 1, 2**30), "y_p": (0, 1, 2**30)}}, "over: got 1073741824 x 1073741824 points, expected"),
+        ({"over": {"x_p": (0, 1, 2**40)}}, "over: got 1099511627776 points, expected what fits into memory"),
+        ({"out": 5}, "out: got 5, expected a path"),
+        ({"index": complex_index}, "index complex_index: got dtype complex128, expected real numbers"),
+    ],
+)
+def test_what_cannot_be_swept_is_named(arguments, words):
+    with pytest.raises(ValueError, match=f"^{words}"):
+        nd.sweep(G, HOME, **({"over": {"x_p": (0, 1, 3)}} | arguments))

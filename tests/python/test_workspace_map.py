@@ -1,9 +1,9 @@
 """Around a workspace: arguments, ends of the range, slices, files, interruption, the command."""
 
+import importlib
 import json
 import os
 import signal
-import sys
 import threading
 
 import numpy as np
@@ -176,8 +176,14 @@ def test_poses_run_out(published):
         ("box", {"box": None}),
         ("criteria", {"criteria": {"leg_limit": (1, 2)}}),
         ("leg_limits", {"criteria": {"leg_limits": 3.0}}),
-        ("limits of l1", {"criteria": {"leg_limits": (3.0, 2.0)}}),
-        ("limits of l1", {"criteria": {"leg_limits": (np.nan, 2.0)}}),
+        (r"leg_limits \(l1\)", {"criteria": {"leg_limits": (3.0, 2.0)}}),
+        (r"leg_limits \(l1\)", {"criteria": {"leg_limits": (np.nan, 2.0)}}),
+        (r"leg_limits \(r2\)", {"criteria": {"leg_limits": (np.where(np.arange(9) == 7, np.inf, 0.0), np.inf)}}),
+        ("condition_number", {"criteria": {"condition_number": True}}),
+        ("leg_clearance", {"criteria": {"leg_clearance": True}}),
+        ("platform_cone", {"criteria": {"platform_cone": True}}),
+        ("orientations", {"archetype": "reachable", "orientations": np.zeros((0, 3, 3))}),
+        ("orientations", {"archetype": "reachable", "orientations": []}),
         ("condition_number", {"criteria": {"condition_number": 0.5}}),
         ("base_cone", {"criteria": {"base_cone": -1.0}}),
         ("base_cone", {"criteria": {"base_cone": {"axis": [0, 0, 1]}}}),
@@ -210,6 +216,12 @@ def test_poses_run_out(published):
 def test_wrong_arguments_are_named(published, name, wrong):
     with pytest.raises(ValueError, match=rf"^{name}: "):
         nd.workspace(published, **({"box": BOX, "criteria": LEGS} | wrong))
+
+
+@pytest.mark.parametrize(("method", "most"), [("octree", 128), ("grid", 512)])
+def test_the_greatest_resolution_is_said_at_once(published, method, most):
+    with pytest.raises(ValueError, match=f"^resolution: got 600, expected a whole number from 2 to {most}$"):
+        nd.workspace(published, BOX, criteria=LEGS, method=method, resolution=600)
 
 
 # --- While it runs ----------------------------------------------------------------------------------------------------
@@ -317,14 +329,13 @@ def test_the_figure_shows_what_it_is_given(found):
 
 def test_ctrl_c_before_the_first_level_is_said_and_kept(tmp_path, capsys, monkeypatch):
     """Nothing is known then: every number is NaN, and the command ends as after any other interruption."""
-
     search = nd.workspace
 
     def interrupted(*arguments, **options):
         threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
         return search(*arguments, **options | {"resolution": 128, "most_evaluations": 10**9})
 
-    monkeypatch.setattr(sys.modules["ninedof.commands.workspace"], "find_workspace", interrupted)
+    monkeypatch.setattr(importlib.import_module("ninedof.commands.workspace"), "find_workspace", interrupted)
     code, out = run(["--condition", "6", "--internal-point", "best", "--json", "--out", str(tmp_path / "run")], capsys)
     assert code == 130
     numbers = json.loads(out.out)["workspace"]

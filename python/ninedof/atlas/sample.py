@@ -74,7 +74,8 @@ def closed_form(designs: Floats) -> Floats:
 def squared_radius_ratio(designs: Floats) -> Floats:
     """Return (base / platform radius)^2; the joints of a hexagon are sqrt((a1^2 + a1 a2 + a2^2) / 3) off the axis."""
     a1, a2, b1, b2 = designs.T[:4]
-    found: Floats = (a1 * a1 + a1 * a2 + a2 * a2) / (b1 * b1 + b1 * b2 + b2 * b2)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # plates of no size, and of no size that counts
+        found: Floats = (a1 * a1 + a1 * a2 + a2 * a2) / (b1 * b1 + b1 * b2 + b2 * b2)
     return found
 
 

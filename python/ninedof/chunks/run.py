@@ -42,6 +42,8 @@ def kept(work: W, out: str | os.PathLike[str] | None) -> Generator[tuple[Store |
     if out is None:
         yield None, work
         return
+    if not isinstance(out, str | os.PathLike):
+        raise ValueError(f"out: got {shown(out)}, expected a path")
     with Store(out, work.question(), work.chunk) as store:
         yield store, replace(work, chunk=store.chunk)  # type: ignore[type-var]  # every work is a dataclass
 

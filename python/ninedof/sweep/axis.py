@@ -92,7 +92,10 @@ def axes_of(over: Any, known: Sequence[str]) -> Grid:
     expected = f"a mapping of one to {MOST_AXES} names to values"
     if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
         raise ValueError(f"over: got {shown(over)}, expected {expected}")
-    return Grid(tuple(_axis(choice("over", name, known), values) for name, values in over.items()))
+    grid = Grid(tuple(_axis(choice("over", name, known), values) for name, values in over.items()))
+    if grid.points > MOST:
+        raise ValueError(f"over: got {' x '.join(map(str, grid.shape))} points, expected at most {MOST}")
+    return grid
 
 
 def _axis(name: str, values: Any) -> Axis:

@@ -115,7 +115,10 @@ class _Own:
     function: OwnIndex
 
     def __call__(self, g: Geometry, c: Configuration, lc: Any, threads: int | None) -> Floats:
-        found = np.asarray(self.function(g, c, lc), dtype=np.float64)
+        found = np.asarray(self.function(g, c, lc))
+        if found.dtype.kind not in "biuf":
+            raise ValueError(f"index {self.name}: got dtype {found.dtype}, expected real numbers")
+        found = found.astype(np.float64, copy=False)
         if found.shape != c.shape:
             raise ValueError(
                 f"index {self.name}: got shape {found.shape}, expected {c.shape}, one number a configuration"

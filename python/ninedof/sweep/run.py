@@ -209,7 +209,11 @@ def _run(
     check_executor(executor)
     check_progress(progress)
     with kept(work, out) as (store, agreed):
-        sink = Sink(work.indices, work.grid.shape, None if store is None else store.folder)
+        try:
+            sink = Sink(work.indices, work.grid.shape, None if store is None else store.folder)
+        except MemoryError:
+            shape = " x ".join(map(str, work.grid.shape))
+            raise ValueError(f"over: got {shape} points, expected what fits into memory, or out for a folder") from None
         run(agreed, sink.deliver, store, executor, progress)
         return work.labelled(sink.arrays(), units)
 

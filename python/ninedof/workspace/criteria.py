@@ -25,7 +25,7 @@ def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float
         if value is None:
             continue
         if name == "leg_limits":
-            found[name] = leg_limits(value, "leg_limits")
+            found[name] = _leg_limits(value)
         elif name == "singularity_free":
             if not isinstance(value, bool | np.bool_):
                 raise ValueError(f"singularity_free: got {shown(value)}, expected True or False")
@@ -33,16 +33,30 @@ def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float
         elif name in ("base_cone", "platform_cone"):
             found[name] = _cone(name, value)
         else:
-            found[name] = as_number(name, value)
+            found[name] = _number(name, value)
     found["singularity_free"] = bool(found["singularity_free"])
     found["characteristic_length"] = as_number("characteristic_length", characteristic_length)
     return found
 
 
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, bool | np.bool_):
+        raise ValueError(f"{name}: got {value}, expected a number")
+    return as_number(name, value)
+
+
+def _leg_limits(value: Any) -> tuple[Floats, Floats]:
+    low, high = leg_limits(value, "leg_limits")
+    for k in np.flatnonzero(~((low >= 0.0) & (low < high) & np.isfinite(low))).tolist():
+        leg = f"{'lqr'[k // 3]}{k % 3 + 1}"
+        raise ValueError(f"leg_limits ({leg}): got {low[k]:g} to {high[k]:g}, expected 0 <= low < high, low finite")
+    return low, high
+
+
 def _cone(name: str, value: Any) -> tuple[float, Floats]:
     """Return the greatest angle and the axis; zero stands for each leg's own direction at home."""
     if not isinstance(value, Mapping):
-        return as_number(name, value), np.zeros(3)
+        return _number(name, value), np.zeros(3)
     known_keys(name, value, ("max", "axis"))
     if "max" not in value:
         raise ValueError(f"{name}: got {shown(value)}, expected an angle as 'max'")
@@ -51,4 +65,4 @@ def _cone(name: str, value: Any) -> tuple[float, Floats]:
     )
     if "axis" in value and not np.any(axis):
         raise ValueError(f"{name} (axis): got {shown(value['axis'])}, expected a direction")
-    return as_number(name, value["max"]), axis
+    return _number(name, value["max"]), axis

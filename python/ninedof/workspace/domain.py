@@ -112,10 +112,12 @@ def _set(orientations: Any, angle: float) -> Floats:
         return spread_rotations(
             SPREAD if orientations is None else whole("orientations", orientations, 1, MOST_ROTATIONS), angle
         )
+    if not hasattr(orientations, "as_matrix") and np.size(orientations) == 0:
+        raise ValueError("orientations: got none, expected at least one")
     try:
         return Configuration(np.zeros(3), orientations, np.zeros(3)).rotation.reshape(-1, 3, 3)
     except ValueError as error:
-        raise ValueError(f"orientations: {error}") from None
+        raise ValueError(f"orientations: {str(error).removeprefix('rotation: ')}") from None
 
 
 def _region(region: Any) -> tuple[str, float, tuple[float, float]]:

@@ -158,11 +158,12 @@ def workspace(
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)
+    default = 64 if method == "grid" else 16
     settings: dict[str, Any] = {
         "method": method,
         "tolerance": as_number("tolerance", tolerance),
         "resolution": whole(
-            "resolution", (64 if method == "grid" else 16) if resolution is None else resolution, 2, 512
+            "resolution", default if resolution is None else resolution, 2, 512 if method == "grid" else 128
         ),
         "most_evaluations": whole("most_evaluations", most_evaluations, 1, 10**9),
         "points": whole(
