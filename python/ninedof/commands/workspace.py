@@ -101,7 +101,7 @@ def _arguments(
     """Return the arguments of `ninedof.workspace`."""
     home = given.configuration
     asked: dict[str, Any] = {"archetype": archetype}
-    wanted = {name: value for name, value in criteria.items() if value not in (None, False)}
+    wanted = {name: value for name, value in criteria.items() if value is not None and value is not False}
     for name in ANGLES:
         if name in wanted:
             wanted[name] = math.radians(wanted[name])
