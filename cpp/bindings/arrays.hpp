@@ -1,5 +1,5 @@
 #pragma once
-/// The one place where Python arrays become our types and back: type, shape and contiguity are checked here.
+/// The one place where Python arrays become our types and back: type, shape, contiguity and alignment are checked here.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -17,7 +17,11 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
-using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+// numpy makes arrays at any address of a buffer (Dask of what came over the wire, a packed record of a field), and only
+// an aligned one may be read as doubles. pybind11 has no public name for the flag.
+constexpr int aligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast | aligned>;
 
 /// "(3, 3)"
 inline std::string shape_text(const std::vector<py::ssize_t>& shape) {
@@ -124,10 +128,10 @@ class ConfigurationStack {
 inline Array result_rows(long count, py::ssize_t columns, const py::object& out) {
   if (out.is_none()) return Array(std::vector<py::ssize_t>{count, columns});
   // Not `ensure`: a converted copy would be filled and thrown away.
-  if (!py::isinstance<Array>(out) || out.cast<py::array>().size() != count * columns ||
-      !out.cast<py::array>().writeable())
+  const bool fits = py::isinstance<Array>(out) && out.cast<py::array>().size() == count * columns;
+  if (!fits || !out.cast<py::array>().writeable() || (out.cast<py::array>().flags() & aligned) == 0)
     throw InvalidArgument("out", py::repr(py::type::handle_of(out)).cast<std::string>(),
-                          "a writeable C-contiguous float64 array of the result's shape");
+                          "a writeable aligned C-contiguous float64 array of the result's shape");
   return py::reinterpret_borrow<Array>(out);
 }
 

@@ -78,11 +78,13 @@ def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
         got = f"dtype {out.dtype}"
     elif not out.flags.c_contiguous:
         got = f"strides {out.strides}"
+    elif not out.flags.aligned:
+        got = "a misaligned array"
     elif not out.flags.writeable:
         got = "a read-only array"
     else:
         return out
-    raise ValueError(f"out: got {got}, expected a writeable C-contiguous float64 array of shape {shape}")
+    raise ValueError(f"out: got {got}, expected a writeable aligned C-contiguous float64 array of shape {shape}")
 
 
 def _shape_text(trailing: tuple[int, ...]) -> str:

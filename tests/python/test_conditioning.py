@@ -218,6 +218,7 @@ def test_many_hexagonal_designs_are_gathered_block_by_block():
         (np.zeros(5, np.float32), "got dtype float32"),
         (np.zeros(10)[::2], r"got strides \(16,\)"),
         (np.broadcast_to(np.zeros(5), 5), "got a read-only array"),
+        (np.frombuffer(bytearray(41), np.uint8)[1:].view(np.float64), "got a misaligned array"),
     ],
 )
 def test_an_out_that_does_not_fit_is_described(published, stack, out, words):
@@ -225,5 +226,5 @@ def test_an_out_that_does_not_fit_is_described(published, stack, out, words):
         lambda: nd.condition_number(published, stack, out=out),
         lambda: nd.hexagonal_condition_number(1, 1, 1, 1, 1, np.full(5, 0.5), out=out),
     ):
-        with pytest.raises(ValueError, match=rf"^out: {words}, expected a writeable C-contiguous float64 array of"):
+        with pytest.raises(ValueError, match=rf"^out: {words}, expected a writeable aligned C-contiguous float64"):
             call()

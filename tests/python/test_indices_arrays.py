@@ -76,6 +76,34 @@ def test_out_in_fortran_order_is_refused(published):
         nd.condition_number(published, grid, out=np.zeros((2, 3), order="F"))
 
 
+def off_by_one(array):
+    """Return equal numbers at an address that no double may have, as they come out of packed records and messages."""
+    array = np.asarray(array, dtype=float)
+    moved = np.frombuffer(bytearray(array.nbytes + 1), np.uint8)[1:].view(np.float64).reshape(array.shape)
+    moved[...] = array
+    assert not moved.flags.aligned
+    return moved
+
+
+@pytest.mark.parametrize("index", [*INDICES, nd.singular_values, nd.leg_lengths])
+def test_misaligned_arrays_are_read(published, stack, index):
+    """Told from luck by the sanitized run only: this processor reads doubles anywhere."""
+    g = nd.Geometry(
+        *(off_by_one(t) for t in (published.base_external, published.base_internal)),
+        *(off_by_one(t) for t in (published.platform_external, published.platform_internal)),
+    )
+    c = nd.Configuration(*(off_by_one(x) for x in (stack.position, stack.rotation, stack.internal_point)))
+    assert g == published
+    assert_array_equal(index(g, c), index(published, stack))
+
+
+def test_misaligned_lengths_and_designs_are_read(published, stack):
+    lc = np.array([0.5, 1.0, 2.0, 3.0, 0.1])
+    assert_array_equal(nd.condition_number(published, stack, off_by_one(lc)), nd.condition_number(published, stack, lc))
+    expected = nd.hexagonal_condition_number(1, 1, 1, 1, 1, lc)
+    assert_array_equal(nd.hexagonal_condition_number(1, 1, 1, 1, 1, off_by_one(lc)), expected)
+
+
 @pytest.mark.parametrize("norm", ["2", "frobenius"])
 def test_threads_do_not_change_a_bit(published, norm):
     m = model.random_robots(np.random.default_rng(2), 5000)
