@@ -1,81 +1,12 @@
 #include <pybind11/stl.h>
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
 #include "arrays.hpp"
 #include "module.hpp"
 #include "ninedof/optimize.hpp"
+#include "watched.hpp"
 
 namespace ninedof::python {
 namespace {
-
-/// What the worker tells the Python thread.
-struct News {
-  std::mutex guard;
-  std::condition_variable changed;
-  bool finished = false;
-  int done = 0, total = 0;
-  double best = std::numeric_limits<double>::infinity();
-};
-
-/// Runs the core on a thread of its own, while this one, the caller's, listens to signals and reports progress. Ctrl-C
-/// stops the run, which then returns what it has; an exception of `progress` stops it and goes on to the caller.
-Result run(const Problem& problem, const Settings& settings, const py::object& progress) {
-  News news;
-  Result result;
-  std::exception_ptr failure;
-  std::jthread worker([&](const std::stop_token& stop) {
-    Control control{stop, [&](int done, int total, double best) {
-                      const std::lock_guard lock(news.guard);
-                      news.done = done;
-                      news.total = total;
-                      news.best = best;
-                    }};
-    try {
-      result = optimize(problem, settings, control);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    const std::lock_guard lock(news.guard);
-    news.finished = true;
-    news.changed.notify_one();
-  });
-  const auto finish = [&] {
-    const py::gil_scoped_release nogil;
-    worker.join();
-  };
-  int reported = 0;
-  for (bool finished = false; !finished;) {
-    int done = 0, total = 0;
-    double best = 0.0;
-    {
-      const py::gil_scoped_release nogil;
-      std::unique_lock lock(news.guard);
-      news.changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return news.finished; });
-      finished = news.finished;
-      done = news.done;
-      total = news.total;
-      best = news.best;
-    }
-    try {
-      if (!progress.is_none() && done > reported) progress(done, total, best);
-      reported = done;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (py::error_already_set& error) {
-      worker.request_stop();
-      finish();
-      // A run that was complete already has nothing to say of the interruption: the caller hears of it all the same.
-      if (!error.matches(PyExc_KeyboardInterrupt) || (!failure && !result.interrupted)) throw;
-      break;
-    }
-  }
-  if (worker.joinable()) finish();
-  if (failure) std::rethrow_exception(failure);
-  return result;
-}
 
 Formulation formulation_from(const std::string& word) {
   if (word == "minimax") return Formulation::minimax;
@@ -122,7 +53,12 @@ void bind_optimize(py::module_& m) {
         if (!warm.is_none())
           for (const auto& x : warm.cast<std::vector<std::vector<double>>>())
             settings.warm.emplace_back(Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())));
-        return run(problem, settings, progress);
+        return watched(
+            progress,
+            [&](const std::stop_token& stop, const Report& report) {
+              return optimize(problem, settings, {stop, report});
+            },
+            [](const Result& result) { return result.interrupted; });
       },
       py::arg("problem"), py::arg("starts"), py::arg("seed"), py::arg("threads"), py::arg("max_evaluations"),
       py::arg("progress"), py::arg("warm") = py::none());

@@ -1,80 +1,12 @@
 #include <pybind11/stl.h>
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
 #include "arrays.hpp"
 #include "module.hpp"
 #include "ninedof/workspace.hpp"
+#include "watched.hpp"
 
 namespace ninedof::python {
 namespace {
-
-/// What the worker tells the Python thread.
-struct News {
-  std::mutex guard;
-  std::condition_variable changed;
-  bool finished = false;
-  long done = 0, expected = 0;
-  double volume = 0.0;
-};
-
-/// Runs the core on a thread of its own, while the caller's listens to signals and reports progress. Ctrl-C stops the run,
-/// which then returns what it has; an exception of `progress` stops it and goes on to the caller.
-WorkspaceMap run(const std::function<WorkspaceMap(const WorkspaceControl&)>& work, const py::object& progress) {
-  News news;
-  WorkspaceMap map;
-  std::exception_ptr failure;
-  std::jthread worker([&](const std::stop_token& stop) {
-    const WorkspaceControl control{stop, [&](long done, long expected, double volume) {
-                                     const std::lock_guard lock(news.guard);
-                                     news.done = done;
-                                     news.expected = expected;
-                                     news.volume = volume;
-                                   }};
-    try {
-      map = work(control);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    const std::lock_guard lock(news.guard);
-    news.finished = true;
-    news.changed.notify_one();
-  });
-  const auto finish = [&] {
-    const py::gil_scoped_release nogil;
-    worker.join();
-  };
-  long reported = 0;
-  for (bool finished = false; !finished;) {
-    long done = 0, expected = 0;
-    double volume = 0.0;
-    {
-      const py::gil_scoped_release nogil;
-      std::unique_lock lock(news.guard);
-      news.changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return news.finished; });
-      finished = news.finished;
-      done = news.done;
-      expected = news.expected;
-      volume = news.volume;
-    }
-    try {
-      if (!progress.is_none() && done > reported) progress(done, expected, volume);
-      reported = done;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (py::error_already_set& error) {
-      worker.request_stop();
-      finish();
-      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-      break;
-    }
-  }
-  if (worker.joinable()) finish();
-  if (failure) std::rethrow_exception(failure);
-  return map;
-}
 
 template <class T>
 T word(const std::string& name, const std::string& given, const std::vector<std::pair<std::string, T>>& known) {
@@ -220,21 +152,25 @@ py::dict dict_of(const WorkspaceMap& m) {
 
 void bind_workspace(py::module_& m) {
   m.attr("workspace_limits") = py::cast(limit_names());
-  m.def("workspace", [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction,
-                        const Array& point, const py::dict& criteria, const py::dict& settings, const py::object& home,
-                        const py::object& progress) {
-    const WorkspaceDomain d = domain_from(domain);
-    const InternalPointRule rule = rule_from(kind, fraction, point);
-    const WorkspaceCriteria c = criteria_from(criteria);
-    const WorkspaceSettings s = settings_from(settings);
-    std::optional<Configuration> at_home;
-    if (!home.is_none()) {
-      const auto [p, q, o] = home.cast<std::tuple<Array, Array, Array>>();
-      at_home = Configuration{vec3_of(p), mat3_of(q.data()), vec3_of(o)};
-    }
-    return dict_of(
-        run([&](const WorkspaceControl& control) { return workspace(g, d, rule, c, s, at_home, control); }, progress));
-  });
+  m.def("workspace",
+        [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction, const Array& point,
+           const py::dict& criteria, const py::dict& settings, const py::object& home, const py::object& progress) {
+          const WorkspaceDomain d = domain_from(domain);
+          const InternalPointRule rule = rule_from(kind, fraction, point);
+          const WorkspaceCriteria c = criteria_from(criteria);
+          const WorkspaceSettings s = settings_from(settings);
+          std::optional<Configuration> at_home;
+          if (!home.is_none()) {
+            const auto [p, q, o] = home.cast<std::tuple<Array, Array, Array>>();
+            at_home = Configuration{vec3_of(p), mat3_of(q.data()), vec3_of(o)};
+          }
+          return dict_of(watched(
+              progress,
+              [&](const std::stop_token& stop, const Report& report) {
+                return workspace(g, d, rule, c, s, at_home, {stop, report});
+              },
+              [](const WorkspaceMap& map) { return map.status == WorkspaceStatus::stopped; }));
+        });
   m.def("spread_rotations", [](int count, double angle) {
     const std::vector<Mat3> rotations = spread_rotations(count, angle);
     Array out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(rotations.size()), 3, 3});

@@ -265,6 +265,20 @@ def test_ctrl_c_keeps_what_is_known(published):
     assert found.status == "stopped"
 
 
+def test_an_interruption_at_the_very_end_is_heard(published):
+    """Of a run that has nothing left to do: its map is whole, so that only the exception can tell."""
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    for _ in range(5):
+        try:
+            heard = nd.workspace(published, BOX, criteria=LEGS, method="grid", resolution=8, progress=stop).interrupted
+        except KeyboardInterrupt:
+            heard = True
+        assert heard
+
+
 # --- The command ------------------------------------------------------------------------------------------------------
 
 
