@@ -2,7 +2,7 @@
 #include "counting.hpp"
 #include "floor.hpp"
 #include "kernels/conditioning_matrix.hpp"
-#include "kernels/extreme_roots.hpp"
+#include "kernels/quick_roots.hpp"
 #include "ninedof/conditioning.hpp"
 
 namespace bench {
@@ -34,8 +34,8 @@ Count count_with(const File& file, long most) {
     // What condition_numbers of kernels.cpp does, its checks left out.
     P m[6][6];
     kernels::conditioning_matrix(joints, c, 1.0 / length, m);
-    const kernels::Bidiagonal<P> b = kernels::bidiagonalize(m);
-    const P ratio = sqrt(kernels::greatest_root(b.q, b.e).x / kernels::least_root<6>(b.q, b.e).x);
+    const auto [least, greatest] = kernels::extreme_roots(kernels::bidiagonalize(m));
+    const P ratio = sqrt(greatest.x / least.x);
     for (std::size_t k = 0; k < N; ++k) {
       const double kappa = ninedof::condition_number(g, file.configuration(static_cast<std::size_t>(first) + k),
                                                      file.characteristic_length());

@@ -26,6 +26,9 @@ struct CountedMask {
   friend CountedMask operator|(const CountedMask& a, const CountedMask& b) {
     return each([&](std::size_t k) { return a.lane[k] || b.lane[k]; });
   }
+  friend CountedMask operator!(const CountedMask& a) {
+    return each([&](std::size_t k) { return !a.lane[k]; });
+  }
   friend bool any(const CountedMask& a) {
     for (const bool x : a.lane)
       if (x) return true;

@@ -5,6 +5,7 @@
 #include "kernels/gather.hpp"
 #include "kernels/hexagonal.hpp"
 #include "kernels/margins.hpp"
+#include "kernels/quick_roots.hpp"
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 namespace {
@@ -90,8 +91,7 @@ void condition_numbers(const Block& b, double* out) {
     reduced.reduce(b.robot, c);
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
-      const Bidiagonal<Lanes> d = reduced.load<Lanes>(k);
-      const Root<Lanes> least = least_root<6>(d.q, d.e), greatest = greatest_root(d.q, d.e);
+      const auto [least, greatest] = extreme_roots(reduced.load<Lanes>(k));
       const Lanes ratio = sqrt(greatest.x / least.x);
       const auto sure = (ratio <= most_condition) & lever_allows(c, k, greatest.x);
       store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
@@ -107,12 +107,9 @@ void frobenius_condition_numbers(const Block& b, double* out) {
     reduced.reduce(b.robot, c);
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
-      const Bidiagonal<Lanes> d = reduced.load<Lanes>(k);
-      Lanes sum = d.q[0];
-#pragma GCC unroll 5
-      for (int j = 0; j < 5; ++j) sum += d.q[j + 1] + d.e[j];
-      const Taylor<Lanes> t = characteristic_at_zero<6>(d.q, d.e);
-      const Lanes ratio = sqrt(sum * (-t.p1 / t.p));
+      const Polynomial<Lanes> p(reduced.load<Lanes>(k));
+      const Lanes& sum = p.s[0];
+      const Lanes ratio = sqrt(sum * (p.s[4] / p.s[5]));
       store(select((ratio <= most_condition) & lever_allows(c, k, sum), ratio, unsure), kappa + k);
     }
     put(kappa, rows, out + first);

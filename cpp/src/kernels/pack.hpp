@@ -40,6 +40,9 @@ struct MaskOf {
   NINEDOF_INLINE friend MaskOf operator|(const MaskOf& a, const MaskOf& b) {
     return each([&](int i) { return a.part[i] | b.part[i]; });
   }
+  NINEDOF_INLINE friend MaskOf operator!(const MaskOf& a) {
+    return each([&](int i) { return ~a.part[i]; });
+  }
   NINEDOF_INLINE friend bool any(const MaskOf& a) {
     RegisterMask all = a.part[0];
     for (int i = 1; i < registers; ++i) all |= a.part[i];
