@@ -80,9 +80,10 @@ Vec3 CellLattice::at(std::uint64_t key) const {
   return low_ + index.cwiseProduct(step_);
 }
 
-std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells) {
+std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells, const std::stop_token& stop) {
   std::vector<NinePoints> out(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n) {
+    if (n % 4096 == 0 && stop.stop_requested()) throw Stopped{};
     const Cell& c = cells[n];
     const int shift = deepest - c.level;  // half a cell is 2^shift steps
     const auto key = [&](std::uint64_t di, std::uint64_t dj, std::uint64_t dk) {
@@ -98,7 +99,6 @@ std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells) {
 
 void CellLattice::evaluate(const WorkspaceControl& control, long expected, double volume) {
   const long first = evaluations(), count = static_cast<long>(table_.size()) - first;
-  known_.resize(table_.size());
   if (best_.needed()) {
     best_.reserve(table_.size());
     if (first == 0) map_corners(control.stop);
@@ -107,6 +107,7 @@ void CellLattice::evaluate(const WorkspaceControl& control, long expected, doubl
   const long piece = std::max<long>(margins_.block() * 64, 1);
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
+    known_.grow(static_cast<std::size_t>(first + done + now));
     parallel_for(now, margins_.block(), threads_, [&](long from, long to) {
       const auto begin = static_cast<std::size_t>(first + done + from);
       std::vector<Vec3> x;
@@ -119,7 +120,9 @@ void CellLattice::evaluate(const WorkspaceControl& control, long expected, doubl
         best_.keep(n, r, found.s);
         return found;
       };
-      margins_.evaluate(x.data(), to - from, &known_[begin], control.stop, best);
+      std::vector<PointMargins> judged(x.size());
+      margins_.evaluate(x.data(), to - from, judged.data(), control.stop, best);
+      for (std::size_t n = 0; n < judged.size(); ++n) known_[begin + n] = judged[n];
     });
     if (control.progress) control.progress(first + done + now, std::max(expected, first + count), volume);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "workspace/best_points.hpp"
+#include "workspace/point_store.hpp"
 
 namespace ninedof {
 
@@ -59,8 +60,8 @@ class CellLattice {
   Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
   const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
 
-  /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0.
-  std::vector<NinePoints> points_of(const std::vector<Cell>& cells);
+  /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0. Throws Stopped.
+  std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
   void evaluate(const WorkspaceControl& control, long expected, double volume);
   long evaluations() const { return static_cast<long>(known_.size()); }
   const MapAudit& audit() const { return best_.audit(); }
@@ -80,7 +81,7 @@ class CellLattice {
   Vec3 low_, step_;  // of the finest lattice, which has the centres of the deepest cells
   int resolution_, threads_;
   KeyTable table_;
-  std::vector<PointMargins> known_;
+  PointStore known_;
 };
 
 }  // namespace ninedof

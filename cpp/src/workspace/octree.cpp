@@ -146,10 +146,11 @@ class Grower {
   }
 
   std::vector<Leaf> judged(const std::vector<Cell>& cells) {
-    const std::vector<NinePoints> points = lattice_.points_of(cells);
+    const std::vector<NinePoints> points = lattice_.points_of(cells, control_.stop);
     lattice_.evaluate(control_, expected_, volume_);
     std::vector<Leaf> out(cells.size());
     parallel_for(static_cast<long>(cells.size()), 256, settings_.threads, [&](long from, long to) {
+      if (control_.stop.stop_requested()) throw Stopped{};
       for (auto n = static_cast<std::size_t>(from); n < static_cast<std::size_t>(to); ++n)
         out[n] = judge(cells[n], points[n]);
     });
