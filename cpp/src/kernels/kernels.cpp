@@ -50,6 +50,17 @@ struct Bidiagonals {
   }
 };
 
+/// The same with the characteristic lengths, and with M made bidiagonal: work(columns, bidiagonals, first, rows).
+template <class Work>
+NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
+  Bidiagonals reduced;
+  for_each_chunk(b, [&](Columns& c, long first, long rows) {
+    c.gather_length(b, first, rows);
+    reduced.reduce(b.robot, c);
+    work(c, reduced, first, rows);
+  });
+}
+
 /// Beyond this condition number, and where O is this many largest singular values of M away from p, rounding weighs too much.
 constexpr double most_condition = 1e8, most_lever = 16.0;
 
@@ -85,10 +96,7 @@ void leg_lengths(const Block& b, double* out) {
 }
 
 void condition_numbers(const Block& b, double* out) {
-  Bidiagonals reduced;
-  for_each_chunk(b, [&](Columns& c, long first, long rows) {
-    c.gather_length(b, first, rows);
-    reduced.reduce(b.robot, c);
+  for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const auto [least, greatest] = extreme_roots(reduced.load<Lanes>(k));
@@ -101,10 +109,7 @@ void condition_numbers(const Block& b, double* out) {
 }
 
 void frobenius_condition_numbers(const Block& b, double* out) {
-  Bidiagonals reduced;
-  for_each_chunk(b, [&](Columns& c, long first, long rows) {
-    c.gather_length(b, first, rows);
-    reduced.reduce(b.robot, c);
+  for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double kappa[chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Polynomial<Lanes> p(reduced.load<Lanes>(k));
@@ -117,10 +122,7 @@ void frobenius_condition_numbers(const Block& b, double* out) {
 }
 
 void singular_values(const Block& b, double* out) {
-  Bidiagonals reduced;
-  for_each_chunk(b, [&](Columns& c, long first, long rows) {
-    c.gather_length(b, first, rows);
-    reduced.reduce(b.robot, c);
+  for_each_reduced_chunk(b, [&](const Columns& c, const Bidiagonals& reduced, long first, long rows) {
     alignas(64) double sigma[6][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Roots<Lanes> root = all_roots(reduced.load<Lanes>(k));
