@@ -15,7 +15,7 @@ from pathlib import PurePosixPath
 # Stems, lowest layer first. A private header of cpp/src that is not listed belongs to PRIVATE_LAYER.
 CPP_LAYERS = (
     {"types", "error", "rotation", "dual", "parallel", "splitmix", "rows_of", "circle_roots", "householder"}
-    | {"enclosure", "enclosed_motion", "first_root", "cramer", "eliminate", "negligible"},
+    | {"enclosure", "enclosed_motion", "first_root", "cramer", "eliminate", "negligible", "leg_pairs"},
     {"geometry", "configuration", "svd6", "pose", "leg_length_checks", "rotation_problem", "quaternion_monomials"},
     {"legs", "points", "blueprint", "trilateration", "assembly_modes"},
     {"polish_rotation", "elimination", "null_space_rotations", "two_leg_rotations", "internal_point", "closure"}
@@ -29,7 +29,7 @@ CPP_LAYERS = (
     {"batch"},
     {"workspace", "chart", "placement", "pairs", "cones", "limits", "sequence", "near_points", "checks", "rotations"}
     | {"pose_margins", "cell_lattice", "tetrahedra", "octree", "pieces", "surface", "summary", "inscribed", "solid_box"}
-    | {"sampling", "best_points"},
+    | {"sampling", "best_points", "audit", "point_store"},
 )
 PRIVATE_LAYER = 8
 
