@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ninedof/parallel.hpp"
-#include "workspace/sequence.hpp"
+#include "workspace/audit.hpp"
 #include "workspace/tetrahedra.hpp"
 
 namespace ninedof {
@@ -13,91 +13,7 @@ namespace {
 constexpr double curvature_room =
     2.0;  // how much more than the corners and the centre show a margin may curve between them
 constexpr double guard = 0.1;
-constexpr double too_many = 0.05;  // share of the allowed audit poses in cells that deny them: the cells are too coarse
 constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and corners shared with neighbours
-
-/// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells that nothing is proved of.
-class Audit {
- public:
-  void begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings,
-             const WorkspaceControl& control) {
-    std::vector<long> judged;
-    for (std::size_t n = 0; n < roots.size(); ++n)
-      if (!roots[n].proved) judged.push_back(static_cast<long>(n));
-    if (judged.empty()) return;
-    const Vec3 shift = sequence_shift(settings.seed, 0), size = lattice.size(0);
-    std::vector<Cell> in;
-    const double cells = static_cast<double>(judged.size()), poses = static_cast<double>(settings.points);
-    for (long n = 0; n < settings.points; ++n) {
-      const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
-      cell_.push_back(judged[which]);
-      in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);
-      at_.push_back(lattice.centre(in.back()) + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
-    }
-    const std::vector<PointMargins> known = lattice.within(in, at_, control.stop);
-    for (const Leaf& root : roots)
-      if (root.proved) volume_ += root.fraction * root.measure;
-    const double share = cells * size.prod() / poses;
-    for (std::size_t n = 0; n < known.size(); ++n) {
-      allowed_.push_back(known[n].allowed(m.groups()));
-      if (allowed_.back() == 0) continue;
-      const double measure = share * m.chart().density(at_[n]);
-      volume_ += measure;
-      squares_ += measure * measure;
-    }
-    // No disagreement among n poses: with 95 % confidence less than 3 / n of where they were drawn from.
-    unseen_ = 3.0 / poses * cells * size.prod();
-  }
-
-  long count() const { return static_cast<long>(at_.size()); }
-  double unseen() const { return unseen_; }
-
-  /// How far a volume is from what the poses say, where that is more than chance (three standard errors); else 0.
-  double contradicts(double volume, bool only_if_less) const {
-    if (at_.empty() || (only_if_less && volume <= volume_)) return 0.0;
-    const double away = std::abs(volume - volume_);
-    return away > 3.0 * std::sqrt(squares_) + unseen_ ? away : 0.0;
-  }
-
-  /// Opens every cell that one of the poses disagrees with.
-  Doubt open(std::vector<Leaf>& leaves) const {
-    Doubt doubt;
-    long allowed = 0;
-    std::vector<char> counted(leaves.size());
-    for (std::size_t n = 0; n < at_.size(); ++n) {
-      allowed += allowed_[n] != 0 ? 1 : 0;
-      if (cell_[n] < 0) continue;
-      const auto at = static_cast<std::size_t>(cell_[n]);
-      Leaf& leaf = leaves[at];
-      if (leaf.proved || leaf.inside == (allowed_[n] != 0 ? 255 : 0)) continue;
-      leaf.state = CellState::boundary;
-      if (leaf.inside != 0 && leaf.inside != 255) continue;
-      ++doubt.poses;
-      if (counted[at] == 0) doubt.measure += leaf.measure;
-      counted[at] = 1;
-    }
-    doubt.coarse = static_cast<double>(doubt.poses) > too_many * static_cast<double>(allowed);
-    return doubt;
-  }
-
-  /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
-  void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice) {
-    for (std::size_t n = 0; n < at_.size(); ++n) {
-      if (cell_[n] < 0) continue;
-      const auto at = static_cast<std::size_t>(cell_[n]);
-      const Vec3 middle = lattice.centre(leaves[at].cell);
-      int octant = 0;
-      for (int k = 0; k < 3; ++k) octant |= (at_[n][k] >= middle[k] ? 1 : 0) << k;
-      cell_[n] = rank[at] < 0 ? -1 : 8 * rank[at] + octant;
-    }
-  }
-
- private:
-  std::vector<Vec3> at_;
-  std::vector<char> allowed_;
-  std::vector<long> cell_;
-  double unseen_ = 0.0, volume_ = 0.0, squares_ = 0.0;
-};
 
 class Grower {
  public:
