@@ -43,6 +43,7 @@ def test_no_example_is_left_out():
     assert {p.name for p in EXAMPLES.iterdir() if p.is_file()} == {*STATUS, *SCRIPTS, "04_design.toml"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STATUS)
 def test_study(name, tmp_path, capsys):
     with pytest.raises(SystemExit) as end:
@@ -51,6 +52,7 @@ def test_study(name, tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["optimization"]["candidates"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", AT_MOST)
 def test_values_of_studies(name):
     assert nd.optimize(nd.Study.load(EXAMPLES / name)).objective <= AT_MOST[name]

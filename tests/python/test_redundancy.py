@@ -49,6 +49,7 @@ def walled(x, g, p, q, signs):
     return value[0] if (sign[0] == signs).all() else np.inf
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hexagonal", [True, False])
 def test_no_better_point_in_the_chamber(hexagonal):
     rng = np.random.default_rng(5)

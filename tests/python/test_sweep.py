@@ -185,6 +185,7 @@ def test_chunks_change_nothing_where_o_is_carried():
 MANY = {"x_p": (-1.2, 1.2, 41), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}  # three blocks, the last one short
 
 
+@pytest.mark.slow
 def test_chunks_threads_and_executors_change_nothing_where_o_is_best():
     whole = nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"]
     for options in ({"chunk": 1}, {"chunk": 3000, "threads": 1}, {"chunk": 100_000, "threads": 3}):
@@ -210,6 +211,7 @@ def test_a_best_sweep_stopped_after_a_block_goes_on(tmp_path):
     assert found.tobytes() == nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"].tobytes()
 
 
+@pytest.mark.slow
 def test_a_best_sweep_is_no_worse_than_searching_each_pose():
     p, q, _ = poses(TURNED, {name: np.linspace(*ends).tolist() for name, ends in MANY.items()})
     each = nd.best_internal_point(G, p, q)

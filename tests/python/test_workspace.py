@@ -34,6 +34,7 @@ def agrees(found, allowed, points):
     assert wrong * volume / len(points) <= 5.0 * found.unseen + 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rotation", [np.eye(3), TILTED])
 def test_leg_limits_are_balls(published, rotation):
     """With O in the platform's frame only six legs depend on p, each by a ball: an exact volume."""
@@ -230,6 +231,7 @@ def test_orientations_against_numpy(published, region):
     assert found.error < 1e-3 * found.volume
 
 
+@pytest.mark.slow
 def test_reachable_and_inclusive_against_numpy(published):
     rng = np.random.default_rng(6)
     q = Rotation.from_rotvec(0.25 * rng.normal(size=(5, 3))).as_matrix()

@@ -80,9 +80,9 @@ struct Approach {
     last = size;
   }
 
-  /// Where rounding may have moved the root by more than some 1e-12 of it.
+  /// Where rounding may have moved the root by more than some 1e-14 of it.
   NINEDOF_INLINE typename P::Mask doubtful(const Polynomial<P>& p) const {
-    constexpr double most = 2e3;
+    constexpr double most = 100.0;
     return open | !(p.sizes(x) <= most * (x * abs(slope)));
   }
 };
