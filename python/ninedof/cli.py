@@ -228,12 +228,19 @@ def workspace(
     tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None,
     torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None,
     orientations: Annotated[int | None, typer.Option(help="How many rotations make a set.")] = None,
+    position: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(metavar="X Y Z", help="Of orientation: where the platform is; the home position by default."),
+    ] = None,
     internal_point: Annotated[
         str | None, typer.Option(help="Where O is: best, or a fraction between the plates; 0.5 by default.")
     ] = None,
+    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
     method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
     tolerance: Annotated[float, typer.Option(help="Error wanted, as a share of the volume.")] = 1e-3,
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
+    points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
+    seed: Annotated[int, typer.Option(help="Of the audit and of a sample.")] = 0,
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -251,13 +258,20 @@ def workspace(
         "singularity_free": singularity_free,
     }
     region = {"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg}
-    box = {"x": x, "y": y, "z": z}
-    search = {"method": method, "tolerance": tolerance, "resolution": resolution}
-    raise typer.Exit(
-        commands.workspace(
-            design, archetype, box, criteria, region, orientations, internal_point, search, out, threads, figures, json
-        )
+    search = {"method": method, "tolerance": tolerance, "resolution": resolution, "points": points, "seed": seed}
+    options = commands.WorkspaceOptions(
+        archetype,
+        {"x": x, "y": y, "z": z},
+        position,
+        criteria,
+        region,
+        orientations,
+        internal_point,
+        lc,
+        search,
+        threads,
     )
+    raise typer.Exit(commands.workspace(design, options, out, figures, json))
 
 
 @app.command(epilog="[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'")

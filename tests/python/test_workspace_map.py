@@ -3,8 +3,10 @@
 import importlib
 import json
 import os
+import re
 import signal
 import threading
+from time import perf_counter
 
 import numpy as np
 import pytest
@@ -321,6 +323,66 @@ def test_the_command_on_orientations_and_on_nothing(tmp_path, capsys):
     assert code == 2
     assert "expected at least one" in out.err
     assert not (tmp_path / "c").exists()
+
+
+def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, published):
+    at = ["--archetype", "orientation", "--angle-deg", "40", "--position", "0.5", "0", "4", "--lc", "2"]
+    code, out = run(
+        [*at, "--legs", "2", "6.5", "--condition", "6", "--json", "--no-figures", "--out", str(tmp_path / "a")], capsys
+    )
+    assert code == 0
+    expected = nd.workspace(
+        published,
+        archetype="orientation",
+        position=(0.5, 0.0, 4.0),
+        region={"angle": np.radians(40.0)},
+        criteria={"leg_limits": (2.0, 6.5), "condition_number": 6.0},
+        characteristic_length=2.0,
+    )
+    assert json.loads(out.out)["workspace"]["volume"] == expected.volume
+    sample = ["--method", "sample", "--points", "500", "--seed", "3", "--legs", "2.5", "6.5"]
+    box = ["--x", "-2.5", "2.5", "--y", "-2.5", "2.5", "--z", "3", "7"]
+    code, out = run([*sample, *box, "--json", "--out", str(tmp_path / "b")], capsys)
+    expected = nd.workspace(published, BOX, criteria=LEGS, method="sample", points=500, seed=3)
+    assert json.loads(out.out)["workspace"]["volume"] == expected.volume
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            ["--position", "0", "0", "4"],
+            r"--position: got \(0.0, 0.0, 4.0\), expected none but for --archetype orientation",
+        ),
+        (["--lc", "long"], "--lc: got 'long', expected a number or one of"),
+        (["--points", "0"], "points: got 0, expected"),
+        (["--seed", "-1"], "seed: got -1, expected"),
+    ],
+)
+def test_the_command_names_what_it_refuses(tmp_path, capsys, arguments, words):
+    code, out = run(["--legs", "2.5", "6.5", *arguments, "--out", str(tmp_path / "run")], capsys)
+    assert code == 2
+    assert re.search(words, out.err)
+    assert out.err.count("\n") == 1
+
+
+@pytest.mark.timing
+def test_ctrl_c_ends_the_finest_levels(published):
+    """Where millions of cells are numbered and judged: what is kept is summed up, a second for a million cells."""
+    sent = []
+
+    def interrupt():
+        sent.append(perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(4.0, interrupt)
+    timer.start()
+    try:
+        found = nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-7, most_evaluations=10**9)
+    finally:
+        timer.cancel()
+    assert found.status == "stopped"
+    assert perf_counter() - sent[0] < 6.0
 
 
 def test_the_figure_shows_what_it_is_given(found):

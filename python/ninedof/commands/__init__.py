@@ -6,6 +6,6 @@ from ninedof.commands.optimization import optimize
 from ninedof.commands.survey import atlas
 from ninedof.commands.sweep import SweepOptions, sweep
 from ninedof.commands.verdicts import paper
-from ninedof.commands.workspace import workspace
+from ninedof.commands.workspace import WorkspaceOptions, workspace
 
-__all__ = ["SweepOptions", "atlas", "evaluate", "optimize", "paper", "pareto", "sweep", "workspace"]
+__all__ = ["SweepOptions", "WorkspaceOptions", "atlas", "evaluate", "optimize", "paper", "pareto", "sweep", "workspace"]

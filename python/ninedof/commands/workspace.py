@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ninedof import job, paper
 from ninedof.arrays import thread_argument
+from ninedof.commands.evaluation import length_option
 from ninedof.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen, from_first_news
 from ninedof.designs import Design, hexagonal_design, load_design
 from ninedof.lengths import characteristic_length
@@ -21,57 +23,43 @@ from ninedof.workspace import WorkspaceMap
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace_records import write_workspace
 
-__all__ = ["workspace"]
+__all__ = ["WorkspaceOptions", "workspace"]
 
 ANGLES = ("base_cone", "platform_cone")
 SHOWN = 8  # limits in the table
 
 
-def workspace(
-    design: Path | None,
-    archetype: str,
-    box: Mapping[str, tuple[float, float] | None],
-    criteria: Mapping[str, Any],
-    region_deg: Mapping[str, float | None],
-    orientations: int | None,
-    internal_point: str | None,
-    search: Mapping[str, Any],
-    out: Path | None,
-    threads: int | None,
-    figures: bool,
-    json: bool,
-) -> int:
-    """Find the workspace of a design (the published one if none is given); print, record, return the exit status.
+@dataclass(frozen=True)
+class WorkspaceOptions:
+    """What the command line says about the poses: angles in degrees, None for what is not asked for."""
 
-    Parameters
-    ----------
-    design : path or None
-        Its configuration is home.
-    archetype : str
-    box : mapping
-        x, y, z to (low, high) or None.
-    criteria : mapping
-        As `workspace` takes them, angles in degrees; None for what is not asked for.
-    region_deg : mapping
-        angle, tilt and torsion, degrees, or None.
-    orientations : int or None
-    internal_point : str or None
-        "best" or a fraction.
-    search : mapping
-        method, tolerance and resolution.
-    out : path or None
-        Run folder.
-    threads : int or None
-    figures, json : bool
+    archetype: str
+    box: Mapping[str, tuple[float, float] | None]  # of x, y and z
+    position: tuple[float, float, float] | None
+    criteria: Mapping[str, Any]
+    region_deg: Mapping[str, float | None]  # angle, tilt and torsion
+    orientations: int | None
+    internal_point: str | None  # best, or a fraction
+    lc: str | None
+    search: Mapping[str, Any]
+    threads: int | None
 
+
+def workspace(design: Path | None, options: WorkspaceOptions, out: Path | None, figures: bool, json: bool) -> int:
+    """Find the workspace of a design, whose configuration is home; print, record, return the exit status.
+
+    The published design if none is given.
     """
     screen = Screen(json)
-    thread_argument(threads)
+    thread_argument(options.threads)
     given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
-    asked = _arguments(given, archetype, box, criteria, region_deg, orientations, internal_point) | dict(search)
-    title = f"{archetype.replace('_', ' ')} workspace"
-    with job.run_directory(out) as directory, _bar(screen, title) as progress:
-        found = find_workspace(given.geometry, **asked, home=given.configuration, threads=threads, progress=progress)
+    if options.lc is not None:
+        given = given._replace(characteristic_length=length_option(options.lc))
+    asked = _arguments(given, options) | dict(options.search)
+    with job.run_directory(out) as directory, _bar(screen, options.archetype.replace("_", " ")) as progress:
+        found = find_workspace(
+            given.geometry, **asked, home=given.configuration, threads=options.threads, progress=progress
+        )
     screen.print(_table(found))
     for sentence in _sentences(found):
         screen.print(sentence)
@@ -89,19 +77,11 @@ def workspace(
     return DONE if found.volume > 0.0 else NO_RESULT
 
 
-def _arguments(
-    given: Design,
-    archetype: str,
-    box: Mapping[str, tuple[float, float] | None],
-    criteria: Mapping[str, Any],
-    region_deg: Mapping[str, float | None],
-    orientations: int | None,
-    internal_point: str | None,
-) -> dict[str, Any]:
+def _arguments(given: Design, options: WorkspaceOptions) -> dict[str, Any]:
     """Return the arguments of `ninedof.workspace`."""
     home = given.configuration
-    asked: dict[str, Any] = {"archetype": archetype}
-    wanted = {name: value for name, value in criteria.items() if value is not None and value is not False}
+    asked: dict[str, Any] = {"archetype": options.archetype}
+    wanted = {name: value for name, value in options.criteria.items() if value is not None and value is not False}
     for name in ANGLES:
         if name in wanted:
             wanted[name] = math.radians(wanted[name])
@@ -112,18 +92,22 @@ def _arguments(
     asked["characteristic_length"] = (
         float(characteristic_length(given.geometry, home, length)) if isinstance(length, str) else float(length)
     )
-    region = {name: math.radians(value) for name, value in region_deg.items() if value is not None}
+    region = {name: math.radians(value) for name, value in options.region_deg.items() if value is not None}
     if region:
         asked["region"] = region
-    if orientations is not None:
-        asked["orientations"] = orientations
-    if internal_point is not None:
-        asked["internal_point"] = _rule(internal_point)
-    if archetype == "orientation":
+    if options.orientations is not None:
+        asked["orientations"] = options.orientations
+    if options.internal_point is not None:
+        asked["internal_point"] = _rule(options.internal_point)
+    box = options.box
+    if options.archetype == "orientation":
         if any(value is not None for value in box.values()):
-            raise ValueError("workspace: got a box, expected none for orientations at the home position")
-        return asked | {"position": home.position, "rotation": home.rotation}
-    if archetype == "constant_orientation":
+            raise ValueError("workspace: got a box, expected none for orientations at one position")
+        position = home.position if options.position is None else options.position
+        return asked | {"position": position, "rotation": home.rotation}
+    if options.position is not None:
+        raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
+    if options.archetype == "constant_orientation":
         asked["rotation"] = home.rotation
     reach = max(float(np.linalg.norm(home.position)), 1e-300)
     around = [
@@ -156,17 +140,16 @@ def _bar(screen: Screen, title: str) -> Iterator[Any]:
     """Show a bar of poses with the time to go, as far as is known from the levels before."""
     columns = (
         TextColumn("{task.description}"),
-        BarColumn(bar_width=24),
+        BarColumn(bar_width=12),
         TextColumn("{task.completed:,.0f} poses{task.fields[volume]}"),
-        TimeElapsedColumn(),
-        TextColumn("to go"),
         TimeRemainingColumn(),
+        TextColumn("to go"),
     )
     with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
         task = shown.add_task(title, total=None, volume="")
 
         def progress(done: int, expected: int, volume: float) -> None:
-            words = "" if math.isnan(volume) else f", volume {volume:.5g}"
+            words = "" if math.isnan(volume) else f", volume {volume:.4g}"
             shown.start()
             shown.update(task, completed=done, total=expected, volume=words)
 
