@@ -161,6 +161,7 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
     else:
         maps = [c for a in figure.axes for c in a.collections if hasattr(c, "get_array") and c.get_array() is not None]
         values = found[name] if name == "condition_number" else found[name][..., 0]
+        assert len(maps) == (6 if axes == 3 else 9 if name == "leg_lengths" else 1) + 1  # and the bar's
         first = values if axes == 2 else values[0]
         drawn = np.ma.getdata(maps[0].get_array()).reshape(first.T.shape)
         shown = ~np.ma.getmaskarray(maps[0].get_array()).reshape(first.T.shape)

@@ -181,11 +181,13 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
 
 def _table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
     table = Table(title=title, title_justify="left", title_style="bold")
-    for head in ("index", "least", "at", "greatest", "at", "infinite", "missing"):
-        table.add_column(head, justify="left" if head in ("index", "at") else "right", overflow="fold")
+    counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
+    for head in ("index", "", "value", "at", *counts):
+        table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
     for name, row in summary.items():
-        ends = [_end(row.get(word)) for word in ("least", "greatest")]
-        table.add_row(name.replace("_", " "), *ends[0], *ends[1], str(row["infinite"]), str(row["missing"]))
+        shown = [name.replace("_", " "), ""], [str(row[word]) for word in counts], [""] * len(counts)
+        for k, word in enumerate(("least", "greatest")):
+            table.add_row(shown[0][k], word, *_end(row.get(word)), *shown[1 + k], end_section=word == "greatest")
     return table
 
 
@@ -193,7 +195,7 @@ def _end(end: Mapping[str, Any] | None) -> tuple[str, str]:
     if end is None:
         return "-", "-"
     where = (f"{name} = {v:.5g}" if isinstance(v, float) else f"{name} {v}" for name, v in end["at"].items())
-    return f"{end['value']:.6g}", ", ".join(where)
+    return f"{end['value']:.6g}", "\n".join(where)
 
 
 def _data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -30,6 +30,7 @@ GRID = "#E3E7EB"
 # Paul Tol's "bright", without what the legs have: for designs and methods beside each other, in this order.
 SERIES = ("#566370", "#AA3377", "#117799", "#B07D00")
 ALARM = UPPER  # what went wrong
+CONDITION = "cividis_r"  # condition numbers, dark where large; told apart with every common kind of colour vision
 
 TITLE_SIZE = 10.5
 TEXT_SIZE = 9.0

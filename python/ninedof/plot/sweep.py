@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,8 +30,8 @@ MAP = "viridis"
 def sweep(result: SweepResult, name: str = "") -> Figure:
     """Return a figure of one index of a sweep.
 
-    One coordinate gives a curve, or several for an index of several numbers. Two give a map, the first along x. Three
-    give maps at up to six values of the first.
+    One coordinate gives a curve, or several for an index of several numbers. Two give a map, the first along x, or a
+    map of each of several numbers. Three give maps at up to six values of the first, of the first number.
 
     Parameters
     ----------
@@ -56,9 +57,14 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
     with style.look():
         if len(swept) == 1:
             return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels)
-        if labels is not None:  # of several numbers a map shows the first
+        if len(swept) == 2:
+            slices = values[None] if labels is None else np.moveaxis(values, -1, 0)[:MOST_CURVES]
+            return _maps(result, name, swept, slices, [_words(name)] if labels is None else [str(x) for x in labels])
+        if labels is not None:
             values, name = values[..., 0], f"{name}, {labels[0]}"
-        return _maps(result, name, swept, values)
+        picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
+        titles = [f"{swept[0]} = {result.coords[swept[0]][k]:.4g}" for k in picks]
+        return _maps(result, name, swept[1:], values[picks], titles)
 
 
 def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any) -> Figure:
@@ -87,38 +93,41 @@ def _crop(axes: Any, rows: Floats) -> None:
         axes.set_yscale("log")
 
 
-def _maps(result: SweepResult, name: str, dims: tuple[str, ...], values: Floats) -> Figure:
-    outer = len(values) if len(dims) == 3 else 1
-    picks = np.unique(np.linspace(0, outer - 1, min(PANELS, outer)).round().astype(int))
-    rows = -(-len(picks) // 3)
-    columns = min(3, len(picks))
+def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats, titles: Sequence[str]) -> Figure:
+    """Draw maps over one plane, with one scale of colours."""
+    columns = min(3, len(slices))
+    rows = -(-len(slices) // 3)
     figure = style.new_figure(5.4 if columns == 1 else 9.0, 4.4 if columns == 1 else 0.9 + 2.9 * rows)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    slices = [np.asarray(values[k] if len(dims) == 3 else values) for k in picks]
-    slices = [s[:: -(-s.shape[0] // FINEST), :: -(-s.shape[1] // FINEST)] for s in slices]
-    norm = _norm(np.concatenate([s.ravel() for s in slices]), name)
-    x, y = (result.coords[d][:: -(-len(result.coords[d]) // FINEST)] for d in dims[-2:])
+    coarser = [-(-n // FINEST) for n in slices.shape[1:]]
+    slices = slices[:, :: coarser[0], :: coarser[1]]
+    norm = _norm(slices.ravel(), name)
+    colours = style.CONDITION if name.startswith("condition_number") else MAP
+    x, y = (result.coords[d][::step] for d, step in zip(dims, coarser, strict=True))
     drawn = None
-    for axes, k, part in zip(grid.flat, picks, slices, strict=False):
+    for axes, title, part in zip(grid.flat, titles, slices, strict=False):
         drawn = axes.pcolormesh(
-            x, y, np.ma.masked_invalid(part.T), norm=norm, cmap=MAP, shading="nearest", rasterized=True
+            x, y, np.ma.masked_invalid(part.T), norm=norm, cmap=colours, shading="nearest", rasterized=True
         )
         axes.set_facecolor(style.GRID)
         axes.grid(False)
-        if len(dims) == 3:
-            axes.set_title(f"{dims[0]} = {result.coords[dims[0]][k]:.4g}", size=style.TEXT_SIZE)
-        else:
-            axes.set_title(_words(name))
-    for axes in list(grid.flat)[len(picks) :]:
+        axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
+    for axes in list(grid.flat)[len(slices) :]:
         axes.set_axis_off()
     for axes in grid[-1, :]:
-        axes.set_xlabel(_axis(result, dims[-2]))
+        axes.set_xlabel(_axis(result, dims[0]))
     for axes in grid[:, 0]:
-        axes.set_ylabel(_axis(result, dims[-1]))
+        axes.set_ylabel(_axis(result, dims[1]))
     figure.subplots_adjust(left=0.1 if columns > 1 else 0.14, right=0.97, bottom=0.12 if rows == 1 else 0.09, top=0.91)
     if drawn is not None:
         bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.03, aspect=30)
-        bar.set_label(_words(name) + ("; grey: infinite or none" if not np.isfinite(values).all() else ""))
+        if isinstance(norm, LogNorm):
+            steps = [m * 10.0**k for k in range(-12, 13) for m in (1, 2, 5)]
+            bar.set_ticks([t for t in steps if norm.vmin <= t <= norm.vmax], labels=None)
+            bar.ax.yaxis.set_major_formatter("{x:g}")
+            bar.ax.yaxis.set_minor_formatter(NullFormatter())
+        words = style.with_unit(_words(name), _unit(result, name))
+        bar.set_label(words + ("; grey: infinite or none" if not np.isfinite(slices).all() else ""))
     return figure
 
 

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["Section", "workspace"]
 
 MOST_SECTIONS = 3
-INSIDE = "cividis_r"  # dark where the condition number is large; told apart with every common kind of colour vision
 
 KINDS = {  # the limits by kind, in the order of the legend: beginning of the name, words, colour
     "l": ("external legs", style.EXTERNAL),
@@ -135,7 +134,7 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     shown = None
     if np.isfinite(s.condition_number).any():
         limits = {"vmin": colours[0], "vmax": colours[1]} if np.isfinite(colours).all() else {}
-        shown = axes.imshow(s.condition_number, cmap=INSIDE, **limits, **options)
+        shown = axes.imshow(s.condition_number, cmap=style.CONDITION, **limits, **options)
     order = list(KINDS)
     number = np.array([order.index(kind) for kind in kinds] + [-1])[s.limit]
     boundary = np.ma.masked_where((s.state != 1) | (number < 0), number)
