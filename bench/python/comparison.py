@@ -12,12 +12,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(Path(__file__).parent))
+from compare import data, exact, figure, floor, page, runner
+from compare.methods import methods
+from compare.results import Line, Results
 
-from compare import data, exact, figure, floor, page, runner  # noqa: E402
-from compare.methods import methods  # noqa: E402
-from compare.results import Line, Results  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def available_levels():

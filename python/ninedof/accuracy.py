@@ -163,7 +163,7 @@ def error_samples(
     """
     single(geometry, configuration)
     count = whole("samples", samples, 0, 2**40)
-    key = whole("seed", seed, 0, 2**63 - 1)
+    key = whole("seed", seed, 0)
     workers = thread_argument(threads)
     shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
     if shape:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 LONGEST = 200  # characters of a value that a message repeats
+LARGEST = 2**63 - 1  # what the core's integers hold
 
 Vector = tuple[float, float, float]
 
@@ -72,10 +73,11 @@ def finite(name: str, value: Any, least: float = -math.inf, most: float = math.i
     return found
 
 
-def whole(name: str, value: Any, least: int, most: int) -> int:
+def whole(name: str, value: Any, least: int, most: int = LARGEST) -> int:
     """Return a whole number; 3.0 is none."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} to {most}")
+        to = "on" if most == LARGEST else f"to {most}"
+        raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} {to}")
     return int(value)
 
 

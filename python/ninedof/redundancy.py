@@ -13,10 +13,10 @@ from ninedof import _core
 from ninedof.arrays import Floats, as_floats, as_number, thread_argument
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
+from ninedof.redundancy_arguments import clearance_of, leg_limits, poses_of, starts_of
 
 __all__ = ["InternalPoint", "InternalPointStatus", "best_internal_path", "best_internal_point"]
 
-CRITERIA = ("condition_number", "singularity", "leg_centring")
 CHUNK = 256  # poses between two looks at the keyboard
 
 
@@ -116,10 +116,10 @@ def best_internal_point(
     (<InternalPointStatus.FOUND: 'found'>, True)
 
     """
-    shape, p, q = _poses(geometry, position, rotation)
+    shape, p, q = poses_of(geometry, position, rotation)
     low, high = leg_limits(limits)
-    length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
-    starts = _starts(start, shape)
+    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
+    starts = starts_of(start, shape)
     workers = thread_argument(threads)
     chunks = [
         _core.best_internal_point(
@@ -202,11 +202,11 @@ def best_internal_path(
     ({<InternalPointStatus.FOUND: 'found'>}, True)
 
     """
-    shape, p, q = _poses(geometry, position, rotation)
+    shape, p, q = poses_of(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
     low, high = leg_limits(limits)
-    length, room = as_number("characteristic_length", characteristic_length), _clearance(criterion, clearance)
+    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
     weight = as_number("smoothness", smoothness)
     first = np.empty((0, 3))
     if start is not None:
@@ -217,48 +217,6 @@ def best_internal_path(
         geometry, p, q, first, criterion, low, high, length, room, weight
     )
     return _result(shape, p, q, s, value, status, active)
-
-
-def _poses(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tuple[int, ...], Floats, Floats]:
-    """Check a stack of poses as a configuration would; return its shape and flat arrays."""
-    if not isinstance(geometry, Geometry):
-        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
-    c = Configuration(position, rotation, np.zeros(3))
-    return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
-
-
-def _starts(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
-    """Return one start a pose, or no rows where there is none."""
-    if start is None:
-        return np.empty((0, 3))
-    given = as_floats("start", start, (3,))
-    try:
-        return np.ascontiguousarray(np.broadcast_to(given, (*shape, 3))).reshape(-1, 3)
-    except ValueError:
-        raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
-
-
-def _clearance(criterion: Any, clearance: float | None) -> float:
-    if not isinstance(criterion, str):
-        raise ValueError(f"criterion: got {criterion!r}, expected one of {', '.join(CRITERIA)}")
-    if clearance is None:
-        return 1e-2 if criterion == "leg_centring" else 1e-10
-    return as_number("clearance", clearance)
-
-
-def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
-    """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
-    if limits is None:
-        return np.zeros(9), np.full(9, np.inf)
-    if not isinstance(limits, tuple | list) or len(limits) != 2:
-        raise ValueError(f"{name}: got {limits!r}, expected (low, high), each a number or nine")
-    ends = []
-    for side, end in zip(("low", "high"), limits, strict=True):
-        values = as_floats(f"{name} ({side})", end, ())
-        if values.shape not in ((), (9,)):
-            raise ValueError(f"{name} ({side}): got shape {values.shape}, expected a number or shape (9,)")
-        ends.append(np.ascontiguousarray(np.broadcast_to(values, 9)))
-    return ends[0], ends[1]
 
 
 def _result(

@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.arrays import as_number, thread_argument
+from ninedof.checks import whole
 from ninedof.configuration import Configuration
 from ninedof.geometry import Geometry
-from ninedof.redundancy import InternalPoint, InternalPointStatus, _clearance, _poses, _starts, leg_limits
+from ninedof.redundancy import InternalPoint, InternalPointStatus
+from ninedof.redundancy_arguments import clearance_of, leg_limits, poses_of, starts_of
 
 __all__ = ["InternalPointMap", "MapAudit", "best_internal_map"]
 
@@ -120,7 +122,7 @@ def best_internal_map(
     ((21, 21), 0)
 
     """
-    shape, p, q = _poses(geometry, position, rotation)
+    shape, p, q = poses_of(geometry, position, rotation)
     low, high = leg_limits(limits)
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: got {progress!r}, expected a callable of two arguments")
@@ -129,16 +131,16 @@ def best_internal_map(
         p,
         q,
         shape,
-        _starts(start, shape),
+        starts_of(start, shape),
         criterion,
         low,
         high,
         as_number("characteristic_length", characteristic_length),
-        _clearance(criterion, clearance),
+        clearance_of(criterion, clearance),
         thread_argument(threads),
-        _count("seed_every", seed_every, 1),
-        _count("audit_every", audit_every, 1),
-        _count("audit_seed", audit_seed, 0),
+        whole("seed_every", seed_every, 1),
+        whole("audit_every", audit_every, 1),
+        whole("audit_seed", audit_seed, 0),
         progress,
     )
     statuses = np.array([InternalPointStatus(word) for word in words], dtype=object)[status]
@@ -154,9 +156,3 @@ def best_internal_map(
         searched,
         followed,
     )
-
-
-def _count(name: str, value: Any, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value < 2**63:
-        raise ValueError(f"{name}: got {value!r}, expected a whole number from {least} on")
-    return int(value)

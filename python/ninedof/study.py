@@ -107,7 +107,7 @@ class Study:
             "characteristic_length": length,
             "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
             "starts": whole("starts", self.starts, 1, 2**31 - 1),
-            "seed": whole("seed", self.seed, 0, 2**63 - 1),
+            "seed": whole("seed", self.seed, 0),
             "defaulted": tuple(n for n, b in variables.items() if n not in self.variables and isinstance(b, tuple)),
         }.items():
             object.__setattr__(self, name, value)

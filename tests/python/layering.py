@@ -48,6 +48,7 @@ PYTHON_LAYERS = (
     {"chunks"},
     {"geometry", "configuration"},
     {"lengths"},
+    {"redundancy_arguments"},
     {"conditioning", "kinematics", "velocity", "acceleration", "forward_position", "tracking", "redundancy"}
     | {"redundancy_map", "singularity", "statics", "accuracy", "ellipsoid"},
     {"angles", "bounds"},

@@ -84,7 +84,7 @@ def atlas(
     (100000, True)
 
     """
-    drawn = Sample(whole("seed", seed, 0, 2**63 - 1), bounds_of(bounds))
+    drawn = Sample(whole("seed", seed, 0), bounds_of(bounds))
     check_executor(executor)
     check_progress(progress)
     work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))

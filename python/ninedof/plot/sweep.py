@@ -122,8 +122,8 @@ def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats,
     if drawn is not None:
         bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.03, aspect=30)
         if isinstance(norm, LogNorm):
-            steps = [m * 10.0**k for k in range(-12, 13) for m in (1, 2, 5)]
-            bar.set_ticks([t for t in steps if norm.vmin <= t <= norm.vmax], labels=None)
+            low, high = bar.ax.get_ylim()
+            bar.set_ticks([t for k in range(-12, 13) for m in (1, 2, 5) if low <= (t := m * 10.0**k) <= high])
             bar.ax.yaxis.set_major_formatter("{x:g}")
             bar.ax.yaxis.set_minor_formatter(NullFormatter())
         words = style.with_unit(_words(name), _unit(result, name))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninedof.arrays import Floats, as_floats, as_number
 from ninedof.checks import known_keys, shown, vector
-from ninedof.redundancy import leg_limits
+from ninedof.redundancy_arguments import leg_limits
 
 __all__ = ["CRITERIA", "criteria_of"]
 

@@ -170,7 +170,7 @@ def workspace(
             "points", (POINTS_SEARCHED if rule[0] == "best" else POINTS) if points is None else points, 1, 10**8
         ),
         "shifts": whole("shifts", shifts, 2, 1000),
-        "seed": whole("seed", seed, 0, 2**63 - 1),
+        "seed": whole("seed", seed, 0),
         "threads": thread_argument(threads),
     }
     begin = perf_counter()
