@@ -34,6 +34,12 @@ NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*co
   }
 }
 
+/// Asks for rows before they are read: memory works while the chunk before them is calculated.
+NINEDOF_INLINE void prefetch(const double* from, long step, long rows) {
+  constexpr long line = 64 / sizeof(double);
+  for (long k = 0; k < rows * step; k += line) __builtin_prefetch(from + k);
+}
+
 /// A chunk of configurations, by column: position, rotation, internal point, characteristic length.
 struct Columns {
   alignas(64) double x[16][chunk];
@@ -42,6 +48,11 @@ struct Columns {
     gather<3>(b.position + first * b.position_step, b.position_step, rows, x);
     gather<9>(b.rotation + first * b.rotation_step, b.rotation_step, rows, x + 3);
     gather<3>(b.internal_point + first * b.internal_point_step, b.internal_point_step, rows, x + 12);
+  }
+  NINEDOF_INLINE static void prefetch_block(const Block& b, long first, long rows) {
+    prefetch(b.position + first * b.position_step, b.position_step, rows);
+    prefetch(b.rotation + first * b.rotation_step, b.rotation_step, rows);
+    prefetch(b.internal_point + first * b.internal_point_step, b.internal_point_step, rows);
   }
   NINEDOF_INLINE void gather_length(const Block& b, long first, long rows) {
     gather<1>(b.length + first * b.length_step, b.length_step, rows, x + 15);

@@ -56,6 +56,8 @@ NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
   Bidiagonals reduced;
   for_each_chunk(b, [&](Columns& c, long first, long rows) {
     c.gather_length(b, first, rows);
+    const long left = b.count - first - rows;
+    Columns::prefetch_block(b, first + rows, left < chunk ? left : chunk);
     reduced.reduce(b.robot, c);
     work(c, reduced, first, rows);
   });
