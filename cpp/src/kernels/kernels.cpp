@@ -28,15 +28,18 @@ NINEDOF_INLINE void for_each_chunk(const Block& b, const Work& work) {
 struct Bidiagonals {
   alignas(64) double x[11][chunk];
 
-  NINEDOF_INLINE void reduce(const Joints& robot, const Columns& c) {
+  /// In the meantime the block's next chunk is fetched from memory, a few lines at a time: more would wait for each other.
+  NINEDOF_INLINE void reduce(const Block& b, const Columns& c, long next) {
     for (long k = 0; k < chunk; k += Lanes::lanes) {
+      const long left = b.count - next - k;
+      Columns::prefetch_block(b, next + k, left < Lanes::lanes ? left : Lanes::lanes);
       Lanes m[6][6];
-      conditioning_matrix(robot, c.poses<Lanes>(k), 1.0 / c.length<Lanes>(k), m);
-      const Bidiagonal<Lanes> b = bidiagonalize(m);
+      conditioning_matrix(b.robot, c.poses<Lanes>(k), 1.0 / c.length<Lanes>(k), m);
+      const Bidiagonal<Lanes> d = bidiagonalize(m);
 #pragma GCC unroll 6
-      for (int j = 0; j < 6; ++j) store(b.q[j], x[j] + k);
+      for (int j = 0; j < 6; ++j) store(d.q[j], x[j] + k);
 #pragma GCC unroll 5
-      for (int j = 0; j < 5; ++j) store(b.e[j], x[6 + j] + k);
+      for (int j = 0; j < 5; ++j) store(d.e[j], x[6 + j] + k);
     }
   }
   template <class P>
@@ -56,9 +59,7 @@ NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
   Bidiagonals reduced;
   for_each_chunk(b, [&](Columns& c, long first, long rows) {
     c.gather_length(b, first, rows);
-    const long left = b.count - first - rows;
-    Columns::prefetch_block(b, first + rows, left < chunk ? left : chunk);
-    reduced.reduce(b.robot, c);
+    reduced.reduce(b, c, first + rows);
     work(c, reduced, first, rows);
   });
 }
