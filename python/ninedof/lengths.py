@@ -26,11 +26,11 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
     configuration : Configuration
         Shape (...).
     kind : {"optimal", "natural", "mean_leg", "platform_radius"}
-        "optimal" makes the condition number least (found by bisection: the condition number is quasi-convex in the
-        length). "natural" makes rotation and translation weigh the same in the leg rates, the Frobenius norms of the
-        two halves of M being equal; at an isotropic design it is the length that shows the isotropy. "mean_leg" is
-        the mean of the nine legs; "platform_radius" the largest distance of a platform joint from the platform
-        origin.
+        "optimal" makes the condition number least: it is quasi-convex in the length, so that the one change of sign of
+        its slope is that length. "natural" makes rotation and translation weigh the same in the leg rates, the
+        Frobenius norms of the two halves of M being equal; at an isotropic design it is the length that shows the
+        isotropy. "mean_leg" is the mean of the nine legs; "platform_radius" the largest distance of a platform joint
+        from the platform origin.
 
     Returns
     -------

@@ -127,7 +127,8 @@ def workspace(
     Returns
     -------
     WorkspaceMap
-        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped".
+        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped"; of
+        millions of cells that takes a second for each million.
 
     Raises
     ------
