@@ -74,7 +74,7 @@ def test_bounds_between_the_indices(seed):
     assert two <= frobenius <= 6.0 * two * (1.0 + 1e-12)
     sigma = nd.singular_values(g, c)
     assert (np.diff(sigma) <= 0.0).all()
-    assert two == pytest.approx(sigma[0] / sigma[5], rel=1e-13)  # another way to the same roots
+    assert two == pytest.approx(sigma[0] / sigma[5], rel=1e-14)
 
 
 def test_octahedral_design():

@@ -66,8 +66,8 @@ struct Approach {
   P x, last, slope;
   typename P::Mask open;
 
-  /// `last` is the step that led to x.
-  NINEDOF_INLINE Approach(const P& at, const P& step) : x(at), last(step), slope(0.0), open(at >= 0.0) {}
+  /// Whatever led to x was no step of this kind and predicts none: a second one is always made.
+  NINEDOF_INLINE explicit Approach(const P& at) : x(at), last(0.0), slope(0.0), open(at >= 0.0) {}
 
   NINEDOF_INLINE void advance(const Polynomial<P>& p) {
     const Taylor<P> t = p.at(x);
@@ -75,12 +75,14 @@ struct Approach {
     x = select(open, x - step, x);
     slope = select(open, t.p1, slope);
     const P size = abs(step);
-    // As in `iterate`, or once steps are what rounding leaves.
+    // Of a cubic iteration the next step is this one times the cube of its ratio to the one before. Steps as small as
+    // rounding are the last.
     open = open & (square(square(size)) > 1e-15 * x * (square(last) * last)) & (size > 1e-13 * x);
     last = size;
   }
 
-  /// Where rounding may have moved the root by more than some 1e-14 of it.
+  /// Where the iteration has not ended, or the root is so close to another that it moves by more than a hundred times the
+  /// relative rounding of a coefficient.
   NINEDOF_INLINE typename P::Mask doubtful(const Polynomial<P>& p) const {
     constexpr double most = 100.0;
     return open | !(p.sizes(x) <= most * (x * abs(slope)));
@@ -101,7 +103,7 @@ NINEDOF_INLINE Extremes<P> extreme_roots(const Bidiagonal<P>& b) {
   const P mean = p.s[0] * (1.0 / 6.0);
   const P bound = mean + sqrt(max(25.0 * square(mean) - (5.0 / 3.0) * p.s[1], P(0.0)));
   const P down = laguerre<6>(p.at(bound));
-  Approach<P> least(up, up), greatest(bound - down, down);
+  Approach<P> least(up), greatest(bound - down);
   for (int round = 0; round < rounds; ++round) {  // both at once: two chains of dependent operations
     least.advance(p);
     greatest.advance(p);
@@ -110,7 +112,7 @@ NINEDOF_INLINE Extremes<P> extreme_roots(const Bidiagonal<P>& b) {
   Extremes<P> out{{least.x, least.doubtful(p)}, {greatest.x, greatest.doubtful(p)}};
   // Lanes that were sure keep their root: it must not depend on their neighbours.
   if (any(out.least.open)) {
-    const Root<P> again = least_root<6>(b.q, b.e);
+    const Root<P> again = iterate<6>(b.q, b.e, up, 1.0, P(0.0));
     out.least = {select(out.least.open, again.x, least.x), out.least.open & again.open};
   }
   if (any(out.greatest.open)) {
