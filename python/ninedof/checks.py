@@ -76,7 +76,7 @@ def finite(name: str, value: Any, least: float = -math.inf, most: float = math.i
 def whole(name: str, value: Any, least: int, most: int = LARGEST) -> int:
     """Return a whole number; 3.0 is none."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        to = "on" if most == LARGEST else f"to {most}"
+        to = "to 2^63 - 1" if most == LARGEST else f"to {most}"
         raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} {to}")
     return int(value)
 

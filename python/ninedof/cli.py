@@ -240,7 +240,7 @@ def workspace(
     tolerance: Annotated[float, typer.Option(help="Error wanted, as a share of the volume.")] = 1e-3,
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
     points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
-    seed: Annotated[int, typer.Option(help="Of the audit and of a sample.")] = 0,
+    seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None,
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -257,19 +257,17 @@ def workspace(
         "leg_clearance": clearance,
         "singularity_free": singularity_free,
     }
-    region = {"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg}
-    search = {"method": method, "tolerance": tolerance, "resolution": resolution, "points": points, "seed": seed}
     options = commands.WorkspaceOptions(
-        archetype,
-        {"x": x, "y": y, "z": z},
-        position,
-        criteria,
-        region,
-        orientations,
-        internal_point,
-        lc,
-        search,
-        threads,
+        archetype=archetype,
+        box={"x": x, "y": y, "z": z},
+        position=position,
+        criteria=criteria,
+        region_deg={"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg},
+        orientations=orientations,
+        internal_point=internal_point,
+        lc=lc,
+        search={"method": method, "tolerance": tolerance, "resolution": resolution, "points": points, "seed": seed},
+        threads=threads,
     )
     raise typer.Exit(commands.workspace(design, options, out, figures, json))
 

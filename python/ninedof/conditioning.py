@@ -49,7 +49,7 @@ def singular_values(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, of the result's shape.
+        Where to put the result: float64, C-contiguous, aligned, of the result's shape.
 
     Returns
     -------
@@ -120,7 +120,7 @@ def condition_number(
     threads : int, optional
         Threads for a stack; one a processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to write the result: float64, C-contiguous, shape (...).
+        Where to write the result: float64, C-contiguous, aligned, shape (...).
 
     Returns
     -------
@@ -164,7 +164,7 @@ def hexagonal_condition_number(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, of the shape the arguments broadcast to.
+        Where to put the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to.
 
     Returns
     -------

@@ -53,7 +53,7 @@ def leg_lengths(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, of the result's shape.
+        Where to put the result: float64, C-contiguous, aligned, of the result's shape.
 
     Returns
     -------

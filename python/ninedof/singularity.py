@@ -96,7 +96,7 @@ def singularity_margins(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     out : numpy.ndarray, shape (..., 3), optional
-        Where to put the three: float64, C-contiguous. The result shows it.
+        Where to put the three: float64, C-contiguous, aligned. The result shows it.
 
     Returns
     -------

@@ -357,6 +357,7 @@ def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, publ
         (["--lc", "long"], "--lc: got 'long', expected a number or one of"),
         (["--points", "0"], "points: got 0, expected"),
         (["--seed", "-1"], "seed: got -1, expected"),
+        (["--method", "grid", "--points", "5"], "--points: got 5, expected none with --method grid"),
     ],
 )
 def test_the_command_names_what_it_refuses(tmp_path, capsys, arguments, words):

@@ -28,11 +28,11 @@ NINEDOF_INLINE void for_each_chunk(const Block& b, const Work& work) {
 struct Bidiagonals {
   alignas(64) double x[11][chunk];
 
-  /// In the meantime the block's next chunk is fetched from memory, a few lines at a time: more would wait for each other.
+  /// In the meantime the poses of the next chunk are fetched from memory, a few lines at a time: more would wait for each other.
   NINEDOF_INLINE void reduce(const Block& b, const Columns& c, long next) {
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const long left = b.count - next - k;
-      Columns::prefetch_block(b, next + k, left < Lanes::lanes ? left : Lanes::lanes);
+      if (left > 0) Columns::prefetch_block(b, next + k, left < Lanes::lanes ? left : Lanes::lanes);
       Lanes m[6][6];
       conditioning_matrix(b.robot, c.poses<Lanes>(k), 1.0 / c.length<Lanes>(k), m);
       const Bidiagonal<Lanes> d = bidiagonalize(m);

@@ -21,6 +21,7 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
   std::vector<Cell> in;
   const double cells = static_cast<double>(judged.size()), poses = static_cast<double>(settings.points);
   for (long n = 0; n < settings.points; ++n) {
+    if (n % 4096 == 0 && control.stop.stop_requested()) throw Stopped{};
     const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
     cell_.push_back(judged[which]);
     in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);

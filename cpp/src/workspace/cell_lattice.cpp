@@ -124,7 +124,8 @@ void CellLattice::evaluate(const WorkspaceControl& control, long expected, doubl
       margins_.evaluate(x.data(), to - from, judged.data(), control.stop, best);
       for (std::size_t n = 0; n < judged.size(); ++n) known_[begin + n] = judged[n];
     });
-    if (control.progress) control.progress(first + done + now, std::max(expected, first + count), volume);
+    evaluations_ = first + done + now;
+    if (control.progress) control.progress(evaluations_, std::max(expected, first + count), volume);
   }
 }
 
@@ -175,6 +176,7 @@ Anchors CellLattice::around(const Cell& cell, const Vec3& x) const {
 
 std::vector<PointMargins> CellLattice::within(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
                                               const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Stopped{};
   std::vector<PointMargins> out(x.size());
   parallel_for(static_cast<long>(x.size()), margins_.block(), threads_, [&](long from, long to) {
     const auto begin = static_cast<std::size_t>(from);

@@ -63,7 +63,7 @@ class CellLattice {
   /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0. Throws Stopped.
   std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
   void evaluate(const WorkspaceControl& control, long expected, double volume);
-  long evaluations() const { return static_cast<long>(known_.size()); }
+  long evaluations() const { return evaluations_; }
   const MapAudit& audit() const { return best_.audit(); }
 
   /// The margins at a point of each of some cells of level 0, which are known.
@@ -82,6 +82,7 @@ class CellLattice {
   int resolution_, threads_;
   KeyTable table_;
   PointStore known_;
+  long evaluations_ = 0;  // of those that are finished
 };
 
 }  // namespace ninedof

@@ -11,19 +11,17 @@ namespace ninedof {
 
 class PointStore {
  public:
-  std::size_t size() const { return size_; }
   const PointMargins& operator[](std::size_t number) const { return blocks_[number / block][number % block]; }
   PointMargins& operator[](std::size_t number) { return blocks_[number / block][number % block]; }
 
+  /// Makes room for numbers below `size`.
   void grow(std::size_t size) {
     while (blocks_.size() * block < size) blocks_.push_back(std::make_unique<PointMargins[]>(block));
-    size_ = size;
   }
 
  private:
   static constexpr std::size_t block = 4096;
   std::vector<std::unique_ptr<PointMargins[]>> blocks_;
-  std::size_t size_ = 0;
 };
 
 }  // namespace ninedof

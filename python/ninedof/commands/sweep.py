@@ -185,9 +185,8 @@ def _table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
     for head in ("index", "", "value", "at", *counts):
         table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
     for name, row in summary.items():
-        shown = [name.replace("_", " "), ""], [str(row[word]) for word in counts], [""] * len(counts)
-        for k, word in enumerate(("least", "greatest")):
-            table.add_row(shown[0][k], word, *_end(row.get(word)), *shown[1 + k], end_section=word == "greatest")
+        table.add_row(name.replace("_", " "), "least", *_end(row.get("least")), *(str(row[word]) for word in counts))
+        table.add_row("", "greatest", *_end(row.get("greatest")), end_section=True)
     return table
 
 

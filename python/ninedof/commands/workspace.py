@@ -55,7 +55,12 @@ def workspace(design: Path | None, options: WorkspaceOptions, out: Path | None, 
     given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
     if options.lc is not None:
         given = given._replace(characteristic_length=length_option(options.lc))
-    asked = _arguments(given, options) | dict(options.search)
+    search = {name: value for name, value in options.search.items() if value is not None}
+    if search["method"] == "grid":
+        for name in ("points", "seed"):
+            if name in search:
+                raise ValueError(f"--{name}: got {search[name]}, expected none with --method grid")
+    asked = _arguments(given, options) | search
     with job.run_directory(out) as directory, _bar(screen, options.archetype.replace("_", " ")) as progress:
         found = find_workspace(
             given.geometry, **asked, home=given.configuration, threads=options.threads, progress=progress

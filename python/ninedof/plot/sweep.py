@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -123,7 +124,8 @@ def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats,
         bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.03, aspect=30)
         if isinstance(norm, LogNorm):
             low, high = bar.ax.get_ylim()
-            bar.set_ticks([t for k in range(-12, 13) for m in (1, 2, 5) if low <= (t := m * 10.0**k) <= high])
+            tens = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+            bar.set_ticks([t for k in tens for m in (1, 2, 5) if low <= (t := m * 10.0**k) <= high])
             bar.ax.yaxis.set_major_formatter("{x:g}")
             bar.ax.yaxis.set_minor_formatter(NullFormatter())
         words = style.with_unit(_words(name), _unit(result, name))
