@@ -1,5 +1,6 @@
 #include "workspace/audit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "workspace/sequence.hpp"
@@ -7,6 +8,7 @@
 namespace ninedof {
 namespace {
 
+constexpr long piece = 16384;
 constexpr double too_many = 0.05;  // share of the allowed poses in cells that deny them: the cells are too coarse
 
 }  // namespace
@@ -18,25 +20,29 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
     if (!roots[n].proved) judged.push_back(static_cast<long>(n));
   if (judged.empty()) return;
   const Vec3 shift = sequence_shift(settings.seed, 0), size = lattice.size(0);
-  std::vector<Cell> in;
   const double cells = static_cast<double>(judged.size()), poses = static_cast<double>(settings.points);
-  for (long n = 0; n < settings.points; ++n) {
-    if (n % 4096 == 0 && control.stop.stop_requested()) throw Stopped{};
-    const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
-    cell_.push_back(judged[which]);
-    in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);
-    at_.push_back(lattice.centre(in.back()) + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
-  }
-  const std::vector<PointMargins> known = lattice.within(in, at_, control.stop);
+  const double share = cells * size.prod() / poses;
   for (const Leaf& root : roots)
     if (root.proved) volume_ += root.fraction * root.measure;
-  const double share = cells * size.prod() / poses;
-  for (std::size_t n = 0; n < known.size(); ++n) {
-    allowed_.push_back(known[n].allowed(m.groups()));
-    if (allowed_.back() == 0) continue;
-    const double measure = share * m.chart().density(at_[n]);
-    volume_ += measure;
-    squares_ += measure * measure;
+  // Piece by piece: all that is known of a pose is much, and only whether it is allowed is kept.
+  for (long first = 0; first < settings.points; first += piece) {
+    std::vector<Cell> in;
+    std::vector<Vec3> at;
+    for (long n = first; n < std::min(first + piece, settings.points); ++n) {
+      const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
+      cell_.push_back(judged[which]);
+      in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);
+      at.push_back(lattice.centre(in.back()) + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
+    }
+    const std::vector<PointMargins> known = lattice.within(in, at, control.stop);
+    for (std::size_t n = 0; n < known.size(); ++n) {
+      allowed_.push_back(known[n].allowed(m.groups()));
+      if (allowed_.back() == 0) continue;
+      const double measure = share * m.chart().density(at[n]);
+      volume_ += measure;
+      squares_ += measure * measure;
+    }
+    at_.insert(at_.end(), at.begin(), at.end());
   }
   // No disagreement among n poses: with 95 % confidence less than 3 / n of where they were drawn from.
   unseen_ = 3.0 / poses * cells * size.prod();
