@@ -17,8 +17,8 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
-// numpy makes arrays at any address of a buffer (Dask of what came over the wire, a packed record of a field), and only
-// an aligned one may be read as doubles. pybind11 has no public name for the flag.
+// numpy's arrays may lie at any address: views into a message, as Dask has them, or a field of packed records. Only an
+// aligned one may be read as doubles. pybind11 has no public name for the flag.
 constexpr int aligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast | aligned>;
