@@ -97,19 +97,4 @@ NINEDOF_INLINE Root<P> least_root(const P* q, const P* e) {
   return iterate<n>(q, e, first, 1.0, first);
 }
 
-/// From the bound of Laguerre and Samuelson: mean and variance of the roots are known.
-template <class P>
-NINEDOF_INLINE Root<P> greatest_root(const P* q, const P* e) {
-  P sum = q[0], squares = square(q[0]);
-#pragma GCC unroll 5
-  for (int k = 0; k < 5; ++k) {
-    const P a = q[k + 1] + e[k];
-    sum += a;
-    squares += square(a) + 2.0 * (q[k] * e[k]);
-  }
-  const P mean = sum * (1.0 / 6.0);
-  const P spread = (5.0 / 6.0) * squares - 5.0 * square(mean);
-  return iterate<6>(q, e, mean + sqrt(max(spread, P(0.0))), -1.0, P(0.0));
-}
-
 }  // namespace ninedof::kernels::inline NINEDOF_LEVEL

@@ -116,7 +116,7 @@ NINEDOF_INLINE Extremes<P> extreme_roots(const Bidiagonal<P>& b) {
     out.least = {select(out.least.open, again.x, least.x), out.least.open & again.open};
   }
   if (any(out.greatest.open)) {
-    const Root<P> again = greatest_root(b.q, b.e);
+    const Root<P> again = iterate<6>(b.q, b.e, bound, -1.0, P(0.0));
     out.greatest = {select(out.greatest.open, again.x, greatest.x), out.greatest.open & again.open};
   }
   return out;
