@@ -1,6 +1,6 @@
 /// The table of contents of ninedof._core. Public names are chosen in Python.
 
-#include "module.hpp"
+#include "support/module.hpp"
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "The compiled core of ninedof. Private: use the names of `ninedof`.";

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <ninedof/conditioning.hpp>
-#include <ninedof/configuration.hpp>
-#include <ninedof/geometry.hpp>
-#include <ninedof/optimize.hpp>
+#include <ninedof/conditioning/conditioning.hpp>
+#include <ninedof/robot/configuration.hpp>
+#include <ninedof/robot/geometry.hpp>
+#include <ninedof/optimize/optimize.hpp>
 
 int main() {
   // Base triangle of side 5.8124, platform triangle of half that side, O at the best height between them.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ninedof/rotation.hpp"
+#include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
 namespace {

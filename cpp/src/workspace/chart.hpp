@@ -1,7 +1,7 @@
 #pragma once
 /// The three coordinates that a workspace is a set of, the poses they stand for and their measure.
 
-#include "ninedof/workspace.hpp"
+#include "ninedof/workspace/workspace.hpp"
 
 namespace ninedof {
 

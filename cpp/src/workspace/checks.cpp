@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "ninedof/error.hpp"
-#include "ninedof/rotation.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
 namespace {

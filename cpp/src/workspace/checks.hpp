@@ -1,7 +1,7 @@
 #pragma once
 /// What a workspace must be asked for.
 
-#include "ninedof/workspace.hpp"
+#include "ninedof/workspace/workspace.hpp"
 
 namespace ninedof {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "ninedof/error.hpp"
-#include "ninedof/rotation.hpp"
-#include "ninedof/workspace.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/rotation.hpp"
+#include "ninedof/workspace/workspace.hpp"
 #include "workspace/sequence.hpp"
 
 namespace ninedof {

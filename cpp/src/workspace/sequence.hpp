@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "ninedof/types.hpp"
-#include "splitmix.hpp"
+#include "math/splitmix.hpp"
+#include "ninedof/math/types.hpp"
 
 namespace ninedof {
 

@@ -1,10 +1,10 @@
-#include "ninedof/workspace.hpp"
+#include "ninedof/workspace/workspace.hpp"
 
 #include <algorithm>
 
 #include "workspace/checks.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/surface.hpp"
+#include "workspace/measures/surface.hpp"
 
 namespace ninedof {
 namespace {

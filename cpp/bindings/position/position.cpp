@@ -1,0 +1,128 @@
+#include <array>
+#include <vector>
+
+#include "ninedof/position/forward_position.hpp"
+#include "ninedof/position/tracking.hpp"
+#include "support/arrays.hpp"
+#include "support/module.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// Rows of nine lengths.
+class LengthStack {
+ public:
+  explicit LengthStack(Array lengths) : lengths_(std::move(lengths)), data_(lengths_.data()) {
+    if (lengths_.size() % 9 != 0)
+      throw InvalidArgument("leg_lengths", std::to_string(lengths_.size()) + " numbers", "nine a row");
+  }
+  long count() const { return static_cast<long>(lengths_.size() / 9); }
+  Vec9 operator[](long i) const { return Eigen::Map<const Vec9>(data_ + 9 * i); }
+
+ private:
+  Array lengths_;
+  const double* data_;
+};
+
+template <class T>
+py::array_t<T> array_of(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// A configuration as fifteen doubles: p, Q row-major, s.
+constexpr py::ssize_t configuration_size = 15;
+
+void write(const Configuration& c, double* to) {
+  Eigen::Map<Vec3>{to} = c.position;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{to + 3} = c.rotation;
+  Eigen::Map<Vec3>{to + 12} = c.internal_point;
+}
+
+/// Modes of all rows one after the other, and for each row how many there are and what is said about them. Rows with NaN have none
+/// and the status "".
+py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, int threads) {
+  const LengthStack lengths(leg_lengths);
+  const auto rows = static_cast<std::size_t>(lengths.count());
+  std::vector<AssemblyModes> found(rows);
+  in_slices(lengths.count(), 64, threads, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      const Vec9 row = lengths[i];
+      if (!row.hasNaN()) found[static_cast<std::size_t>(i)] = forward_position(g, row);
+    }
+  });
+  std::vector<int> counts(rows), sides;
+  std::vector<std::uint8_t> certain(rows);
+  std::vector<double> configurations, separations;
+  py::list status, obstacle;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const AssemblyModes& m = found[i];
+    const bool missing = lengths[static_cast<long>(i)].hasNaN();
+    counts[i] = m.count;
+    certain[i] = !missing && m.certain;
+    status.append(missing ? "" : to_string(m.status));
+    obstacle.append(missing ? "" : to_string(m.obstacle));
+    for (const AssemblyMode& mode : m) {
+      std::array<double, configuration_size> c;
+      write(mode.configuration, c.data());
+      configurations.insert(configurations.end(), c.begin(), c.end());
+      separations.push_back(mode.separation);
+      sides.push_back(mode.base_side);
+      sides.push_back(mode.platform_side);
+    }
+  }
+  return py::make_tuple(array_of(counts), status, obstacle, array_of(certain), array_of(configurations),
+                        array_of(separations), array_of(sides));
+}
+
+/// Numbers of a tracked step: its configuration, certificate, alone_within, separation, steps, reached.
+constexpr py::ssize_t tracked_size = configuration_size + 5;
+
+void write(const Tracked& t, double* to) {
+  write(t.configuration, to);
+  to += configuration_size;
+  const std::array<double, 5> rest{t.certificate, t.alone_within, t.separation, static_cast<double>(t.steps),
+                                   t.reached};
+  std::copy(rest.begin(), rest.end(), to);
+}
+
+/// `path` lengths in a row for each start: (n, path, 9) lengths and n starts.
+py::tuple track_stack(const Geometry& g, const Array& leg_lengths, long path, const Array& p, const Array& q,
+                      const Array& s, int threads) {
+  const ConfigurationStack starts(p, q, s);
+  const LengthStack lengths(leg_lengths);
+  if (lengths.count() != starts.count() * path)
+    throw InvalidArgument("leg_lengths", std::to_string(lengths.count()) + " rows",
+                          std::to_string(starts.count() * path));
+  const Tracker tracker(g);
+  Array out(std::vector<py::ssize_t>{lengths.count(), tracked_size});
+  std::vector<std::uint8_t> status(static_cast<std::size_t>(lengths.count()));
+  double* data = out.mutable_data();
+  in_slices(starts.count(), path > 100 ? 1 : 256, threads, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      Configuration at = starts[i];
+      bool going = true;
+      for (long k = i * path; k < (i + 1) * path; ++k) {
+        const Vec9 row = lengths[k];
+        const Tracked t = going && !row.hasNaN() ? tracker(row, at) : Tracked::not_tried();
+        going &= t.status == TrackStatus::tracked;
+        at = t.configuration;
+        write(t, data + k * tracked_size);
+        status[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(t.status);
+      }
+    }
+  });
+  return py::make_tuple(out, array_of(status));
+}
+
+}  // namespace
+
+void bind_position(py::module_& m) {
+  m.def("forward_position", &forward_position_stack);
+  m.def("track", &track_stack);
+  py::list names;
+  for (const TrackStatus s : {TrackStatus::tracked, TrackStatus::lost, TrackStatus::infeasible})
+    names.append(to_string(s));
+  m.attr("track_statuses") = names;
+}
+
+}  // namespace ninedof::python

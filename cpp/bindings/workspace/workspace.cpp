@@ -1,0 +1,184 @@
+#include "ninedof/workspace/workspace.hpp"
+
+#include <pybind11/stl.h>
+
+#include "support/arrays.hpp"
+#include "support/module.hpp"
+#include "support/watched.hpp"
+
+namespace ninedof::python {
+namespace {
+
+template <class T>
+T word(const std::string& name, const std::string& given, const std::vector<std::pair<std::string, T>>& known) {
+  std::string all;
+  for (const auto& [text, value] : known) {
+    if (text == given) return value;
+    all += (all.empty() ? "\"" : ", \"") + text + "\"";
+  }
+  throw InvalidArgument(name, "\"" + given + "\"", "one of " + all);
+}
+
+Vec3 vec3_of(const Array& a) {
+  return Eigen::Map<const Vec3>(a.data());
+}
+
+Mat3 mat3_of(const double* from) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(from);
+}
+
+/// What Python has checked and named; see python/ninedof/workspace.
+WorkspaceDomain domain_from(const py::dict& d) {
+  WorkspaceDomain out;
+  out.archetype = word<Archetype>("archetype", d["archetype"].cast<std::string>(),
+                                  {{"constant_orientation", Archetype::constant_orientation},
+                                   {"orientation", Archetype::orientation},
+                                   {"reachable", Archetype::reachable},
+                                   {"inclusive", Archetype::inclusive}});
+  out.low = vec3_of(d["low"].cast<Array>());
+  out.high = vec3_of(d["high"].cast<Array>());
+  out.position = vec3_of(d["position"].cast<Array>());
+  const auto rotations = d["rotations"].cast<Array>();
+  out.rotations.clear();
+  for (py::ssize_t k = 0; k < rotations.size() / 9; ++k) out.rotations.push_back(mat3_of(rotations.data() + 9 * k));
+  using Chart = OrientationRegion::Chart;
+  out.region.chart = word<Chart>("chart", d["chart"].cast<std::string>(),
+                                 {{"rotation_vector", Chart::rotation_vector}, {"tilt_torsion", Chart::tilt_torsion}});
+  out.region.angle = d["angle"].cast<double>();
+  std::tie(out.region.torsion_low, out.region.torsion_high) = d["torsion"].cast<std::pair<double, double>>();
+  return out;
+}
+
+InternalPointRule rule_from(const std::string& kind, double fraction, const Array& point) {
+  using enum InternalPointRule::Kind;
+  return {word<InternalPointRule::Kind>(
+              "internal_point", kind, {{"fixed", fixed}, {"between", between}, {"platform", platform}, {"best", best}}),
+          fraction, vec3_of(point)};
+}
+
+std::optional<ConeLimit> cone_from(const py::object& given) {
+  if (given.is_none()) return {};
+  const auto [angle, axis] = given.cast<std::pair<double, Array>>();
+  return ConeLimit{angle, vec3_of(axis)};
+}
+
+WorkspaceCriteria criteria_from(const py::dict& d) {
+  WorkspaceCriteria out;
+  if (!d["leg_limits"].is_none()) {
+    const auto [low, high] = d["leg_limits"].cast<std::pair<Array, Array>>();
+    out.legs = LegLimits{Eigen::Map<const Vec9>(low.data()), Eigen::Map<const Vec9>(high.data())};
+  }
+  out.base_cone = cone_from(d["base_cone"]);
+  out.platform_cone = cone_from(d["platform_cone"]);
+  out.leg_clearance = d["leg_clearance"].cast<std::optional<double>>();
+  out.condition_number = d["condition_number"].cast<std::optional<double>>();
+  out.singularity_free = d["singularity_free"].cast<bool>();
+  out.characteristic_length = d["characteristic_length"].cast<double>();
+  return out;
+}
+
+WorkspaceSettings settings_from(const py::dict& d) {
+  using enum WorkspaceSettings::Method;
+  return {word<WorkspaceSettings::Method>("method", d["method"].cast<std::string>(),
+                                          {{"octree", octree}, {"grid", grid}, {"sample", sample}}),
+          d["tolerance"].cast<double>(),
+          d["resolution"].cast<int>(),
+          d["most_evaluations"].cast<long>(),
+          d["points"].cast<long>(),
+          d["shifts"].cast<int>(),
+          d["seed"].cast<std::uint64_t>(),
+          d["threads"].cast<int>()};
+}
+
+template <class T, class U>
+py::array_t<T> column(const std::vector<U>& values) {
+  py::array_t<T> out(static_cast<py::ssize_t>(values.size()));
+  std::transform(values.begin(), values.end(), out.mutable_data(), [](const U& v) { return static_cast<T>(v); });
+  return out;
+}
+
+py::dict dict_of(const WorkspaceCells& c) {
+  Array centre(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.size()), 3});
+  for (std::size_t n = 0; n < c.size(); ++n) Eigen::Map<Vec3>(centre.mutable_data() + 3 * n) = c.centre[n];
+  py::dict out;
+  out["centre"] = centre;
+  out["level"] = column<std::uint8_t>(c.level);
+  out["state"] = column<std::uint8_t>(c.state);
+  out["limit"] = column<std::int16_t>(c.limit);
+  out["fraction"] = column<double>(c.fraction);
+  out["condition_number"] = column<double>(c.condition_number);
+  out["piece"] = column<std::int32_t>(c.piece);
+  return out;
+}
+
+py::dict dict_of(const WorkspaceMap& m) {
+  py::dict out;
+  out["status"] = to_string(m.status);
+  out["volume"] = m.volume;
+  out["error"] = m.error;
+  out["unseen"] = m.unseen;
+  out["chart_volume"] = m.chart_volume;
+  out["box_limits"] = m.box_limits;
+  out["home_allowed"] = m.home_allowed;
+  out["home_limit"] = m.home_limit;
+  out["pieces"] = column<double>(m.pieces);
+  out["ball_centre"] = array_from(m.ball.centre);
+  out["ball_radius"] = m.ball.radius;
+  out["box_low"] = array_from(m.box.low);
+  out["box_high"] = array_from(m.box.high);
+  out["conditioning_index"] = m.conditioning_index;
+  out["conditioning_index_error"] = m.conditioning_index_error;
+  out["worst_condition_number"] = m.worst_condition_number;
+  out["worst_at"] = array_from(m.worst_at);
+  out["percentiles"] = column<double>(m.percentiles);
+  out["boundary_area"] = m.boundary_area;
+  out["limit_area"] = column<double>(m.limit_area);
+  out["cells"] = dict_of(m.cells);
+  Array levels(std::vector<py::ssize_t>{static_cast<py::ssize_t>(m.levels.size()), 4});
+  for (std::size_t n = 0; n < m.levels.size(); ++n) {
+    const WorkspaceLevel& l = m.levels[n];
+    Eigen::Map<Eigen::Vector4d>(levels.mutable_data() + 4 * n) << static_cast<double>(l.cells),
+        static_cast<double>(l.evaluations), l.volume, l.error;
+  }
+  out["levels"] = levels;
+  out["low"] = array_from(m.low);
+  out["high"] = array_from(m.high);
+  out["evaluations"] = m.evaluations;
+  out["internal_point_audit"] =
+      std::tuple(m.internal_points.poses, m.internal_points.missed, m.internal_points.largest);
+  return out;
+}
+
+}  // namespace
+
+void bind_workspace(py::module_& m) {
+  m.attr("workspace_limits") = py::cast(limit_names());
+  m.def("workspace",
+        [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction, const Array& point,
+           const py::dict& criteria, const py::dict& settings, const py::object& home, const py::object& progress) {
+          const WorkspaceDomain d = domain_from(domain);
+          const InternalPointRule rule = rule_from(kind, fraction, point);
+          const WorkspaceCriteria c = criteria_from(criteria);
+          const WorkspaceSettings s = settings_from(settings);
+          std::optional<Configuration> at_home;
+          if (!home.is_none()) {
+            const auto [p, q, o] = home.cast<std::tuple<Array, Array, Array>>();
+            at_home = Configuration{vec3_of(p), mat3_of(q.data()), vec3_of(o)};
+          }
+          return dict_of(watched(
+              progress,
+              [&](const std::stop_token& stop, const Report& report) {
+                return workspace(g, d, rule, c, s, at_home, {stop, report});
+              },
+              [](const WorkspaceMap& map) { return map.status == WorkspaceStatus::stopped; }));
+        });
+  m.def("spread_rotations", [](int count, double angle) {
+    const std::vector<Mat3> rotations = spread_rotations(count, angle);
+    Array out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(rotations.size()), 3, 3});
+    double* to = out.mutable_data();
+    for (const Mat3& q : rotations) to = write(q, to);
+    return out;
+  });
+}
+
+}  // namespace ninedof::python

@@ -1,0 +1,38 @@
+#pragma once
+/// The paper's semi-regular hexagons (eqs. 37-38) at the neutral configuration (eq. 6), with the twist theta_z.
+
+#include "ninedof/design/families/axis_family.hpp"
+
+namespace ninedof {
+
+class HexagonalFamily : public AxisFamily<HexagonalFamily, 7> {
+ public:
+  const std::string& name() const override { return name_; }
+  const std::vector<VariableInfo>& variables() const override { return variables_; }
+
+  Geometry geometry(std::span<const double> x) const override { return Geometry::hexagonal(x[0], x[1], x[2], x[3]); }
+
+  template <class T>
+  Orbits<T> orbits(std::span<const T, 7> x) const {
+    const T &a1 = x[0], &b1 = x[2], zero(0.0);
+    const T ay = side_height(a1, x[1]), by = side_height(b1, x[3]);
+    const T half_a = 0.5 * a1, half_b = 0.5 * b1;
+    return {{half_a, ay, zero}, {-half_a, ay, zero}, {half_b, by, zero}, {-half_b, by, zero}, x[4], x[5], x[6]};
+  }
+
+ private:
+  /// y of joints 1 in eqs. (37)-(38)
+  template <class T>
+  static T side_height(const T& s1, const T& s2) {
+    return (-std::numbers::sqrt3 / 6.0) * (s1 + 2.0 * s2);
+  }
+
+  std::string name_ = "hexagonal";
+  std::vector<VariableInfo> variables_{
+      {"a1", VariableKind::length, 0.0, 60.0},   {"a2", VariableKind::length, 0.0, 60.0},
+      {"b1", VariableKind::length, 0.0, 60.0},   {"b2", VariableKind::length, 0.0, 60.0},
+      {"zp", VariableKind::length, 0.05, 80.0},  {"zs", VariableKind::length, 0.05, 80.0},
+      {"theta_z", VariableKind::angle, 0.0, 0.0}};
+};
+
+}  // namespace ninedof

@@ -1,0 +1,19 @@
+#pragma once
+/// Singular values of a 6x6 matrix by one-sided Jacobi rotations, written for this one size.
+
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+/// Singular values, descending. No allocation; NaN where the input has NaN, infinite where it is infinite.
+/// Each is accurate to a few rounding errors of the largest, the small ones often far better.
+Vec6 singular_values_6x6(const Mat6& m);
+
+/// Singular values, descending, and the right singular vectors in the same order, one a column.
+struct RightSvd {
+  Vec6 sigma;
+  Mat6 v;
+};
+RightSvd right_svd_6x6(const Mat6& m);
+
+}  // namespace ninedof

@@ -1,0 +1,32 @@
+#include "conditioning/null_space.hpp"
+
+#include <cmath>
+
+namespace ninedof {
+
+Mat3 null_space_part(const Mat3& c, const Mat3& b) {
+  Eigen::Matrix<double, 6, 3> a;
+  a << c, b;
+  Eigen::Matrix<double, 6, 3> reflectors = Eigen::Matrix<double, 6, 3>::Zero();
+  Vec3 beta = Vec3::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Vec6 v = a.col(k);
+    v.head(k).setZero();
+    const double squared = v.squaredNorm();
+    if (squared < 1e-290) continue;  // nothing left to reflect, and the square of a trace of it would underflow
+    v[k] += std::copysign(std::sqrt(squared), v[k]);
+    const double scale = 2.0 / v.squaredNorm();
+    for (Eigen::Index j = k + 1; j < 3; ++j) a.col(j) -= (scale * v.dot(a.col(j))) * v;
+    reflectors.col(k) = v;
+    beta[k] = scale;
+  }
+  Mat3 nq;
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    Vec6 column = Vec6::Unit(3 + j);
+    for (Eigen::Index k = 2; k >= 0; --k) column -= (beta[k] * reflectors.col(k).dot(column)) * reflectors.col(k);
+    nq.row(j) = column.head<3>();
+  }
+  return nq;
+}
+
+}  // namespace ninedof

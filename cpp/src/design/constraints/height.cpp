@@ -1,0 +1,24 @@
+/// height: zp, the height of the platform frame over the base frame at the neutral configuration.
+
+#include "design/constraints/constraint.hpp"
+
+namespace ninedof {
+namespace {
+
+class Height : public Constraint {
+ public:
+  using Constraint::Constraint;
+
+ private:
+  int items(Side) const override { return 1; }
+  double value(const View& v, Side, int) const override { return v.blueprint.zp; }
+  void add_value_gradient(const View& v, Side, int, double scale, Row out) const override { v.add_zp(scale, out); }
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_height(const Limit& limit, int, Purpose) {
+  return std::make_unique<Height>(limit);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,83 @@
+/// base_cone, platform_cone: angle between each leg at its joint of that body, pointing away from it, and an axis of that
+/// body: one that is given, or the direction of that leg at the neutral configuration.
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "design/constraints/constraint.hpp"
+
+namespace ninedof {
+namespace {
+
+class JointCone : public Constraint {
+ public:
+  JointCone(const Limit& limit, int poses)
+      : Constraint(limit), poses_(std::max(poses, 1)), platform_(limit.name == "platform_cone") {}
+
+ private:
+  Form form() const override { return Form::linear; }
+  int items(Side) const override { return 6 * poses_; }
+  bool axis_given() const { return !limit().axis.isZero(0.0); }
+
+  /// Leg of an item: external ones, then those of the body's own internal triple. Its sense away from the joint: against e
+  /// for an external leg seen from the platform.
+  int leg(int item) const {
+    const int k = item % 6;
+    return k < 3 ? k : platform_ ? k : k + 3;
+  }
+  double sense(int item) const { return platform_ && item % 6 < 3 ? -1.0 : 1.0; }
+
+  Vec3 direction(const View& v, int pose, int item) const {
+    return sense(item) * v.pose(pose).legs.direction[static_cast<std::size_t>(leg(item))];
+  }
+  Mat3 frame(const View& v, int pose) const { return platform_ ? v.pose(pose).rotation : Mat3(Mat3::Identity()); }
+
+  /// The axis at a pose, base frame.
+  Vec3 axis(const View& v, int pose, int item) const {
+    if (axis_given()) return frame(v, pose) * limit().axis.normalized();
+    return frame(v, pose) * (frame(v, 0).transpose() * direction(v, 0, item));
+  }
+
+  double value(const View& v, Side, int item) const override {
+    const int pose = v.first + item / 6;
+    const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
+    return std::atan2(d.cross(a).norm(), d.dot(a));
+  }
+
+  /// Adds scale * d(direction . g) with g fixed in the base frame.
+  void add_direction(const View& v, int pose, int item, const Vec3& g, double scale, Row out) const {
+    const int k = leg(item);
+    const double length = v.pose(pose).legs.length[k];
+    if (!(length > 0.0)) return;
+    const Vec3& e = v.pose(pose).legs.direction[static_cast<std::size_t>(k)];
+    const Vec3 across = sense(item) * scale / length * (g - g.dot(e) * e);
+    v.add_point(pose, leg_ends(k).to, across, out);
+    v.add_point(pose, leg_ends(k).from, -across, out);
+  }
+
+  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+    const int pose = v.first + item / 6;
+    const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
+    const double sine = d.cross(a).norm();
+    if (!(sine > 1e-12)) return;  // the tip of the cone: no direction is uphill to first order
+    const double by_cosine = -scale / sine;
+    add_direction(v, pose, item, a, by_cosine, out);
+    if (platform_) v.add_turn(pose, by_cosine * a.cross(d), out);
+    if (axis_given()) return;
+    // The axis moves with the neutral leg.
+    const Vec3 back = frame(v, 0) * (frame(v, pose).transpose() * d);
+    add_direction(v, 0, item, back, by_cosine, out);
+    if (platform_) v.add_turn(0, by_cosine * back.cross(direction(v, 0, item)), out);
+  }
+
+  int poses_;
+  bool platform_;
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_joint_cone(const Limit& limit, int poses, Purpose) {
+  return std::make_unique<JointCone>(limit, poses);
+}
+
+}  // namespace ninedof

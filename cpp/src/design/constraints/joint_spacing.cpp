@@ -1,0 +1,56 @@
+/// joint_spacing: distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of that
+/// body from z.
+
+#include <array>
+
+#include "design/constraints/constraint.hpp"
+
+namespace ninedof {
+namespace {
+
+class JointSpacing : public Constraint {
+ public:
+  using Constraint::Constraint;
+
+ private:
+  static constexpr int pairs = 15;
+  Form form() const override { return Form::linear; }
+  int items(Side) const override { return 2 * pairs; }
+  static std::pair<int, int> joints(int item) {
+    int left = item % pairs, a = 0;
+    for (; left >= 5 - a; ++a) left -= 5 - a;
+    const int body = item < pairs ? 0 : point_u;
+    return {body + a, body + a + 1 + left};
+  }
+  static Vec3 between(const View& v, int a, int b) {
+    return v.blueprint.joint[static_cast<std::size_t>(a)] - v.blueprint.joint[static_cast<std::size_t>(b)];
+  }
+  double body_unit(const View& v, int joint) const {
+    if (limit().of != Unit::radius) return unit(v);
+    return joint_radius(v, widest_joint(v, joint < point_u ? 0 : point_u));
+  }
+  double value(const View& v, Side, int item) const override {
+    const auto [a, b] = joints(item);
+    return between(v, a, b).norm() / body_unit(v, a);
+  }
+  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+    const auto [a, b] = joints(item);
+    const Vec3 d = between(v, a, b);
+    const double distance = d.norm(), u = body_unit(v, a);
+    if (distance > 0.0) {
+      v.add_joint(a, scale / (distance * u) * d, out);
+      v.add_joint(b, -scale / (distance * u) * d, out);
+    }
+    const double by_unit = -scale * distance / (u * u);
+    if (limit().of == Unit::radius) add_joint_radius(v, widest_joint(v, a < point_u ? 0 : point_u), by_unit, out);
+    else add_unit_gradient(v, by_unit, out);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_joint_spacing(const Limit& limit, int, Purpose) {
+  return std::make_unique<JointSpacing>(limit);
+}
+
+}  // namespace ninedof

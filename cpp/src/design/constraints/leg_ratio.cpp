@@ -1,0 +1,25 @@
+/// leg_ratio: longest over shortest leg, of all legs at all poses looked at.
+
+#include "design/constraints/spread.hpp"
+
+namespace ninedof {
+namespace {
+
+class LegRatio : public Spread {
+ public:
+  LegRatio(const Limit& limit, int poses, Purpose purpose)
+      : Spread(limit, Measure::ratio, 1, 9 * std::max(poses, 1), purpose) {}
+
+ private:
+  LegExtreme leg(const View& v, int, int k) const override { return {v.first + k / 9, k % 9}; }
+  LegExtreme longest(const View& v, int) const override { return v.longest; }
+  LegExtreme shortest(const View& v, int) const override { return v.shortest; }
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_leg_ratio(const Limit& limit, int poses, Purpose purpose) {
+  return std::make_unique<LegRatio>(limit, poses, purpose);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,50 @@
+#pragma once
+/// How far the lengths of a group of legs may lie apart: the longest at most so many times, or so much longer than, the
+/// shortest.
+///
+/// With phi the logarithm of a length, or its quotient by the limit, a limit says  phi(longest) - phi(shortest) <= room. Which
+/// legs those are changes from design to design. A few legs take every ordered pair as a margin; for many, one helping
+/// variable h for each group makes all margins smooth:  phi(b) - h >= 0  for every b,  room + h - phi(a) >= 0  for every a.
+
+#include "design/constraints/constraint.hpp"
+
+namespace ninedof {
+
+class Spread : public Constraint {
+ public:
+  enum class Measure { ratio, difference };
+
+  /// `groups` of `count` legs each.
+  Spread(const Limit& limit, Measure measure, int groups, int count, Purpose purpose);
+
+  double price_factor(int row) const override;
+  double violation_factor(int row) const override;
+  int helpers() const override { return way_ == Way::helped ? groups_ : 0; }
+  double helper(const View& v, int group) const override;
+
+ protected:
+  /// Leg `k` of a group, and which rule it now.
+  virtual LegExtreme leg(const View& v, int group, int k) const = 0;
+  virtual LegExtreme longest(const View& v, int group) const = 0;
+  virtual LegExtreme shortest(const View& v, int group) const = 0;
+
+ private:
+  enum class Way { pairs, helped, ruling };
+  static constexpr int few = 9;
+
+  int each() const;
+  int items(Side side) const override;
+  double item_margin(const View& v, Side side, int item) const override;
+  void add_item_gradient(const View& v, Side side, int item, Row out) const override;
+
+  double room() const;
+  double phi(const View& v, const LegExtreme& l) const;
+  void add_phi(const View& v, const LegExtreme& l, double scale, Row out) const;
+  std::pair<LegExtreme, LegExtreme> pair(const View& v, int group, int item) const;
+
+  Measure measure_;
+  int groups_, count_;
+  Way way_;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,30 @@
+/// stroke: longest less shortest length of each leg over the poses looked at. stroke_ratio: longest over shortest.
+
+#include "design/constraints/spread.hpp"
+
+namespace ninedof {
+namespace {
+
+class Stroke : public Spread {
+ public:
+  Stroke(const Limit& limit, int poses, Purpose purpose)
+      : Spread(limit, limit.name == "stroke_ratio" ? Measure::ratio : Measure::difference, 9, std::max(poses, 1),
+               purpose) {}
+
+ private:
+  LegExtreme leg(const View& v, int group, int k) const override { return {v.first + k, group}; }
+  LegExtreme longest(const View& v, int group) const override {
+    return {v.longest_of[static_cast<std::size_t>(group)], group};
+  }
+  LegExtreme shortest(const View& v, int group) const override {
+    return {v.shortest_of[static_cast<std::size_t>(group)], group};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_stroke(const Limit& limit, int poses, Purpose purpose) {
+  return std::make_unique<Stroke>(limit, poses, purpose);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "design/full_variables.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/optimize/optimize.hpp"
+
+namespace ninedof {
+namespace {
+
+void require_bounds(const std::string& name, VariableKind kind, const Bounds& b) {
+  const std::string text = format_interval(b.low, b.high);
+  if (!(b.low <= b.high)) throw InvalidArgument(name, text, "low <= high, both numbers");
+  if (b.low == b.high) require_finite(name.c_str(), b.low);
+  if (kind == VariableKind::length && b.low < 0.0) throw InvalidArgument(name, text, "a length, low >= 0");
+}
+
+}  // namespace
+
+double Problem::unit() const {
+  using Choice = StudyLength::Choice;
+  if (characteristic_length.choice == Choice::number) return characteristic_length.value;
+  if (characteristic_length.choice == Choice::free)
+    return std::sqrt(characteristic_length.bounds.low) * std::sqrt(characteristic_length.bounds.high);
+  // A tenth of the smallest room there is: a study in other units is the same study.
+  const auto& info = design_family(family).variables();
+  double room = infinity;
+  for (std::size_t k = 0; k < info.size() && k < variables.size(); ++k)
+    if (info[k].kind == VariableKind::length && variables[k].high > 0.0) room = std::min(room, variables[k].high);
+  return std::isfinite(room) ? 0.1 * room : 1.0;
+}
+
+std::vector<std::string> Problem::names() const {
+  std::vector<std::string> out;
+  for (const Variable& v : full_variables(*this)) out.push_back(v.name);
+  return out;
+}
+
+void Problem::validate() const {
+  const DesignFamily& f = design_family(family);
+  const auto& info = f.variables();
+  using Choice = StudyLength::Choice;
+  if (characteristic_length.choice == Choice::number)
+    require_positive("characteristic_length", characteristic_length.value);
+  if (characteristic_length.choice == Choice::free) {
+    const Bounds& b = characteristic_length.bounds;
+    require_bounds("characteristic_length", VariableKind::length, b);
+    if (!(b.low > 0.0) || !std::isfinite(b.high))
+      throw InvalidArgument("characteristic_length", format_interval(b.low, b.high), "0 < low <= high, both finite");
+  }
+  if (variables.size() != info.size())
+    throw InvalidArgument("variables", std::to_string(variables.size()) + " bounds",
+                          std::to_string(info.size()) + ", one for each variable of " + family);
+  for (std::size_t k = 0; k < info.size(); ++k) require_bounds(info[k].name, info[k].kind, variables[k]);
+  for (const Limit& limit : limits) limit.validate();
+  objective.validate();
+  if (objective.index == Index::six_legged && !f.symmetric())
+    throw InvalidArgument("objective.index", "\"six_legged\"", "a family symmetric about z with it, not " + family);
+  // A design of ordinary size within the bounds must be a robot: says so where both sides of a plate are held at zero.
+  std::vector<double> ordinary;
+  for (std::size_t k = 0; k < info.size(); ++k) {
+    const double size = info[k].kind == VariableKind::length ? unit() : 0.0;
+    ordinary.push_back(std::clamp(size, variables[k].low, variables[k].high));
+  }
+  if (f.symmetric()) f.geometry(ordinary);
+}
+
+void Settings::validate() const {
+  if (starts < 1) throw InvalidArgument("starts", std::to_string(starts), "at least 1");
+  if (max_evaluations < 1) throw InvalidArgument("max_evaluations", std::to_string(max_evaluations), "at least 1");
+}
+
+}  // namespace ninedof

@@ -1,0 +1,186 @@
+#include "design/view.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "ninedof/math/rotation.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr std::size_t at_index(int k) {
+  return static_cast<std::size_t>(k);
+}
+
+}  // namespace
+
+void View::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
+               const std::vector<Place>& places, int poses_looked, const Eigen::VectorXd& y) {
+  x = c.variables(y);
+  slopes_ = c.slopes(x);
+  const std::size_t own = family.variables().size();
+  family.blueprint({x.data(), own}, blueprint);
+  jet_.resize(blueprint_rows, c.size());
+  if (column_.size() != own) {
+    column_.resize(own);
+    for (std::size_t v = 0; v < own; ++v) column_[v] = c.coordinate(static_cast<int>(v));
+  }
+  jet_.setZero();
+  for (std::size_t v = 0; v < own; ++v)
+    if (column_[v] >= 0)
+      jet_.col(column_[v]) = slopes_[column_[v]] * blueprint.gradient.col(static_cast<Eigen::Index>(v));
+  first = poses_looked > 0 ? 1 : 0;
+  looked = std::max(poses_looked, 1);
+  poses.resize(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) set_pose(places[k], poses[k]);
+  set_extremes();
+  const bool as_variable = c.length_variable() >= 0;
+  set_length(study_length, as_variable ? c.coordinate(c.length_variable()) : -1);
+  if (as_variable) characteristic_length = x[c.length_variable()];
+}
+
+void View::set_pose(const Place& place, PoseView& out) const {
+  const Pose& pose = place.pose;
+  const double f = place.fraction;
+  const double size = pose.in_zp ? blueprint.zp : 1.0;
+  Vec3 offset = Vec3::Zero();  // of s, in zp
+  for (int axis = 0; axis < 3; ++axis)
+    if (place.offset[at_index(axis)] >= 0) offset[axis] = f * x[place.offset[at_index(axis)]];
+  const Vec3 p = Vec3(0.0, 0.0, blueprint.zp) + (f * size) * pose.position;
+  const Vec3 s = Vec3(0.0, 0.0, blueprint.zs) + (f * size) * pose.internal + blueprint.zp * offset;
+  out.p_by_zp = Vec3::UnitZ();
+  out.s_by_zp = offset;
+  if (pose.in_zp) {
+    out.p_by_zp += f * pose.position;
+    out.s_by_zp += f * pose.internal;
+  }
+  const Mat3 turn = pose.rotation.isZero(0.0) ? Mat3::Identity() : exp_rotation(f * pose.rotation);
+  out.rotation = blueprint.theta_z == 0.0 ? turn : Mat3(turn * rotation_about_z(blueprint.theta_z));
+  out.twist_axis = turn.col(2);
+  for (std::size_t i = 0; i < 6; ++i) out.at[i] = blueprint.joint[i];
+  for (std::size_t i = 6; i < 12; ++i) out.at[i] = p + out.rotation * blueprint.joint[i];
+  out.at[point_p] = p;
+  out.at[point_s] = s;
+  out.legs = nine_legs(out.at);
+  out.fraction = f;
+  out.coordinate = place.coordinate;
+}
+
+void View::set_extremes() {
+  for (int leg = 0; leg < 9; ++leg) {
+    int &longest_pose = longest_of[at_index(leg)], &shortest_pose = shortest_of[at_index(leg)];
+    longest_pose = shortest_pose = first;
+    for (int k = first + 1; k < first + looked; ++k) {
+      if (pose(k).legs.length[leg] > pose(longest_pose).legs.length[leg]) longest_pose = k;
+      if (pose(k).legs.length[leg] < pose(shortest_pose).legs.length[leg]) shortest_pose = k;
+    }
+    const LegExtreme high{longest_pose, leg}, low{shortest_pose, leg};
+    if (leg == 0 || length(high) > length(longest)) longest = high;
+    if (leg == 0 || length(low) < length(shortest)) shortest = low;
+  }
+}
+
+void View::set_length(const StudyLength& study_length, int coordinate) {
+  using Choice = StudyLength::Choice;
+  if (study_length.choice == Choice::number) {
+    characteristic_length = study_length.value;
+    return;
+  }
+  length_gradient.setZero(jet_.cols());
+  if (study_length.choice == Choice::free || study_length.kind == LengthKind::optimal) {
+    if (coordinate >= 0) length_gradient[coordinate] = slopes_[coordinate];
+    return;
+  }
+  const PoseView& home = pose(0);
+  if (study_length.kind == LengthKind::mean_leg) {
+    characteristic_length = home.legs.length.mean();
+    for (int leg = 0; leg < 9; ++leg) add_leg(0, leg, 1.0 / 9.0, length_gradient);
+    return;
+  }
+  if (study_length.kind == LengthKind::platform_radius) {
+    int widest = 6;
+    for (int k = 7; k < 12; ++k)
+      if (blueprint.joint[at_index(k)].norm() > blueprint.joint[at_index(widest)].norm()) widest = k;
+    characteristic_length = blueprint.joint[at_index(widest)].norm();
+    if (characteristic_length > 0.0)
+      add_joint(widest, blueprint.joint[at_index(widest)] / characteristic_length, length_gradient);
+    return;
+  }
+  set_natural_length(home);
+}
+
+void View::set_natural_length(const PoseView& home) {
+  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of the least
+  // sum of squared leg rates; the natural length is u times the root of their quotient, whatever u is.
+  const double trial = std::max(blueprint.zp, 1e-150);
+  PointGradient turning = zero_gradient(), shifting = zero_gradient();
+  Spectrum s = spectrum(home.at, home.legs, trial);
+  // Any orthonormal set of twists will do in place of the singular vectors.
+  const Mat6 back = s.twist.transpose();
+  s.sdot = (s.sdot * back).eval();
+  s.rates = (s.rates * back).eval();
+  s.twist.setIdentity();
+  double rotation = 0.0, translation = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    (k < 3 ? rotation : translation) += s.rates.col(k).squaredNorm();
+    add_spectrum_gradient(home.at, home.legs, s, k, k, 1.0, k < 3 ? turning : shifting);
+  }
+  characteristic_length = trial * std::sqrt(rotation / translation);
+  if (!(characteristic_length > 0.0) || !std::isfinite(characteristic_length)) {
+    characteristic_length = trial;  // a singular design: its condition number is infinite under any length
+    return;
+  }
+  for (std::size_t k = 0; k < point_count; ++k)
+    turning.point[k] = 0.5 * characteristic_length * (turning.point[k] / rotation - shifting.point[k] / translation);
+  turning.length = 0.0;
+  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(jet_.cols());
+  add(0, turning, gradient);
+  length_gradient = gradient;
+}
+
+void View::add_joint(int joint, const Vec3& g, Row out) const {
+  for (int axis = 0; axis < 3; ++axis) out += g[axis] * jet_.row(3 * joint + axis);
+}
+
+void View::add_turn(int k, const Vec3& g, Row out) const {
+  out += g.dot(pose(k).twist_axis) * jet_.row(row_theta_z);
+}
+
+void View::add_point(int k, int point, const Vec3& g, Row out) const {
+  const PoseView& v = pose(k);
+  if (point == point_s) {
+    out += g.z() * jet_.row(row_zs) + g.dot(v.s_by_zp) * jet_.row(row_zp);
+    for (int axis = 0; axis < 3; ++axis)
+      if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
+    return;
+  }
+  if (point < 6) return add_joint(point, g, out);
+  add_zp(g.dot(v.p_by_zp), out);
+  if (point == point_p) return;
+  add_joint(point, v.rotation.transpose() * g, out);
+  add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
+}
+
+void View::add_leg(int k, int leg, double g, Row out) const {
+  const LegEnds ends = leg_ends(leg);
+  const Vec3 pull = g * pose(k).legs.direction[at_index(leg)];
+  add_point(k, ends.to, pull, out);
+  add_point(k, ends.from, -pull, out);
+}
+
+void View::add_length(double g, Row out) const {
+  if (length_gradient.size() > 0) out += g * length_gradient;
+}
+
+void View::add(int k, const PointGradient& g, Row out) const {
+  for (int point = 0; point < point_count; ++point) add_point(k, point, g.point[at_index(point)], out);
+  add_length(g.length, out);
+}
+
+void View::add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const {
+  for (std::size_t v = 0; v < column_.size(); ++v)
+    if (column_[v] >= 0) out[column_[v]] += slopes_[column_[v]] * g[static_cast<Eigen::Index>(v)];
+  add_length(g[static_cast<Eigen::Index>(column_.size())], out);
+}
+
+}  // namespace ninedof

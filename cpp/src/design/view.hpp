@@ -1,0 +1,88 @@
+#pragma once
+/// One design at every pose a study looks at, and how numbers made of its points move with the solver's coordinates.
+
+#include <array>
+#include <vector>
+
+#include "design/coordinates.hpp"
+#include "ninedof/conditioning/sensitivity.hpp"
+#include "ninedof/robot/points.hpp"
+
+namespace ninedof {
+
+/// A row of derivatives with respect to the free coordinates.
+using Row = Eigen::Ref<Eigen::RowVectorXd>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A pose as the solver takes it.
+struct Place {
+  Pose pose;
+  double fraction = 1.0;                        ///< of the straight way from the neutral configuration
+  std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
+  std::array<int, 3> coordinate{-1, -1, -1};    ///< free coordinates behind them
+};
+
+/// One design at one place.
+struct PoseView {
+  Points at;
+  NineLegs legs;
+  Mat3 rotation;       ///< Q
+  Vec3 twist_axis;     ///< the platform turns about it as theta_z grows
+  Vec3 p_by_zp, s_by_zp;
+  double fraction;
+  std::array<int, 3> coordinate;
+};
+
+/// The longest and the shortest of the legs over the poses looked at: pose and leg.
+struct LegExtreme {
+  int pose = 0, leg = 0;
+};
+
+class View {
+ public:
+  /// Places: the neutral configuration, the poses of the objective, and whatever lies between.
+  void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
+           const std::vector<Place>& places, int looked, const Eigen::VectorXd& y);
+
+  Eigen::VectorXd x;  ///< full variables
+  Blueprint blueprint;
+  double unit = 1.0;  ///< of the problem: what lengths are divided by before a logarithm is taken
+  double characteristic_length = 1.0;
+  Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
+  std::vector<PoseView> poses;
+
+  /// Poses looked at: those of the objective, or the neutral one where there are none.
+  int first = 0, looked = 1;
+  Eigen::Index columns() const { return jet_.cols(); }
+  const PoseView& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
+
+  /// Over the poses looked at: of all legs, and of each.
+  LegExtreme longest, shortest;
+  std::array<int, 9> longest_of{}, shortest_of{};
+  double length(const LegExtreme& l) const { return pose(l.pose).legs.length[l.leg]; }
+
+  /// Each adds the effect of a derivative `g` of some number to its row of derivatives.
+  void add_joint(int joint, const Vec3& g, Row out) const;  ///< with respect to a joint in its body's frame
+  void add_zp(double g, Row out) const { out += g * jet_.row(row_zp); }
+  void add_zs(double g, Row out) const { out += g * jet_.row(row_zs); }
+  void add_point(int pose, int point, const Vec3& g, Row out) const;  ///< a point in the base frame
+  void add_turn(int pose, const Vec3& g, Row out) const;              ///< a rotation of the platform, base axes
+  void add_leg(int pose, int leg, double g, Row out) const;           ///< a leg length
+  void add_length(double g, Row out) const;                           ///< the characteristic length
+  void add(int pose, const PointGradient& g, Row out) const;          ///< all of them
+
+  /// Derivatives of a family's variables and the characteristic length (one more column) as derivatives of coordinates.
+  void add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const;
+
+ private:
+  void set_length(const StudyLength& length, int coordinate);
+  void set_natural_length(const PoseView& home);
+  void set_pose(const Place& place, PoseView& out) const;
+  void set_extremes();
+
+  Rows jet_;  ///< Blueprint::gradient with respect to the free coordinates
+  Eigen::VectorXd slopes_;
+  std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
+};
+
+}  // namespace ninedof

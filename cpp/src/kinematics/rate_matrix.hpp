@@ -1,0 +1,20 @@
+#pragma once
+/// All nine leg rates in one matrix.
+
+#include "ninedof/math/types.hpp"
+#include "ninedof/robot/configuration.hpp"
+#include "ninedof/robot/geometry.hpp"
+
+namespace ninedof {
+
+/// H, 9x9: udot = H x with x = (l_c omega, pdot, sdot), eqs. (24)-(26).
+///
+///     [ldot]   [ A   0 ]
+///     [qdot] = [-E   C ] x,    det H = -det F det B.
+///     [rdot]   [ 0   B ]
+///
+/// The row of a leg of zero length is zero. Throws InvalidArgument unless the characteristic length is finite and
+/// positive.
+Mat9 rate_matrix(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);
+
+}  // namespace ninedof

@@ -1,0 +1,58 @@
+#include "ninedof/math/error.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace ninedof {
+
+namespace {
+
+std::string sentence(std::string text, const std::string& got, const std::string& expected) {
+  text += ": got ";
+  text += got;
+  text += ", expected ";
+  text += expected;
+  return text;
+}
+
+}  // namespace
+
+InvalidArgument::InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
+    : std::invalid_argument(sentence(argument, got, expected)) {}
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::optimal: return "optimal";
+    case Status::unbounded: return "unbounded";
+    case Status::infeasible: return "infeasible";
+    case Status::stopped: return "stopped";
+  }
+  return "stopped";
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string format_interval(double low, double high) {
+  std::string text = format_number(low);
+  text.insert(text.begin(), '[');
+  text += ", ";
+  text += format_number(high);
+  text += ']';
+  return text;
+}
+
+void require_finite(const char* argument, double value) {
+  if (!std::isfinite(value)) throw InvalidArgument(argument, format_number(value), "a finite number");
+}
+
+void require_positive(const char* argument, double value) {
+  if (!std::isfinite(value) || value <= 0.0)
+    throw InvalidArgument(argument, format_number(value), "a finite number > 0");
+}
+
+}  // namespace ninedof

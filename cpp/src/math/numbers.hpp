@@ -1,0 +1,12 @@
+#pragma once
+/// Three numbers every room needs.
+
+#include <limits>
+
+namespace ninedof {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();  ///< 2^-52: twice the unit roundoff
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace ninedof

@@ -1,0 +1,94 @@
+#pragma once
+/// A function of time near a place: Taylor coefficients there, what rounding may have done to them, and what they cannot
+/// exceed over a window [t, t + h]. Sums and products carry all of it along, so that a formula is written once and comes
+/// with its own proof.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+/// Of a number or of a vector, whose size is then its norm.
+template <class T>
+struct Enclosure {
+  std::array<T, 3> at;             ///< f(t), f'(t), f''(t) / 2
+  std::array<double, 3> error;     ///< each is off by at most so much
+  std::array<double, 4> bound;     ///< of |f|, |f'|, |f''| / 2, |f'''| / 6 over the window
+};
+
+namespace detail {
+
+inline double size(double x) {
+  return std::abs(x);
+}
+inline double size(const Vec3& x) {
+  return x.norm();
+}
+
+/// Roundings a coefficient of a product suffers: few products of few terms.
+constexpr double product_error = 16.0 * eps;
+
+/// Each bound is also what the coefficient is at t and the next one adds over the window.
+template <class T>
+void tighten(Enclosure<T>& x, double window) {
+  for (std::size_t k = 3; k-- > 0;)
+    x.bound[k] =
+        std::min(x.bound[k], size(x.at[k]) + x.error[k] + static_cast<double>(k + 1) * window * x.bound[k + 1]);
+}
+
+/// A product of any kind with |a b| <= |a| |b|.
+template <class A, class B, class Product>
+auto multiply(const Enclosure<A>& a, const Enclosure<B>& b, double window, const Product& product) {
+  using T = std::decay_t<decltype(product(a.at[0], b.at[0]))>;
+  Enclosure<T> out;
+  std::array<double, 3> size_a, size_b;
+  for (std::size_t k = 0; k < 3; ++k) {
+    size_a[k] = size(a.at[k]);
+    size_b[k] = size(b.at[k]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.at[k] = product(a.at[0], b.at[k]);
+    for (std::size_t i = 1; i <= k; ++i) out.at[k] += product(a.at[i], b.at[k - i]);
+    out.error[k] = 0.0;
+    for (std::size_t i = 0; i <= k; ++i) {
+      const double ea = a.error[i], eb = b.error[k - i], sa = size_a[i], sb = size_b[k - i];
+      out.error[k] += sa * eb + ea * sb + ea * eb + product_error * sa * sb;
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    out.bound[k] = 0.0;
+    for (std::size_t i = 0; i <= k; ++i) out.bound[k] += a.bound[i] * b.bound[k - i];
+  }
+  tighten(out, window);
+  return out;
+}
+
+}  // namespace detail
+
+inline Enclosure<Vec3> cross(const Enclosure<Vec3>& a, const Enclosure<Vec3>& b, double window) {
+  return detail::multiply(a, b, window, [](const Vec3& x, const Vec3& y) -> Vec3 { return x.cross(y); });
+}
+
+inline Enclosure<double> dot(const Enclosure<Vec3>& a, const Enclosure<Vec3>& b, double window) {
+  return detail::multiply(a, b, window, [](const Vec3& x, const Vec3& y) { return x.dot(y); });
+}
+
+/// The error of the sum itself counts as one of the larger term's.
+template <class T>
+Enclosure<T> operator+(const Enclosure<T>& a, const Enclosure<T>& b) {
+  Enclosure<T> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.at[k] = a.at[k] + b.at[k];
+    out.error[k] = a.error[k] + b.error[k] + eps * (detail::size(a.at[k]) + detail::size(b.at[k]));
+  }
+  for (std::size_t k = 0; k < 4; ++k) out.bound[k] = a.bound[k] + b.bound[k];
+  return out;
+}
+
+}  // namespace ninedof

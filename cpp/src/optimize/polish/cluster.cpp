@@ -1,0 +1,59 @@
+#include "optimize/polish/cluster.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace ninedof {
+
+Cluster::Cluster(const Prepared& p, const Look& l, int pose, double tie) {
+  const Index index = p.problem.objective.index;
+  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
+  // The closed form's pairs move together by symmetry, and the Frobenius form is smooth.
+  if (s.closed || index == Index::frobenius) return;
+  condition_ = index == Index::condition_number;
+  for (int k = 0; k < 6; ++k) {
+    if (s.log_sigma[0] - s.log_sigma[k] <= tie) tops_.push_back(k);
+    if (condition_ && s.log_sigma[k] - s.log_sigma[5] <= tie) bottoms_.push_back(k);
+  }
+  if (!ambiguous()) return;
+  top_ = {tops_, cluster_block(l, pose, tops_)};
+  bottom_ = {bottoms_, cluster_block(l, pose, bottoms_)};
+}
+
+std::vector<Eigen::RowVectorXd> cluster_block(const Look& l, int pose, const std::vector<int>& members) {
+  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
+  const PoseView& at = l.view.pose(l.view.first + pose);
+  std::vector<Eigen::RowVectorXd> out;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t j = i; j < members.size(); ++j) {
+      const int a = members[i], b = members[j];
+      PointGradient g = zero_gradient();
+      add_spectrum_gradient(at.at, at.legs, s.general, a, b, 0.5 / (s.general.sigma[a] * s.general.sigma[b]), g);
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(l.view.columns());
+      l.view.add(l.view.first + pose, g, row);
+      out.push_back(std::move(row));
+    }
+  return out;
+}
+
+Eigen::VectorXd Cluster::extreme(const Block& b, const Eigen::VectorXd& along, double sign) {
+  const auto n = static_cast<Eigen::Index>(b.members.size());
+  Eigen::MatrixXd slope(n, n);
+  std::size_t k = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i; j < n; ++j) slope(i, j) = slope(j, i) = sign * b.entries[k++].dot(along);
+  const Eigen::VectorXd w = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(slope).eigenvectors().col(0);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(along.size());
+  k = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i; j < n; ++j) out += (i == j ? 1.0 : 2.0) * w[i] * w[j] * b.entries[k++].transpose();
+  return sign * out;
+}
+
+Eigen::VectorXd Cluster::steepest(const Eigen::VectorXd& along) const {
+  Eigen::VectorXd out = extreme(top_, along, 1.0);
+  if (condition_) out += extreme(bottom_, along, -1.0);
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,59 @@
+#include "optimize/polish/coalesced.hpp"
+
+#include <Eigen/SVD>
+
+namespace ninedof {
+
+Coalesced::Coalesced(const Look& reference, int pose, std::vector<int> members)
+    : pose_(pose), members_(std::move(members)) {
+  basis_ = vectors(reference);
+}
+
+Eigen::MatrixXd Coalesced::vectors(const Look& l) const {
+  const Mat6& twist = l.spectra[static_cast<std::size_t>(pose_)].general.twist;
+  Eigen::MatrixXd out(6, size());
+  for (int k = 0; k < size(); ++k) out.col(k) = twist.col(members_[static_cast<std::size_t>(k)]);
+  return out;
+}
+
+Coalesced::Entries Coalesced::at(const Look& l) const {
+  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose_)];
+  // The reference basis carried into the subspace of now: the orthogonal matrix nearest to the overlap.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> overlap(vectors(l).transpose() * basis_,
+                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::MatrixXd turn = overlap.matrixU() * overlap.matrixV().transpose();
+  const std::vector<Eigen::RowVectorXd> block = cluster_block(l, pose_, members_);
+  const int n = size(), entries = n * (n + 1) / 2;
+  Entries out{Eigen::VectorXd::Zero(entries), Rows::Zero(entries, l.view.columns())};
+  int entry = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j, ++entry) {
+      std::size_t k = 0;
+      for (int a = 0; a < n; ++a)
+        for (int b = a; b < n; ++b, ++k) {
+          const double weight = a == b ? turn(a, i) * turn(a, j) : turn(a, i) * turn(b, j) + turn(b, i) * turn(a, j);
+          out.gradient.row(entry) += weight * block[k];
+          if (a == b) out.value[entry] += weight * s.log_sigma[members_[static_cast<std::size_t>(a)]];
+        }
+    }
+  return out;
+}
+
+std::vector<Coalesced> coalesced_groups(const Prepared& p, const Look& l, const std::vector<int>& poses, double gap) {
+  std::vector<Coalesced> out;
+  if (!p.kinked()) return out;
+  for (const int pose : poses) {
+    const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
+    if (s.closed) continue;
+    std::vector<int> tops, bottoms;
+    for (int k = 0; k < 6; ++k) {
+      if (s.log_sigma[0] - s.log_sigma[k] <= gap) tops.push_back(k);
+      if (s.log_sigma[5 - k] - s.log_sigma[5] <= gap) bottoms.push_back(5 - k);
+    }
+    if (tops.size() > 1) out.emplace_back(l, pose, tops);
+    if (bottoms.size() > 1 && p.problem.objective.index == Index::condition_number) out.emplace_back(l, pose, bottoms);
+  }
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,147 @@
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "optimize/polish/active_set.hpp"
+#include "optimize/polish/cluster.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double cluster_tie = 1e-6;  // of logarithms of singular values that count as one
+constexpr int cluster_rounds = 40;    // directions added one by one; two or three settle a pair
+
+/// Columns of the least-squares problem: a derivative in solver coordinates and the level its weight counts for, or -1.
+struct Columns {
+  std::vector<Eigen::VectorXd> gradient;
+  std::vector<int> level;
+
+  void add(Eigen::VectorXd g, int of_level = -1) {
+    gradient.push_back(std::move(g));
+    level.push_back(of_level);
+  }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(gradient.size()); }
+};
+
+struct Weights {
+  Eigen::VectorXd w, residual;
+};
+
+/// Least residual over nonnegative weights; the sums that belong to levels are rows of the problem, weighted like the largest
+/// gradient, and met exactly afterwards. Where the residual vanishes they are met anyway.
+Weights balance(const Columns& c, const Eigen::VectorXd& slopes, Eigen::Index n) {
+  const Eigen::Index levels = slopes.size();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + levels, c.count());
+  for (Eigen::Index k = 0; k < c.count(); ++k) system.col(k).head(n) = c.gradient[static_cast<std::size_t>(k)];
+  const double heavy = std::max(1.0, system.cwiseAbs().maxCoeff());
+  for (Eigen::Index k = 0; k < c.count(); ++k) {
+    const int level = c.level[static_cast<std::size_t>(k)];
+    if (level >= 0) system(n + level, k) = heavy;
+  }
+  Eigen::VectorXd target = Eigen::VectorXd::Zero(n + levels);
+  target.tail(levels) = heavy * slopes;
+  Weights out{nonnegative_least_squares(system, target), {}};
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(levels);
+  for (Eigen::Index k = 0; k < c.count(); ++k)
+    if (c.level[static_cast<std::size_t>(k)] >= 0) sums[c.level[static_cast<std::size_t>(k)]] += out.w[k];
+  for (Eigen::Index k = 0; k < c.count(); ++k) {
+    const int level = c.level[static_cast<std::size_t>(k)];
+    if (level >= 0 && sums[level] > 0.0) out.w[k] *= slopes[level] / sums[level];
+  }
+  out.residual = system.topRows(n) * out.w;
+  return out;
+}
+
+/// Adds directions of clusters until none helps.
+Weights settle(const Prepared& p, const Look& l, const ActiveSet& a, const Eigen::VectorXd& slopes, Columns& columns) {
+  const Eigen::Index n = p.coordinates.size();
+  Weights now = balance(columns, slopes, n);
+  std::vector<std::pair<Cluster, int>> clusters;  // with the level they belong to
+  const int poses = std::max(p.looked, 1);
+  for (int pose = 0; pose < poses; ++pose) {
+    std::vector<int> levels;
+    for (const int k : a.uses) {
+      const Use& u = p.uses[static_cast<std::size_t>(k)];
+      const bool of_pose = u.row >= p.first_row(pose) && u.row < p.first_row(pose + 1);
+      if (of_pose && std::ranges::find(levels, u.level) == levels.end()) levels.push_back(u.level);
+    }
+    if (levels.empty()) continue;
+    const Cluster cluster(p, l, pose, cluster_tie);
+    if (!cluster.ambiguous()) continue;
+    for (const int level : levels) clusters.emplace_back(cluster, level);
+  }
+  for (int round = 0; round < cluster_rounds && !clusters.empty() && now.residual.norm() > 1e-10; ++round) {
+    bool added = false;
+    for (const auto& [cluster, level] : clusters) {
+      Eigen::VectorXd g = cluster.steepest(now.residual);
+      double best = infinity;
+      for (Eigen::Index k = 0; k < columns.count(); ++k)
+        if (columns.level[static_cast<std::size_t>(k)] == level)
+          best = std::min(best, columns.gradient[static_cast<std::size_t>(k)].dot(now.residual));
+      if (g.dot(now.residual) >= best - 1e-9 * now.residual.norm()) continue;
+      columns.add(std::move(g), level);
+      added = true;
+    }
+    if (!added) break;
+    now = balance(columns, slopes, n);
+  }
+  return now;
+}
+
+/// Condition numbers of 1 (6 in the Frobenius norm) have nothing below them, and at that tip no derivatives.
+bool least_possible(const Prepared& p, const Look& l) {
+  const Index index = p.problem.objective.index;
+  const double least = index == Index::frobenius ? std::log(6.0) : 0.0;
+  return index != Index::speed && l.levels.maxCoeff() <= least + 1e-9;
+}
+
+/// Per cent of the objective for one per cent of a bound: the weight is per unit of the coordinate.
+double bound_price(const Prepared& p, const Look& l, int coordinate, double weight) {
+  const double x = l.view.x[p.coordinates.variable(coordinate)];
+  return weight * std::abs(x) / p.coordinates.slopes(l.view.x)[coordinate];
+}
+
+}  // namespace
+
+Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a) {
+  const Eigen::Index n = p.coordinates.size();
+  if (n == 0) return {};
+  if (!l.f.allFinite() || !l.f_gradient.allFinite() || !l.m_gradient.allFinite()) return {infinity, {}};
+  if (least_possible(p, l)) return {};
+  Columns columns;
+  for (const int k : a.uses) {
+    const Use& u = p.uses[static_cast<std::size_t>(k)];
+    columns.add(l.f_gradient.row(u.row), u.level);
+  }
+  // Margins are relative to their limit: the weight is the price, but for rows that only help others.
+  std::vector<std::pair<std::string, double>> named;  // and the factor from weight to price
+  const auto limited = static_cast<std::size_t>(columns.count());
+  for (const int k : a.margins) {
+    columns.add(-l.m_gradient.row(k));
+    named.emplace_back(p.margin_name(k), p.margin_price(k));
+  }
+  for (const int k : a.at_low) {
+    columns.add(-Eigen::VectorXd::Unit(n, k));
+    named.emplace_back(p.coordinates.capped_low(k) ? "" : p.coordinates.info(k).name, bound_price(p, l, k, 1.0));
+  }
+  for (const int k : a.at_high) {
+    columns.add(Eigen::VectorXd::Unit(n, k));
+    named.emplace_back(p.coordinates.capped_high(k) ? "" : p.coordinates.info(k).name, bound_price(p, l, k, 1.0));
+  }
+  if (a.order) {
+    columns.add(-p.coordinates.order().gradient);
+    named.emplace_back("", 0.0);
+  }
+  Eigen::VectorXd slopes;
+  p.objective(l.levels, &slopes);
+  const Weights settled = settle(p, l, a, slopes, columns);
+  Stationarity out;
+  out.residual = settled.residual.norm();
+  for (std::size_t k = 0; k < named.size(); ++k) {
+    const auto& [name, factor] = named[k];
+    if (!name.empty()) out.prices[name] += factor * settled.w[static_cast<Eigen::Index>(limited + k)];
+  }
+  std::erase_if(out.prices, [](const auto& price) { return !(price.second > 1e-9); });
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,137 @@
+#include "position/branch.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "position/elimination.hpp"
+#include "position/null_space_rotations.hpp"
+#include "position/polish_rotation.hpp"
+#include "position/two_leg_rotations.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double void_leg = 1e-9;  // of the largest length: O this near an external joint leaves the leg no direction
+constexpr double between = 1e-14;  // residual halfway between two copies of a double solution
+constexpr double double_rotation = 1e-4;  // rad: such copies are no farther apart
+constexpr double same_rotation = 1e-7;  // rad
+constexpr double double_solution = 1e-6;  // separation below which the number of modes is not sworn to
+
+/// Rotations found so far, polished, none twice.
+class Collected {
+ public:
+  explicit Collected(const RotationProblem& problem) : problem_(problem) {}
+
+  /// Whether the candidate led to a rotation of its own.
+  bool add(const Mat3& candidate, Branch& out) const {
+    const PolishedRotation polished = polish_rotation(problem_, candidate, RotationResidual(problem_, candidate));
+    if (!polished.converged()) return false;
+    for (int k = 0; k < out.count; ++k)
+      if (same(out.mode[static_cast<std::size_t>(k)].rotation, polished.rotation)) return false;
+    if (out.count == static_cast<int>(out.mode.size())) return false;
+    out.mode[static_cast<std::size_t>(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
+    return true;
+  }
+
+ private:
+  /// Two copies of one mode. At a double solution they may be 1e-6 apart, but then what lies between them is as good as they are.
+  bool same(const Mat3& a, const Mat3& b) const {
+    const double squared = 0.5 * (a - b).squaredNorm();  // of the angle, where it is small
+    if (squared < same_rotation * same_rotation) return true;
+    if (squared > double_rotation * double_rotation) return false;
+    const Mat3 halfway = Eigen::Quaterniond(a).slerp(0.5, Eigen::Quaterniond(b)).toRotationMatrix();
+    return RotationResidual(problem_, halfway).largest() <= between;
+  }
+
+  const RotationProblem& problem_;
+};
+
+/// The 24 rotations of a cube, none farther than a radian or so from any rotation.
+std::array<Mat3, 24> all_around() {
+  std::array<Mat3, 24> out;
+  std::size_t count = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (const double a : {1.0, -1.0})
+        for (const double b : {1.0, -1.0})
+          if (i != j) {
+            const Vec3 x = a * Vec3::Unit(i), y = b * Vec3::Unit(j);
+            out[count++] << x, y, x.cross(y);
+          }
+  return out;
+}
+
+/// The leg with c_i next to zero: its two frames stand most across each other.
+int best_pivot(const Vec3& c) {
+  Eigen::Index k;
+  c.cwiseAbs().minCoeff(&k);
+  return static_cast<int>(k);
+}
+
+/// How many modes there must be; nothing where the elimination does not know.
+std::optional<int> eliminate(const RotationProblem& problem, const Collected& collected, Branch& out) {
+  const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
+  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  return found.reliable ? std::optional(found.count) : std::nullopt;
+}
+
+/// Legs that O on an external joint leaves without direction fit or do not, whatever the rotation; the others can only be too long or
+/// too short. True where that, or a family of rotations, settles the branch.
+bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
+  std::array<bool, 3> is_void{};
+  bool any_void = false, any_misfit = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    is_void[i] = std::min(p.base_distance[k], p.platform_distance[k]) < void_leg * unit;
+    const double length = std::max(p.base_distance[k], p.platform_distance[k]);
+    out.misfit[i] =
+        is_void[i] ? std::abs(length - lengths[k]) > 2.0 * void_leg * unit : !(std::abs(p.unit.c[k]) <= 1.0);
+    any_void |= is_void[i];
+    any_misfit |= out.misfit[i];
+  }
+  if (any_misfit || !any_void) return any_misfit;
+  out.self_motion = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    if (is_void[i] && !is_void[j] && !is_void[k]) out.self_motion = two_legs_fit(p.unit, j, k);
+  }
+  return true;
+}
+
+}  // namespace
+
+Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
+                    RotationMethod method) {
+  Branch out;
+  const ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
+  if (settled_by_single_legs(p, external_lengths, unit, out)) return out;
+  const Collected collected(p.unit);
+  std::optional<int> expected;
+  if (method != RotationMethod::null_space) {
+    expected = eliminate(p.unit, collected, out);
+    out.certain = expected == out.count;
+    if (out.certain || method == RotationMethod::elimination) return out;
+  }
+  out.null_space = true;
+  const RotationCandidates found = null_space_rotations(p.unit);
+  if (found.self_motion) {
+    // A family, perhaps of complex rotations only, or beside isolated ones. A real one is met from all sides, and singular all along.
+    for (const Mat3& start : all_around()) collected.add(start, out);
+    for (int k = 0; k < out.count; ++k)
+      out.self_motion |= !(out.mode[static_cast<std::size_t>(k)].separation > double_solution);
+    if (out.self_motion) out.count = 0;
+    out.certain = false;
+    return out;
+  }
+  // What elimination found stays: every mode solves the equations, so none can be wrong. The count is sworn to where every near-real
+  // solution has become a mode of its own, and elimination, if it could count, says the same.
+  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  out.certain =
+      found.reliable && out.count % 2 == 0 && out.count >= found.count && expected.value_or(out.count) == out.count;
+  for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;
+  return out;
+}
+
+}  // namespace ninedof

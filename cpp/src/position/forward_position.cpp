@@ -1,0 +1,108 @@
+#include "ninedof/position/forward_position.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ninedof/position/trilateration.hpp"
+#include "position/branch.hpp"
+#include "robot/leg_length_checks.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double planar = 1e-14;    // of a plate's size: joints this near a plane are in it, to rounding
+constexpr double meeting = 1e-7;    // separation below which a mode is a double one
+
+bool in_plane(const SphereCentres& plate, const Triple& joints) {
+  return std::ranges::all_of(joints, [&](const Vec3& j) { return std::abs(plate.height(j)) <= planar * plate.length; });
+}
+
+/// A point O may be at, on a side of its plate's plane.
+struct Place {
+  Vec3 point;
+  int side;
+};
+
+struct Places {
+  std::array<Place, 2> place;
+  std::size_t count;
+};
+
+Places places(const SphereCentres& plate, const Meeting& m) {
+  if (m.kind == Meeting::touching) return {{{{m.above, 0}}}, 1};
+  return {{{{m.above, 1}, {plate.mirrored(m.above), -1}}}, 2};
+}
+
+Mat3 mirror(const Vec3& normal) {
+  return Mat3::Identity() - 2.0 * normal * normal.transpose();
+}
+
+void append(AssemblyModes& out, const Place& s, const Place& o, const Mat3& rotation, double separation) {
+  const Configuration c{s.point - rotation * o.point, rotation, s.point};
+  out.mode[static_cast<std::size_t>(out.count++)] = {c, s.side, o.side, separation};
+}
+
+/// The external leg that fits in no branch, or all of them together.
+PositionObstacle external_obstacle(const std::array<bool, 3>& misfit) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (misfit[i])
+      return static_cast<PositionObstacle>(static_cast<int>(PositionObstacle::external_leg_1) + static_cast<int>(i));
+  return PositionObstacle::external_legs;
+}
+
+}  // namespace
+
+AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
+  require_leg_lengths(leg_lengths);
+  const Vec3 l = leg_lengths.head<3>(), q = leg_lengths.segment<3>(3), r = leg_lengths.tail<3>();
+  const double unit = leg_lengths.maxCoeff();
+  AssemblyModes out;
+  const SphereCentres base(g.base_internal()), platform(g.platform_internal());
+  const Meeting lower = meet(base, r), upper = meet(platform, q);
+  if (lower.kind == Meeting::none || upper.kind == Meeting::none) {
+    out.obstacle = lower.kind == Meeting::none ? PositionObstacle::lower_legs : PositionObstacle::upper_legs;
+    return out;
+  }
+
+  // With flat plates the mirror image in the base plane of a mode, its platform reflected in itself, is a mode.
+  const bool mirrored = in_plane(base, g.base_external()) && in_plane(platform, g.platform_external());
+  const Mat3 base_mirror = mirror(base.e3), platform_mirror = mirror(platform.e3);
+  const auto image = [](const SphereCentres& plate, const Place& p) -> Place {
+    return p.side == 0 ? p : Place{plate.mirrored(p.point), -p.side};
+  };
+  const Places on_base = places(base, lower), on_platform = places(platform, upper);
+  std::array<bool, 3> misfit{true, true, true};  // in every branch so far
+  bool self_motion = false, double_mode = lower.kind == Meeting::touching || upper.kind == Meeting::touching;
+  for (std::size_t i = 0; i < on_base.count; ++i)
+    for (std::size_t j = 0; j < on_platform.count; ++j) {
+      const Place &s = on_base.place[i], &o = on_platform.place[j];
+      if (mirrored && (s.side < 0 || (s.side == 0 && o.side < 0))) continue;
+      const Branch branch = solve_branch(g, {s.point, o.point}, l, unit, method);
+      const bool has_image = mirrored && (s.side != 0 || o.side != 0);
+      out.certain &= branch.certain;
+      out.null_space_branches += branch.null_space ? 1 : 0;
+      self_motion |= branch.self_motion;
+      for (std::size_t leg = 0; leg < 3; ++leg) misfit[leg] &= branch.misfit[leg];
+      for (int k = 0; k < branch.count; ++k) {
+        const BranchMode& mode = branch.mode[static_cast<std::size_t>(k)];
+        double_mode |= !(mode.separation >= meeting);
+        append(out, s, o, mode.rotation, mode.separation);
+        if (has_image)
+          append(out, image(base, s), image(platform, o), base_mirror * mode.rotation * platform_mirror,
+                 mode.separation);
+      }
+    }
+  if (lower.kind == Meeting::touching || upper.kind == Meeting::touching) out.certain = false;  // one O or two
+  if (self_motion) {
+    out.status = PositionStatus::self_motion;
+    out.count = 0;
+    out.certain = false;
+  } else if (out.count > 0) {
+    out.status = double_mode ? PositionStatus::tangent : PositionStatus::found;
+  } else {
+    out.obstacle = external_obstacle(misfit);
+  }
+  return out;
+}
+
+}  // namespace ninedof

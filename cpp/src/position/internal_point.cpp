@@ -1,0 +1,30 @@
+#include "position/internal_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ninedof {
+namespace {
+
+constexpr double cosine_slack = 1e-9;  // beyond 1: rounding, for a leg stretched or folded through O
+
+}  // namespace
+
+ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths) {
+  ScaledRotationProblem p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vec3 d = g.base_external()[i] - at.s, w = g.platform_external()[i] - at.o;
+    const double d2 = d.squaredNorm(), w2 = w.squaredNorm(), l = external_lengths[k];
+    const double dn = p.base_distance[k] = std::sqrt(d2), wn = p.platform_distance[k] = std::sqrt(w2);
+    p.unit.d[i] = d / dn;
+    p.unit.w[i] = w / wn;
+    // (dn - wn)^2 - l^2 in factors: near a stretched or folded leg nothing cancels.
+    const double difference = dn - wn;
+    const double c = 1.0 + 0.5 * (difference - l) * (difference + l) / (dn * wn);
+    p.unit.c[k] = std::abs(c) <= 1.0 + cosine_slack ? std::clamp(c, -1.0, 1.0) : c;
+  }
+  return p;
+}
+
+}  // namespace ninedof

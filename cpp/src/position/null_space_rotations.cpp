@@ -1,0 +1,174 @@
+#include "position/null_space_rotations.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <complex>
+#include <optional>
+
+#include "math/linear/householder.hpp"
+#include "position/quaternion_monomials.hpp"
+
+namespace ninedof {
+namespace {
+
+using Vec4 = Eigen::Vector4d;
+using Mat4 = Eigen::Matrix4d;
+using Mat8 = Eigen::Matrix<double, 8, 8>;
+using Quadric = Eigen::Matrix<double, 10, 1>;    // coefficients of the quadratic monomials
+using Macaulay = Eigen::Matrix<double, 36, 30>;  // 35 monomials of degree four and a row of zeros; 3 x 10 products
+using NullSpace = Eigen::Matrix<double, 36, 8>;
+
+constexpr auto linear_by_linear = monomials::products<1, 1>();
+constexpr auto linear_by_cubic = monomials::products<1, 3>();
+constexpr auto quadratic_by_quadratic = monomials::products<2, 2>();
+
+constexpr int rank = 27;                   // three of the thirty products follow from the others: K_i K_j = K_j K_i
+constexpr double rank_gap = 1e-10;         // of pivots: 1e-16 where solutions form a curve, 1e-2 far from that
+constexpr double smallest_divisor = 1e-9;  // singular value of SG; below it a solution lies almost on g = 0
+constexpr double nearly_real = 0.05;       // |Im z| / |z|; generous on purpose, the polished residual decides
+
+/// Linear forms in general position; Mx has the eigenvalue f(z) / g(z) at the solution z. The rows of g are orthogonal:
+/// no z lies on g = 0 for all four.
+struct Forms {
+  Vec4 f;
+  Mat4 g;
+};
+
+Forms general_forms() {
+  constexpr double a = 0.6821, b = 0.2714, c = -0.3917, d = 0.5547;
+  Forms forms;
+  forms.f << 0.2874, -0.7719, 0.4163, 0.3866;
+  forms.g << a, b, c, d, -b, a, -d, c, -c, d, a, -b, -d, -c, b, a;
+  return forms;
+}
+
+/// z^T K z = |z|^2 (d . Q(z) w - c), over the Frobenius norm of K, whose eigenvalues are 1 - c and -1 - c, each twice.
+Quadric quadric(const Vec3& d, const Vec3& w, double c) {
+  Mat4 k;
+  const double dot = d.dot(w);
+  k(0, 0) = dot - c;
+  k.bottomLeftCorner<3, 1>() = w.cross(d);
+  k.bottomRightCorner<3, 3>() = d * w.transpose() + w * d.transpose() - (dot + c) * Mat3::Identity();
+  k *= 0.5 / std::sqrt(1.0 + c * c);
+  Quadric out;
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b <= a; ++b) out[linear_by_linear[a][b]] = (a == b ? 1.0 : 2.0) * k(a, b);
+  return out;
+}
+
+/// Columns: the coefficients of every product of a quadric and a quadratic monomial.
+Macaulay macaulay(const RotationProblem& p) {
+  Macaulay out = Macaulay::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const auto joint = static_cast<std::size_t>(i);
+    const Quadric k = quadric(p.d[joint], p.w[joint], p.c[i]);
+    for (int m = 0; m < 10; ++m)
+      for (int t = 0; t < 10; ++t) out(quadratic_by_quadratic[m][t], 10 * i + m) = k[t];
+  }
+  return out;
+}
+
+/// Orthonormal basis of all that is orthogonal to the columns, by QR with column pivoting; nothing if their rank is
+/// below 27.
+std::optional<NullSpace> null_space(Macaulay a) {
+  std::array<Reflection<36>, rank> reflections;
+  double first = 0.0;
+  for (int k = 0; k < rank; ++k) {
+    // Computed anew for every pivot: norms kept up to date by subtraction are noise before they are 1e-10.
+    Eigen::Index pivot = 0;
+    const double norm = a.bottomRightCorner(36 - k, 30 - k).colwise().squaredNorm().maxCoeff(&pivot);
+    if (k == 0) first = norm;
+    if (norm <= rank_gap * rank_gap * first) return {};
+    pivot += k;
+    Reflection<36>& r = reflections[static_cast<std::size_t>(k)] = {a.col(pivot), k};
+    a.col(pivot) = a.col(k);
+    reflect(r, a, k + 1);
+  }
+  NullSpace n = NullSpace::Zero();
+  n.middleRows<8>(rank).setIdentity();
+  for (auto r = reflections.rbegin(); r != reflections.rend(); ++r) reflect(*r, n, 0);
+  return n;
+}
+
+/// Mx of SG Mx = SF, least squares: SF and SG are the rows of f m and g m in N for the twenty cubic monomials m. Nothing
+/// where SG is nearly singular.
+std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4& g) {
+  Eigen::Matrix<double, 20, 16> s = Eigen::Matrix<double, 20, 16>::Zero();  // [SG SF]
+  for (int j = 0; j < 8; ++j)
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m < 20; ++m) {
+        const double value = n(linear_by_cubic[k][m], j);
+        s(m, j) += g[k] * value;
+        s(m, j + 8) += f[k] * value;
+      }
+  for (int k = 0; k < 8; ++k) {
+    const Reflection<20> r(s.col(k), k);
+    s(k, k) = r.image;
+    reflect(r, s, k + 1);
+  }
+  // |R^-1| (Frobenius) is the reciprocal of the smallest singular value, up to a factor between 1 and sqrt 8.
+  const Mat8 inverse = s.topLeftCorner<8, 8>().triangularView<Eigen::Upper>().solve(Mat8::Identity());
+  if (!(inverse.norm() * smallest_divisor < 1.0)) return {};
+  return inverse.triangularView<Eigen::Upper>() * s.topRightCorner<8, 8>();
+}
+
+/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made 1,
+/// which makes it real where it can be.
+Eigen::Vector4cd quaternion(const Eigen::Matrix<std::complex<double>, 16, 1>& v) {
+  Eigen::Index k = 0;
+  Vec4(std::norm(v[0]), std::norm(v[5]), std::norm(v[10]), std::norm(v[15])).maxCoeff(&k);
+  return v.segment<4>(4 * k) / v[5 * k];
+}
+
+void add(const Vec4& z, RotationCandidates& out) {
+  out.rotation[static_cast<std::size_t>(out.count++)] =
+      Eigen::Quaterniond(z[0], z[1], z[2], z[3]).normalized().toRotationMatrix();
+}
+
+/// For each eigenvector x of Mx, N x holds the values of all monomials at a solution, up to a factor. False if the
+/// eigenvalues did not converge.
+bool add_real_solutions(const NullSpace& n, const Mat8& mx, RotationCandidates& out) {
+  const Eigen::EigenSolver<Mat8> eigen(mx);
+  if (eigen.info() != Eigen::Success) return false;
+  Eigen::Matrix<double, 16, 8> rows;  // of z_k^3 z_j
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 4; ++j)
+      rows.row(4 * k + j) = n.row(quadratic_by_quadratic[linear_by_linear[k][k]][linear_by_linear[k][j]]);
+  // A real eigenvalue has one column here. A conjugate pair has two, the real and the imaginary part of an eigenvector.
+  const Eigen::Matrix<double, 16, 8> values = rows * eigen.pseudoEigenvectors();
+  for (Eigen::Index j = 0; j < 8; ++j) {
+    const bool pair = eigen.eigenvalues()[j].imag() != 0.0;
+    Eigen::Matrix<std::complex<double>, 16, 1> v = values.col(j).cast<std::complex<double>>();
+    if (pair) v.imag() = values.col(++j);
+    const Eigen::Vector4cd z = quaternion(v);
+    if (!z.real().allFinite() || !z.imag().allFinite())
+      return false;  // no component to scale by: nothing is known of it
+    if (!(z.imag().norm() < nearly_real * z.norm())) continue;
+    // Two real solutions close together may come out as a pair: they then lie on the two sides of its real part.
+    add(z.real() + z.imag(), out);
+    if (pair) add(z.real() - z.imag(), out);
+  }
+  return true;
+}
+
+}  // namespace
+
+RotationCandidates null_space_rotations(const RotationProblem& problem) {
+  static const Forms forms = general_forms();
+  RotationCandidates out;
+  const Macaulay rows = macaulay(problem);
+  out.reliable = rows.allFinite();
+  if (!out.reliable) return out;
+  const std::optional<NullSpace> n = null_space(rows);
+  out.self_motion = !n;
+  if (out.self_motion) return out;
+  for (int k = 0; k < 4; ++k) {
+    const std::optional<Mat8> mx = multiplication(*n, forms.f, forms.g.row(k));
+    if (mx && add_real_solutions(*n, *mx, out)) return out;
+  }
+  out.reliable = false;
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,163 @@
+#include "redundancy/search/merit.hpp"
+
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/conditioning/conditioning.hpp"
+#include "redundancy/search/soft_condition.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double wall_contact = 1e-4;  // of the logarithm of the clearance: the wall in front of it is soft
+
+/// Distance of x from a joint.
+Jet distance(const Vec3& x, const Vec3& joint) {
+  Jet out;
+  const Vec3 v = x - joint;
+  out.value = v.norm();
+  out.gradient = v / out.value;
+  out.hessian = (Mat3::Identity() - out.gradient * out.gradient.transpose()) / out.value;
+  return out;
+}
+
+/// Adds a wall that `room`, positive inside, leaves: -epsilon log room; d room = slope d f.
+void add_wall(double room, double slope, double epsilon, const Jet& f, Jet& out) {
+  out.add_function(-epsilon * std::log(room), -epsilon * slope / room, epsilon * slope * slope / (room * room), f);
+}
+
+/// Adds epsilon log sum exp(jet / epsilon): what is `count` jets' largest but for its kinks.
+template <std::size_t N>
+void add_soft_largest(const std::array<Jet, N>& jets, std::size_t count, double epsilon, Jet& out) {
+  double largest = -infinity, sum = 0.0;
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, jets[k].value);
+  for (std::size_t k = 0; k < count; ++k) sum += std::exp((jets[k].value - largest) / epsilon);
+  Jet mean;
+  Mat3 spread = Mat3::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double share = std::exp((jets[k].value - largest) / epsilon) / sum;
+    mean.add(share, jets[k]);
+    spread += share * (jets[k].gradient * jets[k].gradient.transpose());
+  }
+  out.value += largest + epsilon * std::log(sum);
+  out.gradient += mean.gradient;
+  out.hessian += mean.hessian + (spread - mean.gradient * mean.gradient.transpose()) / epsilon;
+}
+
+}  // namespace
+
+bool Merit::in_chamber(const Vec3& x) const {
+  return (sides_.cwiseProduct(scene_.determinants(x)).array() > problem_.clearance).all();
+}
+
+double Merit::violation(const Vec3& x) const {
+  double worst = -infinity;
+  for (int k = 0; k < 6; ++k) {
+    const double length = (x - scene_.joint(k)).norm();
+    worst = std::max({worst, scene_.low()[k] - length, length - scene_.high()[k]});
+  }
+  return worst;
+}
+
+double Merit::exact(const Vec3& x) const {
+  switch (problem_.criterion) {
+    case Criterion::condition_number:
+      return std::log(condition_number(scene_.geometry(), scene_.configuration(x), problem_.characteristic_length));
+    case Criterion::singularity: return -std::log(scene_.determinants(x).cwiseAbs().minCoeff());
+    case Criterion::leg_centring: {
+      double sum = 0.0;
+      for (int k = 0; k < 6; ++k) {
+        const double middle = 0.5 * (scene_.low()[k] + scene_.high()[k]),
+                     half = 0.5 * (scene_.high()[k] - scene_.low()[k]);
+        const double z = ((x - scene_.joint(k)).norm() - middle) / half;
+        sum += z * z;
+      }
+      return sum;
+    }
+  }
+  return infinity;
+}
+
+bool Merit::add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const {
+  const double least = std::log(problem_.clearance);
+  for (const Jet& f : logs) {
+    if (!(f.value > least)) return false;
+    add_wall(f.value - least, 1.0, epsilon, f, out);
+  }
+  return true;
+}
+
+bool Merit::soft(const Vec3& x, double epsilon, Jet& out) const {
+  out = Jet{};
+  if ((scene_.volumes(x).cwiseSign().array() != sides_.array()).any()) return false;
+  const std::array<Jet, 3> logs = scene_.log_determinants(x);
+  if (!add_clearance(logs, epsilon, out)) return false;
+  for (int k = 0; k < 6; ++k) {
+    const double low = scene_.low()[k], high = scene_.high()[k];
+    const bool finite = std::isfinite(high);
+    if (!(low > 0.0) && !finite) continue;
+    const Jet length = distance(x, scene_.joint(k));
+    const double above = length.value - low + limit_tolerance, below = high - length.value + limit_tolerance;
+    if (!(above > 0.0) || !(below > 0.0)) return false;
+    if (low > 0.0) add_wall(above, 1.0, epsilon, length, out);
+    if (finite) add_wall(below, -1.0, epsilon, length, out);
+    if (problem_.criterion != Criterion::leg_centring) continue;
+    const double half = 0.5 * (high - low), z = (length.value - 0.5 * (low + high)) / half;
+    out.add_function(z * z, 2.0 * z / half, 2.0 / (half * half), length);
+  }
+  if (problem_.criterion == Criterion::singularity) {
+    std::array<Jet, 3> negative;
+    for (std::size_t k = 0; k < 3; ++k) negative[k].add(-1.0, logs[k]);
+    add_soft_largest(negative, 3, epsilon, out);
+  }
+  if (problem_.criterion == Criterion::condition_number) {
+    const Points at = scene_.points(x);
+    const NineLegs legs = nine_legs(at);
+    const Spectrum s = spectrum(at, legs, scene_.characteristic_length());
+    if (!(s.sigma[5] > 0.0)) return false;
+    out.add(1.0, soft_condition(at, legs, s, epsilon));
+  }
+  return out.gradient.allFinite() && out.hessian.allFinite();
+}
+
+bool Merit::soft_violation(const Vec3& x, double epsilon, Jet& out) const {
+  out = Jet{};
+  if ((scene_.volumes(x).cwiseSign().array() != sides_.array()).any()) return false;
+  if (!add_clearance(scene_.log_determinants(x), epsilon, out)) return false;
+  std::array<Jet, 12> broken;
+  std::size_t count = 0;
+  for (int k = 0; k < 6; ++k) {
+    const double low = scene_.low()[k], high = scene_.high()[k];
+    const Jet length = distance(x, scene_.joint(k));
+    if (low > 0.0) broken[count++].add_function(low - length.value, -1.0, 0.0, length);
+    if (std::isfinite(high)) broken[count++].add_function(length.value - high, 1.0, 0.0, length);
+  }
+  add_soft_largest(broken, count, epsilon, out);
+  return out.gradient.allFinite() && out.hessian.allFinite();
+}
+
+ActiveBounds Merit::touched(const Vec3& x, double contact) const {
+  ActiveBounds out;
+  for (int k = 0; k < 6; ++k) {
+    const double length = (x - scene_.joint(k)).norm();
+    if (scene_.low()[k] > 0.0 && length - scene_.low()[k] <= contact) out.add(ActiveBounds::low(3 + k));
+    if (scene_.high()[k] - length <= contact) out.add(ActiveBounds::high(3 + k));
+  }
+  const Vec3 determinants = scene_.determinants(x).cwiseAbs();
+  for (int k = 0; k < 3; ++k)
+    if (std::log(determinants[k] / problem_.clearance) <= wall_contact) out.add(ActiveBounds::clearance(k));
+  return out;
+}
+
+ActiveBounds Merit::broken(const Vec3& x, double contact) const {
+  ActiveBounds out;
+  const double worst = violation(x) - contact;
+  for (int k = 0; k < 6; ++k) {
+    const double length = (x - scene_.joint(k)).norm();
+    if (scene_.low()[k] - length >= worst) out.add(ActiveBounds::low(3 + k));
+    if (length - scene_.high()[k] >= worst) out.add(ActiveBounds::high(3 + k));
+  }
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,136 @@
+#include "redundancy/search/path_descent.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/numbers.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr std::array path_epsilons{3e-2, 3e-3, 1e-4, 1e-6, 1e-8};
+constexpr int most_path_steps = 60;         // for one epsilon
+constexpr double path_nearly = 1e-3, path_fully = 1e-9;  // decrements, in path_epsilons and a pose, as in descent.cpp
+constexpr double least_curvature = 1e-9;
+
+/// Eigenvalues by their size: every step goes down.
+Mat3 convex(const Mat3& hessian, double floor) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(hessian);
+  const Vec3 size = eigen.eigenvalues().cwiseAbs();
+  const Vec3 raised = size.cwiseMax(std::max(1e-12 * size.maxCoeff(), floor));
+  return eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+class Path {
+ public:
+  Path(std::span<Stop> stops, double coupling) : stops_(stops), coupling_(coupling), s_(points()) {}
+
+  bool settle(double epsilon, double enough) {
+    double value = evaluate(s_, epsilon, jets_);
+    if (!std::isfinite(value)) return false;
+    for (int k = 0; k < most_path_steps; ++k) {
+      const std::vector<Vec3> way = newton_step();
+      if (decrement_ <= enough * epsilon * static_cast<double>(s_.size())) return true;
+      if (!step(way, epsilon, value)) return decrement_ <= path_nearly * epsilon * static_cast<double>(s_.size());
+    }
+    return decrement_ <= path_nearly * epsilon * static_cast<double>(s_.size());
+  }
+
+  void keep() {
+    for (std::size_t k = 0; k < s_.size(); ++k) stops_[k].x = stops_[k].merit->scene().inward(s_[k]);
+  }
+
+ private:
+  std::vector<Vec3> points() const {
+    std::vector<Vec3> out;
+    for (const Stop& stop : stops_) out.push_back(stop.merit->scene().outward(stop.x));
+    return out;
+  }
+
+  /// The sum, infinite where a point is outside; jets are by s.
+  double evaluate(const std::vector<Vec3>& s, double epsilon, std::vector<Jet>& jets) const {
+    jets.resize(s.size());
+    double sum = 0.0;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      const Merit& merit = *stops_[k].merit;
+      const double unit = merit.scene().unit();
+      if (!merit.soft(merit.scene().inward(s[k]), epsilon, jets[k])) return infinity;
+      jets[k].gradient /= unit;
+      jets[k].hessian /= unit * unit;
+      sum += jets[k].value;
+      if (k > 0) sum += coupling_ * (s[k] - s[k - 1]).squaredNorm();
+    }
+    return sum;
+  }
+
+  /// Block elimination forwards, substitution backwards; off-diagonal blocks are -2 coupling 1.
+  std::vector<Vec3> newton_step() {
+    const std::size_t n = s_.size();
+    std::vector<Vec3> gradient(n), out(n);
+    std::vector<Eigen::LLT<Mat3>> pivot(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      Mat3 block = convex(jets_[k].hessian, std::max(least_curvature, 1e-10 * coupling_));
+      gradient[k] = jets_[k].gradient;
+      for (const std::size_t other : {k - 1, k + 1})  // before the first is no number below n
+        if (other < n) {
+          gradient[k] += 2.0 * coupling_ * (s_[k] - s_[other]);
+          block.diagonal().array() += 2.0 * coupling_;
+        }
+      out[k] = -gradient[k];
+      if (k > 0) {
+        block -= 4.0 * coupling_ * coupling_ * pivot[k - 1].solve(Mat3::Identity());
+        out[k] += 2.0 * coupling_ * pivot[k - 1].solve(out[k - 1]);
+      }
+      pivot[k].compute(block);
+    }
+    decrement_ = 0.0;
+    for (std::size_t k = n; k-- > 0;) {
+      if (k + 1 < n) out[k] += 2.0 * coupling_ * out[k + 1];
+      out[k] = pivot[k].solve(out[k]);
+      decrement_ -= out[k].dot(gradient[k]);
+    }
+    return out;
+  }
+
+  bool step(const std::vector<Vec3>& way, double epsilon, double& value) {
+    double part = 1.0;
+    for (std::size_t k = 0; k < s_.size(); ++k) {  // no point through a wall of its chamber
+      const Scene& scene = stops_[k].merit->scene();
+      part = std::min(part, 0.9 * scene.clear_way(scene.inward(s_[k]), way[k] / scene.unit(), 2.0));
+    }
+    const double slack = 8.0 * eps * (1.0 + std::abs(value));
+    std::vector<Vec3> next(s_.size());
+    for (int halving = 0; halving < 40; ++halving, part *= 0.5) {
+      for (std::size_t k = 0; k < s_.size(); ++k) next[k] = s_[k] + part * way[k];
+      const double there = evaluate(next, epsilon, trial_);
+      if (!(there <= value - 1e-4 * part * decrement_ + slack)) continue;
+      s_.swap(next);
+      jets_.swap(trial_);
+      value = there;
+      return true;
+    }
+    return false;
+  }
+
+  std::span<Stop> stops_;
+  double coupling_;
+  std::vector<Vec3> s_;
+  std::vector<Jet> jets_, trial_;
+  double decrement_ = 0.0;
+};
+
+}  // namespace
+
+bool settle_path(std::span<Stop> stops, double coupling) {
+  Path path(stops, coupling);
+  bool settled = true;
+  for (const double epsilon : path_epsilons)
+    settled = path.settle(epsilon, epsilon == path_epsilons.back() ? path_fully : path_nearly);
+  path.keep();
+  return settled;
+}
+
+}  // namespace ninedof

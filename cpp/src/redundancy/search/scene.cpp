@@ -1,0 +1,144 @@
+#include "redundancy/search/scene.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "redundancy/search/cubic.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr std::size_t at_index(int k) {
+  return static_cast<std::size_t>(k);
+}
+
+double triple_product(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return a.dot(b.cross(c));
+}
+
+/// Subtracts the logarithm of |x - a|.
+void subtract_log_distance(const Vec3& x, const Vec3& a, Jet& out) {
+  const Vec3 v = x - a;
+  const double squared = v.squaredNorm();
+  out.value -= 0.5 * std::log(squared);
+  out.gradient -= v / squared;
+  out.hessian -= (Mat3::Identity() - (2.0 / squared) * (v * v.transpose())) / squared;
+}
+
+/// Half the sum of the squared distances of x from the ends of external leg i. The area behind a row of M divided by it is at most
+/// 1, and 0 only where O is on the line of that leg: at its very ends too, unlike the sine of the angle under which O sees it.
+double leg_square(const Vec3& x, const Vec3& r, const Vec3& u) {
+  return 0.5 * ((r - x).squaredNorm() + (u - x).squaredNorm());
+}
+
+/// Subtracts its logarithm.
+void subtract_log_square(const Vec3& x, const Vec3& r, const Vec3& u, Jet& out) {
+  const Vec3 v = x - 0.5 * (r + u);
+  const double square = leg_square(x, r, u);
+  out.value -= std::log(square);
+  out.gradient -= (2.0 / square) * v;
+  out.hessian -= (2.0 / square) * (Mat3::Identity() - (2.0 / square) * (v * v.transpose()));
+}
+
+/// Logarithm of the size of a volume that is not zero.
+Jet log_volume(double volume, const Vec3& gradient, const Mat3& hessian) {
+  Jet out;
+  out.value = std::log(std::abs(volume));
+  out.gradient = gradient / volume;
+  out.hessian = hessian / volume - out.gradient * out.gradient.transpose();
+  return out;
+}
+
+}  // namespace
+
+Scene::Scene(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem)
+    : geometry_(g), position_(position), rotation_(rotation) {
+  at_ = ninedof::points(g, {position, rotation, Vec3::Zero()});
+  for (int k = 0; k < 12; ++k) origin_ += at_[at_index(k)] / 12.0;
+  unit_ = 0.0;
+  for (int k = 0; k < 12; ++k) unit_ = std::max(unit_, (at_[at_index(k)] - origin_).norm());
+  for (Vec3& point : at_) point = inward(point);
+  characteristic_length_ = problem.characteristic_length / unit_;
+  low_ = problem.limits.low.tail<6>() / unit_;
+  high_ = problem.limits.high.tail<6>() / unit_;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &r = at_[at_index(point_r + i)], &u = at_[at_index(point_u + i)];
+    moment_[at_index(i)] = r.cross(u);
+    span_[at_index(i)] = u - r;
+  }
+  const auto normal = [&](int triple) {
+    const Vec3& first = at_[at_index(triple)];
+    return Vec3((at_[at_index(triple + 1)] - first).cross(at_[at_index(triple + 2)] - first));
+  };
+  normal_ = {normal(point_r_hat), normal(point_u_tilde)};
+}
+
+Points Scene::points(const Vec3& x) const {
+  Points out = at_;
+  out[point_s] = x;
+  return out;
+}
+
+Vec3 Scene::volumes(const Vec3& x) const {
+  return {normal_[0].dot(x - at_[point_r_hat]), normal_[1].dot(x - at_[point_u_tilde]),
+          triple_product(turning_row(0, x), turning_row(1, x), turning_row(2, x))};
+}
+
+Vec3 Scene::determinants(const Vec3& x) const {
+  Vec3 rows = Vec3::Ones();
+  for (int i = 0; i < 3; ++i) {
+    rows[0] *= (x - at_[at_index(point_r_hat + i)]).norm();
+    rows[1] *= (x - at_[at_index(point_u_tilde + i)]).norm();
+    rows[2] *= leg_square(x, at_[at_index(point_r + i)], at_[at_index(point_u + i)]);
+  }
+  const Vec3 v = volumes(x);
+  Vec3 out;
+  for (int k = 0; k < 3; ++k) out[k] = rows[k] > 0.0 ? v[k] / rows[k] : 0.0;
+  return out;
+}
+
+std::array<Jet, 3> Scene::log_determinants(const Vec3& x) const {
+  const Vec3 v = volumes(x);
+  std::array<Vec3, 3> row;
+  for (int i = 0; i < 3; ++i) row[at_index(i)] = turning_row(i, x);
+  Vec3 gradient = Vec3::Zero();
+  Mat3 hessian = Mat3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    gradient += row[j].cross(row[k]).cross(span_[i]);
+    const Vec3 both = span_[i].cross(span_[j]);
+    hessian += both * row[k].transpose() + row[k] * both.transpose();
+  }
+  std::array<Jet, 3> out{log_volume(v[0], normal_[0], Mat3::Zero()), log_volume(v[1], normal_[1], Mat3::Zero()),
+                         log_volume(v[2], gradient, hessian)};
+  for (int i = 0; i < 3; ++i) {
+    subtract_log_distance(x, at_[at_index(point_r_hat + i)], out[0]);
+    subtract_log_distance(x, at_[at_index(point_u_tilde + i)], out[1]);
+    subtract_log_square(x, at_[at_index(point_r + i)], at_[at_index(point_u + i)], out[2]);
+  }
+  return out;
+}
+
+double Scene::clear_way(const Vec3& x, const Vec3& d, double most) const {
+  const Vec3 v = volumes(x);
+  double way = most;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double slope = normal_[k].dot(d), start = v[static_cast<Eigen::Index>(k)];
+    if (start * slope < 0.0) way = std::min(way, -start / slope);
+  }
+  Triple row, turn;
+  for (int i = 0; i < 3; ++i) {
+    row[at_index(i)] = turning_row(i, x);
+    turn[at_index(i)] = span_[at_index(i)].cross(d);
+  }
+  double first = 0.0, second = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    first += triple_product(turn[i], row[j], row[k]);
+    second += triple_product(row[i], turn[j], turn[k]);
+  }
+  return first_zero({v[2], first, second, triple_product(turn[0], turn[1], turn[2])}, way);
+}
+
+}  // namespace ninedof

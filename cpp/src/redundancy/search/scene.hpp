@@ -1,0 +1,72 @@
+#pragma once
+/// One pose of the platform as O sees it: fixed points around it, and the surfaces it must not cross.
+
+#include <array>
+
+#include "ninedof/redundancy/redundancy.hpp"
+#include "ninedof/robot/geometry.hpp"
+#include "ninedof/robot/points.hpp"
+#include "redundancy/search/jet.hpp"
+
+namespace ninedof {
+
+/// Lengths in here are in units of the robot's own size, seen from the middle of its joints: all numbers below mean the same for
+/// every robot.
+class Scene {
+ public:
+  Scene(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem);
+
+  /// The configuration with O at x, in the caller's units.
+  Configuration configuration(const Vec3& x) const { return {position_, rotation_, outward(x)}; }
+  const Geometry& geometry() const { return geometry_; }
+  const Vec3& position() const { return position_; }
+  const Mat3& rotation() const { return rotation_; }
+
+  double unit() const { return unit_; }
+  Vec3 inward(const Vec3& s) const { return (s - origin_) / unit_; }
+  Vec3 outward(const Vec3& x) const { return origin_ + unit_ * x; }
+
+  double characteristic_length() const { return characteristic_length_; }
+  /// Limits of q1 q2 q3 r1 r2 r3.
+  const Vec6& low() const { return low_; }
+  const Vec6& high() const { return high_; }
+  /// The far end of internal leg k of those six.
+  const Vec3& joint(int k) const {
+    return at_[static_cast<std::size_t>(k < 3 ? point_u_tilde + k : point_r_hat + k - 3)];
+  }
+
+  /// All points with O at x.
+  Points points(const Vec3& x) const;
+
+  /// Determinants of B, C and M times the lengths their rows were divided by: of first, first and third degree in x.
+  Vec3 volumes(const Vec3& x) const;
+
+  /// The three determinants themselves.
+  Vec3 determinants(const Vec3& x) const;
+
+  /// Logarithms of the three |det|, with derivatives.
+  std::array<Jet, 3> log_determinants(const Vec3& x) const;
+
+  /// The first t of (0, most] at which x + t d meets a singularity; `most` where none is met. Along a line two determinants are
+  /// of first degree and one of third, so that nothing is stepped over.
+  double clear_way(const Vec3& x, const Vec3& d, double most) const;
+
+ private:
+  /// Row i of the matrix behind det M: (r_i - x) x (u_i - x), of first degree in x.
+  Vec3 turning_row(int i, const Vec3& x) const {
+    return moment_[static_cast<std::size_t>(i)] + span_[static_cast<std::size_t>(i)].cross(x);
+  }
+
+  const Geometry& geometry_;
+  Vec3 position_;
+  Mat3 rotation_;
+  Points at_;
+  Vec3 origin_ = Vec3::Zero();
+  double unit_ = 1.0, characteristic_length_ = 1.0;
+  Vec6 low_, high_;
+  Triple moment_, span_;      ///< r_i x u_i and u_i - r_i
+  std::array<Vec3, 2>
+      normal_;  ///< of the planes of the lower and of the upper joints, as long as the parallelogram is large
+};
+
+}  // namespace ninedof

@@ -1,0 +1,92 @@
+#include "ninedof/robot/geometry.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/rotation.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double collinear_tolerance = 1e-9;
+
+void require_triangle(const std::string& name, const Triple& t) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!t[i].allFinite())
+      throw InvalidArgument(name, "a non-finite coordinate in joint " + std::to_string(i + 1), "three finite points");
+  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[2] - t[1];
+  const double longest = std::max({a.norm(), b.norm(), c.norm()});
+  if (longest == 0.0) throw InvalidArgument(name, "three coincident joints", "joints that span a triangle");
+  // Divide first: the cross product of tiny or huge sides would under- or overflow.
+  const double height = (a / longest).cross(b / longest).norm();
+  if (!(height > collinear_tolerance))
+    throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + ")",
+                          "joints that span a triangle");
+}
+
+void require_side(const std::string& name, double side) {
+  if (!std::isfinite(side) || side < 0.0) throw InvalidArgument(name, format_number(side), "a finite length >= 0");
+}
+
+/// Joints 2 and 3 from joint 1: eqs. (37)-(38) number the joints clockwise.
+Triple orbit_of(const Vec3& first) {
+  const double angle = 2.0 * std::numbers::pi / 3.0;
+  return {first, rotation_about_z(-angle) * first, rotation_about_z(-2.0 * angle) * first};
+}
+
+/// The two interleaved triples of a semi-regular hexagon with sides s1, s2, as printed in eqs. (37)-(38).
+struct Hexagon {
+  Triple external, internal;
+};
+Hexagon hexagon(double s1, double s2) {
+  const double k = std::numbers::sqrt3 / 6.0;
+  const double low = -k * (s1 + 2.0 * s2), middle = -k * (s1 - s2), high = k * (2.0 * s1 + s2);
+  const double half = 0.5 * (s1 + s2);
+  return {{Vec3(0.5 * s1, low, 0.0), Vec3(-half, middle, 0.0), Vec3(0.5 * s2, high, 0.0)},
+          {Vec3(-0.5 * s1, low, 0.0), Vec3(-0.5 * s2, high, 0.0), Vec3(half, middle, 0.0)}};
+}
+
+Triple orbit_of(const std::string& name, const Orbit& o) {
+  require_positive((name + ".radius").c_str(), o.radius);
+  require_finite((name + ".angle").c_str(), o.angle);
+  require_finite((name + ".height").c_str(), o.height);
+  return orbit_of(Vec3(o.radius * std::cos(o.angle), o.radius * std::sin(o.angle), o.height));
+}
+
+}  // namespace
+
+Geometry::Geometry(const Triple& base_external, const Triple& base_internal, const Triple& platform_external,
+                   const Triple& platform_internal)
+    : base_external_(base_external),
+      base_internal_(base_internal),
+      platform_external_(platform_external),
+      platform_internal_(platform_internal) {
+  require_triangle("base_external", base_external_);
+  require_triangle("base_internal", base_internal_);
+  require_triangle("platform_external", platform_external_);
+  require_triangle("platform_internal", platform_internal_);
+}
+
+Geometry Geometry::hexagonal(double a1, double a2, double b1, double b2) {
+  require_side("a1", a1);
+  require_side("a2", a2);
+  require_side("b1", b1);
+  require_side("b2", b2);
+  if (a1 == 0.0 && a2 == 0.0) throw InvalidArgument("a1, a2", "0 and 0", "a base of some size: at least one side > 0");
+  if (b1 == 0.0 && b2 == 0.0)
+    throw InvalidArgument("b1, b2", "0 and 0", "a platform of some size: at least one side > 0");
+  const Hexagon base = hexagon(a1, a2), platform = hexagon(b1, b2);
+  return {base.external, base.internal, platform.external, platform.internal};
+}
+
+Geometry Geometry::symmetric(const Orbit& base_external, const Orbit& base_internal, const Orbit& platform_external,
+                             const Orbit& platform_internal) {
+  return {orbit_of("base_external", base_external), orbit_of("base_internal", base_internal),
+          orbit_of("platform_external", platform_external), orbit_of("platform_internal", platform_internal)};
+}
+
+}  // namespace ninedof

@@ -1,0 +1,85 @@
+#include "ninedof/statics/accuracy.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/kinematics/velocity.hpp"
+#include "ninedof/math/error.hpp"
+#include "singularity/three_blocks.hpp"
+
+namespace ninedof {
+namespace {
+
+void require_tolerance(const char* name, double value) {
+  if (value < 0.0 || std::isinf(value)) throw InvalidArgument(name, format_number(value), "finite lengths >= 0");
+}
+
+/// The joint at the lower end of leg k, and at its upper end: places in Tolerances::joints, -1 for O.
+constexpr std::array<std::array<int, 2>, 9> joints_of_leg{
+    {{0, 6}, {1, 7}, {2, 8}, {9, -1}, {10, -1}, {11, -1}, {3, -1}, {4, -1}, {5, -1}}};
+
+/// Calls visit(leg, tolerance of its joint) for the twelve joints.
+template <class Visit>
+void for_each_joint(const Tolerances& t, const Visit& visit) {
+  for (std::size_t k = 0; k < 9; ++k)
+    for (const int joint : joints_of_leg[k])
+      if (joint >= 0) visit(static_cast<Eigen::Index>(k), t.joints[static_cast<std::size_t>(joint)]);
+}
+
+/// Largest |rows * d| over the corners d of the box: half of them, since d and -d are as far.
+double farthest_corner(const Eigen::Matrix<double, 3, 9>& columns) {
+  double largest = 0.0;
+  for (unsigned corner = 0; corner < 256; ++corner) {
+    Vec3 sum = columns.col(8);
+    for (unsigned k = 0; k < 8; ++k) sum += ((corner >> k & 1U) == 0U ? 1.0 : -1.0) * columns.col(k);
+    largest = std::max(largest, sum.squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace
+
+void validate(const Tolerances& t) {
+  for (const double leg : t.legs) require_tolerance("leg_errors", leg);
+  for (const double joint : t.joints) require_tolerance("joint_errors", joint);
+}
+
+Mat9 error_map(const Geometry& g, const Configuration& c) {
+  const auto [b, upper, m] = three_blocks(g, c);
+  if (!(b + upper + m).allFinite()) return Mat9::Constant(not_a_number);
+  Mat9 map = Mat9::Constant(infinity);
+  if (!regular(b)) return map;
+  map.bottomRows<3>() << Mat3::Zero(), Mat3::Zero(), b.inverse();
+  if (regular(upper) && regular(m)) map.topRows<6>() = jacobian(g, c);
+  return map;
+}
+
+ErrorBounds error_bounds(const Geometry& g, const Configuration& c, const Tolerances& t) {
+  validate(t);
+  const Mat9 map = error_map(g, c);
+  Vec9 box = t.legs, variance = t.legs.cwiseAbs2() / 3.0;
+  for_each_joint(t, [&](Eigen::Index leg, double radius) {
+    box[leg] += radius;                       // reached by a joint that is off along its leg
+    variance[leg] += radius * radius / 5.0;   // one coordinate of a point in a ball
+  });
+  if (map.hasNaN() || box.hasNaN()) {
+    const Mat9 nothing = Mat9::Constant(not_a_number);
+    return {nothing.col(0), not_a_number, not_a_number, not_a_number, nothing};
+  }
+  ErrorBounds out{Vec9::Constant(infinity), infinity, infinity, infinity, Mat9::Constant(not_a_number)};
+  out.covariance.diagonal().setConstant(infinity);
+  // What is determined: nothing, O alone, or everything.
+  const Eigen::Index first = std::isinf(map(8, 8)) ? 9 : std::isinf(map(0, 0)) ? 6 : 0, known = 9 - first;
+  const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::ColMajor, 9, 9> rows = map.bottomRows(known);
+  out.components.tail(known) = (rows * box.asDiagonal()).rowwise().lpNorm<1>();
+  out.covariance.bottomRightCorner(known, known) = rows * variance.asDiagonal() * rows.transpose();
+  if (first <= 6) out.internal_point = farthest_corner(map.bottomRows<3>() * box.asDiagonal());
+  if (first == 0) {
+    out.rotation = farthest_corner(map.topRows<3>() * box.asDiagonal());
+    out.position = farthest_corner(map.middleRows<3>(3) * box.asDiagonal());
+  }
+  return out;
+}
+
+}  // namespace ninedof

@@ -1,0 +1,84 @@
+#include "ninedof/statics/ellipsoid.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "kinematics/rate_matrix.hpp"
+#include "math/linear/eliminate.hpp"
+#include "math/linear/negligible.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/math/linear/svd6.hpp"
+
+namespace ninedof {
+namespace {
+
+using Mat96 = Eigen::Matrix<double, 9, 6>;
+using Mat93 = Eigen::Matrix<double, 9, 3>;
+
+/// X with |X t| the least norm of leg rates at which the platform has the twist t: O moves as suits the legs. M of
+/// conditioning.hpp has X^T X = M^T M, but for configurations with all of the internal legs in a plane, where M lacks a
+/// row.
+Mat96 least_rates(const Geometry& g, const Configuration& c, double characteristic_length) {
+  const Mat9 h = rate_matrix(g, c, characteristic_length);
+  if (!h.allFinite()) return Mat96::Constant(not_a_number);
+  return eliminate<9, 6>(h.rightCols<3>(), h.leftCols<6>());
+}
+
+/// {y : |X y| <= 1} from the singular values of X, descending, and its right singular vectors. Singular values below
+/// `threshold` are rounding.
+template <int N>
+Ellipsoid<N> unit_ball_of(const Eigen::Matrix<double, N, 1>& sigma, const Eigen::Matrix<double, N, N>& v,
+                          double threshold) {
+  Ellipsoid<N> out{v.rowwise().reverse(), sigma.reverse()};
+  for (Eigen::Index k = 0; k < N; ++k) {
+    double& axis = out.semi_axes[k];
+    axis = axis <= threshold ? infinity : 1.0 / axis;
+    Eigen::Index largest = 0;
+    out.directions.col(k).cwiseAbs().maxCoeff(&largest);
+    if (out.directions(largest, k) < 0.0) out.directions.col(k) *= -1.0;
+  }
+  return out;
+}
+
+template <int N>
+Ellipsoid<N> no_ellipsoid() {
+  return {Eigen::Matrix<double, N, N>::Constant(not_a_number), Eigen::Matrix<double, N, 1>::Constant(not_a_number)};
+}
+
+/// {w : |w.y| <= 1 for all y of `e`}.
+template <int N>
+Ellipsoid<N> polar(const Ellipsoid<N>& e) {
+  return {e.directions.rowwise().reverse(), e.semi_axes.cwiseInverse().reverse()};
+}
+
+}  // namespace
+
+Ellipsoid<6> velocity_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {
+  const Mat96 x = least_rates(g, c, characteristic_length);
+  if (x.hasNaN()) return no_ellipsoid<6>();
+  const Mat6 r = x.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>();
+  const RightSvd svd = right_svd_6x6(r);
+  return unit_ball_of<6>(svd.sigma, svd.v, negligible * svd.sigma[0]);
+}
+
+Ellipsoid<3> velocity_ellipsoid(const Geometry& g, const Configuration& c, TwistPart part,
+                                double characteristic_length) {
+  const Mat96 x = least_rates(g, c, characteristic_length);
+  if (x.hasNaN()) return no_ellipsoid<3>();
+  const bool rotation = part == TwistPart::rotation;
+  const Mat93 looked_at = rotation ? x.leftCols<3>() : x.rightCols<3>();
+  const Mat93 other = rotation ? x.rightCols<3>() : x.leftCols<3>();
+  // The other part settles where the legs need least.
+  const Eigen::JacobiSVD<Mat93> svd(eliminate<9, 3>(other, looked_at), Eigen::ComputeFullV);
+  return unit_ball_of<3>(svd.singularValues(), svd.matrixV(), negligible * looked_at.norm());
+}
+
+Ellipsoid<6> force_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {
+  return polar(velocity_ellipsoid(g, c, characteristic_length));
+}
+
+Ellipsoid<3> force_ellipsoid(const Geometry& g, const Configuration& c, TwistPart part, double characteristic_length) {
+  return polar(velocity_ellipsoid(g, c, part, characteristic_length));
+}
+
+}  // namespace ninedof

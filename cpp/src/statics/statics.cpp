@@ -1,0 +1,110 @@
+#include "ninedof/statics/statics.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "kinematics/rate_matrix.hpp"
+#include "math/linear/eliminate.hpp"
+#include "math/linear/negligible.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/conditioning/characteristic_length.hpp"
+#include "ninedof/math/error.hpp"
+
+namespace ninedof {
+namespace {
+
+/// Where the pivots of a QR factorization stay above this fraction of the first, the singular values of a 9x9 matrix
+/// stay above a 600th of it, far from what counts as singular, and need not be computed.
+constexpr double surely_regular = 1e-9;
+
+/// A balanced load works on the free motions by rounding alone, up to this fraction of itself.
+constexpr double rounding = 64.0 * eps;
+
+/// H with moments and rotations made lengths by a length of the platform, so that no rank depends on the length unit.
+struct Scaled {
+  double length;
+  Mat9 h;
+};
+
+Scaled scaled_rates(const Geometry& g, const Configuration& c) {
+  const double length = characteristic_length(g, c, LengthKind::platform_radius);
+  return {length, rate_matrix(g, c, length)};
+}
+
+/// H^T = U S V^T with its rank; the last columns of U are the free motions, those of V the self-stresses.
+struct RankedSvd {
+  explicit RankedSvd(const Mat9& transposed) : svd(transposed, Eigen::ComputeFullU | Eigen::ComputeFullV) {
+    svd.setThreshold(negligible);
+    rank = svd.rank();
+  }
+  Eigen::JacobiSVD<Mat9> svd;
+  Eigen::Index rank;
+};
+
+Load load_from(const Vec9& v, double length) {
+  return {length * v.head<3>(), v.segment<3>(3), v.tail<3>()};
+}
+
+void require_stiffness(const Vec9& k) {
+  for (const double value : k)
+    if (value < 0.0 || std::isinf(value))
+      throw InvalidArgument("leg_stiffness", format_number(value), "finite numbers >= 0");
+}
+
+}  // namespace
+
+LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load) {
+  const auto [length, h] = scaled_rates(g, c);
+  Vec9 wanted;
+  wanted << -load.moment / length, -load.force, -load.force_at_o;
+  if (!h.allFinite() || !wanted.allFinite()) {
+    const Vec9 nothing = Vec9::Constant(not_a_number);
+    return {nothing, load_from(nothing, 1.0)};
+  }
+  const Mat9 transposed = h.transpose();
+  const Eigen::ColPivHouseholderQR<Mat9> qr(transposed);
+  if (std::abs(qr.matrixQR()(8, 8)) > surely_regular * qr.maxPivot()) return {qr.solve(wanted), {}};
+
+  const auto [svd, rank] = RankedSvd(transposed);
+  Vec9 along = svd.matrixU().transpose() * wanted;  // each motion's share of the load
+  Vec9 lost = Vec9::Zero();
+  for (Eigen::Index k = rank; k < 9; ++k) {
+    if (std::abs(along[k]) > rounding * wanted.norm()) lost -= along[k] * svd.matrixU().col(k);
+    along[k] = 0.0;
+  }
+  along.head(rank).array() /= svd.singularValues().head(rank).array();
+  Vec9 forces = svd.matrixV() * along;
+  for (Eigen::Index k = 0; k < 9; ++k)
+    if (h.row(k).isZero(0.0)) forces[k] = 0.0;  // a leg of zero length, but for rounding
+  return {forces, load_from(lost, length)};
+}
+
+SelfStress self_stress(const Geometry& g, const Configuration& c) {
+  const Mat9 h = scaled_rates(g, c).h;
+  if (!h.allFinite()) return SelfStress::Constant(9, 1, not_a_number);
+  const auto [svd, rank] = RankedSvd(h.transpose());
+  SelfStress out = svd.matrixV().rightCols(9 - rank);
+  for (Eigen::Index k = 0; k < out.cols(); ++k) {
+    Eigen::Index largest = 0;
+    out.col(k).cwiseAbs().maxCoeff(&largest);
+    if (out(largest, k) < 0.0) out.col(k) = -out.col(k);
+  }
+  return out;
+}
+
+Mat9 stiffness_with_o(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness) {
+  require_stiffness(leg_stiffness);
+  const Mat9 x = leg_stiffness.cwiseSqrt().asDiagonal() * rate_matrix(g, c);
+  return x.transpose().lazyProduct(x);
+}
+
+Mat6 stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness) {
+  require_stiffness(leg_stiffness);
+  const Mat9 x = leg_stiffness.cwiseSqrt().asDiagonal() * rate_matrix(g, c);
+  if (!x.allFinite()) return Mat6::Constant(not_a_number);
+  const Eigen::Matrix<double, 9, 6> platform = eliminate<9, 6>(x.rightCols<3>(), x.leftCols<6>());
+  return platform.transpose().lazyProduct(platform);
+}
+
+}  // namespace ninedof

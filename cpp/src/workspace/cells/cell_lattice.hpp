@@ -1,0 +1,88 @@
+#pragma once
+/// Cells of an octree on one integer lattice, and the margins at its points, each evaluated once.
+///
+/// Where O is sought, it is mapped over the corners of level 0. Any later point lies half way between two that are known by then:
+/// the ends of an edge, two opposite corners of a face or of a cell, or a corner and the centre of a larger cell.
+
+#include <cstdint>
+#include <vector>
+
+#include "workspace/cells/best_points.hpp"
+#include "workspace/cells/point_store.hpp"
+
+namespace ninedof {
+
+/// A cube of the lattice: its indices among the cells of its level.
+struct Cell {
+  std::uint32_t i = 0, j = 0, k = 0;
+  std::uint8_t level = 0;
+
+  Cell child(int octant) const {
+    const auto bit = [&](int b) { return static_cast<std::uint32_t>((octant >> b) & 1); };
+    return {2 * i + bit(0), 2 * j + bit(1), 2 * k + bit(2), static_cast<std::uint8_t>(level + 1)};
+  }
+};
+
+/// From 64-bit keys to indices 0, 1, 2, ... in the order of their arrival.
+class KeyTable {
+ public:
+  KeyTable() : slots_(1024) {}
+  /// The index of the key, which is added if it is new.
+  std::uint32_t add(std::uint64_t key);
+  /// The index of the key, or `absent`.
+  std::uint32_t find(std::uint64_t key) const;
+  static constexpr std::uint32_t absent = 0xFFFFFFFFU;
+  std::size_t size() const { return keys_.size(); }
+  std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t index = absent;
+  };
+  std::size_t place(std::uint64_t key) const;
+  void grow();
+  std::vector<Slot> slots_;
+  std::vector<std::uint64_t> keys_;
+};
+
+/// The eight corners of a cell, bit 0 of the number for x, 1 for y, 2 for z, then its centre.
+using NinePoints = std::array<std::uint32_t, 9>;
+
+class CellLattice {
+ public:
+  CellLattice(const Margins& margins, int resolution, int threads);
+
+  static constexpr int deepest = 10;
+  Vec3 centre(const Cell& c) const;
+  Vec3 size(int level) const;
+  Vec3 at(std::uint64_t key) const;
+  Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
+  const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
+
+  /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0. Throws Stopped.
+  std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
+  void evaluate(const WorkspaceControl& control, long expected, double volume);
+  long evaluations() const { return evaluations_; }
+  const MapAudit& audit() const { return best_.audit(); }
+
+  /// The margins at a point of each of some cells of level 0, which are known.
+  std::vector<PointMargins> within(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
+                                   const std::stop_token& stop);
+
+ private:
+  void map_corners(const std::stop_token& stop);
+  Anchor anchor(std::uint64_t key) const { return {at(key), table_.find(key)}; }
+  Anchors around(std::uint64_t key) const;
+  Anchors around(const Cell& cell, const Vec3& x) const;
+
+  const Margins& margins_;
+  BestPoints best_;
+  Vec3 low_, step_;  // of the finest lattice, which has the centres of the deepest cells
+  int resolution_, threads_;
+  KeyTable table_;
+  PointStore known_;
+  long evaluations_ = 0;  // of those that are finished
+};
+
+}  // namespace ninedof

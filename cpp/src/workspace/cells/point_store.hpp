@@ -1,0 +1,27 @@
+#pragma once
+/// What is known of the points of a lattice, by number. Grows without moving what is there: with millions of points a copy would
+/// take seconds in which nothing can be interrupted.
+
+#include <memory>
+#include <vector>
+
+#include "workspace/criteria/pose_margins.hpp"
+
+namespace ninedof {
+
+class PointStore {
+ public:
+  const PointMargins& operator[](std::size_t number) const { return blocks_[number / block][number % block]; }
+  PointMargins& operator[](std::size_t number) { return blocks_[number / block][number % block]; }
+
+  /// Makes room for numbers below `size`.
+  void grow(std::size_t size) {
+    while (blocks_.size() * block < size) blocks_.push_back(std::make_unique<PointMargins[]>(block));
+  }
+
+ private:
+  static constexpr std::size_t block = 4096;
+  std::vector<std::unique_ptr<PointMargins[]>> blocks_;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,80 @@
+#include "workspace/criteria/placement.hpp"
+
+#include <cmath>
+
+#include "ninedof/conditioning/conditioning.hpp"
+
+namespace ninedof {
+namespace {
+
+using Kind = InternalPointRule::Kind;
+
+Vec3 centroid(const Triple& t) {
+  return (t[0] + t[1] + t[2]) / 3.0;
+}
+
+}  // namespace
+
+Placement::Placement(const Geometry& g, const InternalPointRule& rule, const WorkspaceCriteria& criteria)
+    : g_(g), rule_(rule), lower_(centroid(g.base_internal())), upper_(centroid(g.platform_internal())) {
+  if (criteria.legs) problem_.limits = *criteria.legs;
+  problem_.characteristic_length = criteria.characteristic_length;
+}
+
+Vec3 Placement::point(const Vec3& p, const Mat3& q) const {
+  switch (rule_.kind) {
+    case Kind::fixed: return rule_.point;
+    case Kind::platform: return p + q * rule_.point;
+    case Kind::between:
+    case Kind::best: break;
+  }
+  return lower_ + (searched() ? 0.5 : rule_.fraction) * (p + q * upper_ - lower_);
+}
+
+InternalPoint Placement::best(const PlatformPose& pose) const {
+  return best_internal_point(g_, pose.position, pose.rotation, problem_);
+}
+
+InternalPoint Placement::best(const PlatformPose& pose, std::span<const Lead> leads) const {
+  const InternalPoint before = before_search(g_, pose.position, pose.rotation, problem_).point;
+  if (before.status != InternalPointStatus::singular) return before;
+  const Followed followed = follow(g_, pose, problem_, {}, leads, {});
+  return followed.best.point.status == InternalPointStatus::found ? followed.best.point : best(pose);
+}
+
+InternalPointMap Placement::best(const PoseGrid& grid, int threads, const std::stop_token& stop) const {
+  MapSettings settings;
+  settings.threads = threads;
+  settings.proceed = [&](std::size_t, std::size_t) { return !stop.stop_requested(); };
+  return best_internal_map(g_, grid, problem_, settings);
+}
+
+InternalPoint Placement::found_before(const PlatformPose& pose, const Vec3& s) const {
+  if (s.hasNaN()) return {};
+  return {s,
+          condition_number(g_, {pose.position, pose.rotation, s}, problem_.characteristic_length),
+          InternalPointStatus::found,
+          {}};
+}
+
+double Placement::speed_translating() const {
+  return rule_.kind == Kind::fixed ? 0.0 : rule_.kind == Kind::platform ? 1.0 : std::abs(rule_.fraction);
+}
+
+double Placement::speed_turning() const {
+  return rule_.kind == Kind::fixed      ? 0.0
+         : rule_.kind == Kind::platform ? rule_.point.norm()
+                                        : std::abs(rule_.fraction) * upper_.norm();
+}
+
+double Placement::relative_translating() const {
+  return rule_.kind == Kind::fixed ? 1.0 : rule_.kind == Kind::platform ? 0.0 : std::abs(1.0 - rule_.fraction);
+}
+
+double Placement::relative_turning(const Vec3& u_tilde) const {
+  return rule_.kind == Kind::fixed      ? u_tilde.norm()
+         : rule_.kind == Kind::platform ? 0.0
+                                        : (rule_.fraction * upper_ - u_tilde).norm();
+}
+
+}  // namespace ninedof

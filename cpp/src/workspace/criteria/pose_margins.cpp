@@ -1,0 +1,258 @@
+#include "workspace/criteria/pose_margins.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/batch/batch.hpp"
+#include "ninedof/singularity/singularity.hpp"
+#include "workspace/limits.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double barely_outside = -std::numeric_limits<double>::min();
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+double size_of(const Geometry& g) {
+  double most = 0.0;
+  for (const Triple* t : {&g.base_external(), &g.base_internal(), &g.platform_external(), &g.platform_internal()})
+    for (const Vec3& joint : *t) most = std::max(most, joint.norm());
+  return most;
+}
+
+void keep_least(double margin, int limit, double& least, std::uint8_t& which) {
+  if (margin < least) {
+    least = margin;
+    which = static_cast<std::uint8_t>(limit);
+  }
+}
+
+}  // namespace
+
+/// Poses of one block in the layout of batch.hpp, and what the kernels say about them.
+struct Margins::Block {
+  explicit Block(long count)
+      : p(size(3 * count)),
+        q(size(9 * count)),
+        s(size(3 * count)),
+        length(size(9 * count)),
+        kappa(size(count)),
+        det(size(3 * count)),
+        found(size(count), 1) {}
+  static std::size_t size(long n) { return static_cast<std::size_t>(n); }
+  std::vector<double> p, q, s, length, kappa, det;
+  std::vector<char> found;  // whether O has a place
+  bool one_rotation = true;
+
+  Configuration at(long k) const {
+    return {Eigen::Map<const Vec3>(&p[size(3 * k)]), Eigen::Map<const RowMajor3>(&q[one_rotation ? 0 : size(9 * k)]),
+            Eigen::Map<const Vec3>(&s[size(3 * k)])};
+  }
+};
+
+Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                 const WorkspaceCriteria& criteria, const std::optional<Configuration>& home)
+    : g_(g),
+      domain_(domain),
+      criteria_(criteria),
+      chart_(domain),
+      placement_(g, rule, criteria),
+      size_(size_of(g)),
+      share_joint_(pairs_sharing_a_joint(g)) {
+  set_ = domain.archetype == Archetype::reachable || domain.archetype == Archetype::inclusive;
+  if (home) {
+    home_ = *home;
+  } else {
+    home_.position = chart_.positional() ? Vec3(0.5 * (domain.low + domain.high)) : domain.position;
+    home_.rotation = set_ ? Mat3(Mat3::Identity()) : domain.rotations.front();
+    home_.internal_point = placement_.point(home_.position, home_.rotation);
+    if (placement_.searched()) {
+      const InternalPoint best = placement_.best({home_.position, home_.rotation});
+      if (!best.s.hasNaN()) home_.internal_point = best.s;
+    }
+  }
+  home_at_ = chart_.positional() ? home_.position : chart_.coordinates(home_.rotation);
+  if (criteria.base_cone) base_.emplace(g_, *criteria.base_cone, false, home_);
+  if (criteria.platform_cone) platform_.emplace(g_, *criteria.platform_cone, true, home_);
+  const PerMechanism at_home = singularity_margins(g, home_);
+  signs_ = {at_home.m < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
+
+  // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
+  const auto groups = [&](int count, double scale) {
+    for (int n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
+  };
+  if (criteria.legs)
+    for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
+      if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
+  groups(static_cast<int>(limited_legs_.size()), size_);
+  legs_alone_ = !chart_.has_region() && !placement_.searched();
+  if (placement_.searched()) groups(1, size_);
+  if (base_) groups(6, 1.0);
+  if (platform_) groups(6, 1.0);
+  if (criteria.leg_clearance) groups(1, size_);
+  if (criteria.condition_number) groups(1, 1.0);
+  if (criteria.singularity_free) groups(3, 1.0);
+  legs_alone_ = legs_alone_ && pose_groups_ == static_cast<int>(limited_legs_.size()) && pose_groups_ > 0;
+  groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
+}
+
+double Margins::leg_speed() const {
+  double most = 0.0;
+  for (const int leg : limited_legs_) {
+    const auto i = static_cast<std::size_t>(leg % 3);
+    const double turn = chart_.turning();
+    const Vec3 &u = g_.platform_external()[i], &u_tilde = g_.platform_internal()[i];
+    const bool moves = chart_.positional();
+    most = std::max(
+        most, leg < 3   ? (moves ? 1.0 : turn * u.norm())
+              : leg < 6 ? (moves ? placement_.relative_translating() : turn * placement_.relative_turning(u_tilde))
+                        : (moves ? placement_.speed_translating() : turn * placement_.speed_turning()));
+  }
+  return most;
+}
+
+PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
+  if (chart_.positional()) return {x, domain_.rotations[r]};
+  return {domain_.position, chart_.rotation(x)};
+}
+
+void Margins::fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at) const {
+  b.one_rotation = chart_.positional();
+  for (long k = 0; k < count; ++k) {
+    const PlatformPose here = pose(x[k], r);
+    Eigen::Map<Vec3>(&b.p[Block::size(3 * k)]) = here.position;
+    if (k == 0 || !b.one_rotation) Eigen::Map<RowMajor3>(&b.q[Block::size(9 * k)]) = here.rotation;
+    Vec3 s = placement_.point(here.position, here.rotation);
+    if (placement_.searched()) {
+      const InternalPoint best = best_at ? best_at(k, r, here) : placement_.best(here);
+      b.found[Block::size(k)] = !best.s.hasNaN();
+      b.kappa[Block::size(k)] = best.value;
+      if (!best.s.hasNaN()) s = best.s;
+    }
+    Eigen::Map<Vec3>(&b.s[Block::size(3 * k)]) = s;
+  }
+  const batch::Configurations c{b.p.data(), b.q.data(), b.s.data(), count, 3, b.one_rotation ? 0 : 9, 3};
+  if (criteria_.legs) batch::leg_lengths(g_, c, b.length.data());
+  if (!placement_.searched())
+    batch::condition_numbers(g_, c, {&criteria_.characteristic_length, 0}, Norm::two, b.kappa.data());
+  if (criteria_.singularity_free) batch::singularity_margins(g_, c, b.det.data());
+}
+
+PointMargins Margins::judge_one(const Block& b, long k) const {
+  PointMargins m;
+  m.proof = infinity;
+  std::size_t next = 0;
+  const auto put = [&](double margin, int which) {
+    m.margin[next] = margin;
+    m.limit[next++] = static_cast<std::uint8_t>(which);
+  };
+  for (const int leg : limited_legs_) {
+    const double length = b.length[Block::size(9 * k + leg)];
+    const double above = length - criteria_.legs->low[leg], below = criteria_.legs->high[leg] - length;
+    put(std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
+    m.proof = std::min({m.proof, above, below});
+  }
+  // O has a place or has none: no measure of how nearly. Where an external leg is out of its limits, none was sought.
+  if (placement_.searched())
+    put(b.found[Block::size(k)] || m.proof < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
+  const Configuration c = b.at(k);
+  const auto put_cones = [&](const Cones& cones, int first) {
+    for (const double margin : cones.margins(c)) put(margin, first++);
+  };
+  if (base_) put_cones(*base_, limit::base_cone);
+  if (platform_) put_cones(*platform_, limit::platform_cone);
+  if (criteria_.leg_clearance) {
+    const Closest closest = closest_legs(g_, c, share_joint_);
+    put(std::min(closest.distance, 10.0 * scale_[next]) - *criteria_.leg_clearance,
+        limit::clearance + std::max(closest.pair, 0));
+  }
+  m.condition_number = b.kappa[Block::size(k)];
+  // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
+  if (criteria_.condition_number) {
+    const double margin = *criteria_.condition_number / m.condition_number - 1.0;
+    // Without a place for O there is none; that is the limit then, and not this.
+    const double none = placement_.searched() ? 1.0 : -1.0;
+    put(std::isnan(margin) ? none : margin, limit::condition_number);
+  }
+  if (criteria_.singularity_free)
+    for (int d = 0; d < 3; ++d) {
+      const double margin = signs_[static_cast<std::size_t>(d)] * b.det[Block::size(3 * k + d)];
+      put(margin == 0.0 ? barely_outside : margin, limit::det_m + d);
+    }
+  return m;
+}
+
+void Margins::judge(Block& b, long count, PointMargins* out) const {
+  for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
+}
+
+void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
+                       const BestAt& best) const {
+  if (stop.stop_requested()) throw Stopped{};
+  Block b(count);
+  if (!chart_.positional()) {
+    fill(b, x, count, 0, best);
+    judge(b, count, out);
+    for (long k = 0; k < count; ++k) {
+      out[k].margin[static_cast<std::size_t>(groups_ - 1)] = chart_.region_margin(x[k]);
+      out[k].limit[static_cast<std::size_t>(groups_ - 1)] = limit::region;
+    }
+    return;
+  }
+  if (!set_) {
+    fill(b, x, count, 0, best);
+    judge(b, count, out);
+    return;
+  }
+  // Of a set, the margins of one rotation stand for all: of the one with the greatest or the least of its own least margins.
+  const bool some = domain_.archetype == Archetype::reachable;
+  std::vector<PointMargins> now(static_cast<std::size_t>(count));
+  for (std::size_t r = 0; r < domain_.rotations.size(); ++r) {
+    if (stop.stop_requested()) throw Stopped{};
+    fill(b, x, count, r, best);
+    judge(b, count, now.data());
+    for (long k = 0; k < count; ++k) {
+      PointMargins& one = now[static_cast<std::size_t>(k)];
+      double least = infinity;
+      std::uint8_t which = 0;
+      for (int i = 0; i < pose_groups_; ++i) {
+        const auto n = static_cast<std::size_t>(i);
+        keep_least(one.margin[n] / scale_[n], one.limit[n], least, which);
+      }
+      one.margin[0] = least;
+      one.limit[0] = which;
+      PointMargins& all = out[k];
+      if (r == 0) {
+        all = one;
+        continue;
+      }
+      const double proof = some ? std::max(all.proof, one.proof) : std::min(all.proof, one.proof);
+      const bool both = least >= 0.0 && all.margin[0] >= 0.0;
+      // The condition number is that of the best allowed rotation, or of the worst of all.
+      const double kappa = some && !both ? (least >= 0.0 ? one : all).condition_number
+                           : some        ? std::min(all.condition_number, one.condition_number)
+                                         : std::max(all.condition_number, one.condition_number);
+      if (some ? least > all.margin[0] : least < all.margin[0]) all = one;
+      all.proof = proof;
+      all.condition_number = kappa;
+    }
+  }
+}
+
+int Margins::violated(const PointMargins& m) const {
+  double least = 0.0;
+  int out = -1;
+  for (int i = 0; i < groups_; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const double scale = set_ || i >= pose_groups_ ? 1.0 : scale_[n];
+    if (!(m.margin[n] / scale >= least)) {
+      least = m.margin[n] / scale;
+      out = m.limit[n];
+    }
+  }
+  return out;
+}
+
+}  // namespace ninedof

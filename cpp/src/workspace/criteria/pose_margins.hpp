@@ -1,0 +1,99 @@
+#pragma once
+/// Margins of many points of a chart: what every method of a workspace asks for.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "workspace/chart.hpp"
+#include "workspace/criteria/cones.hpp"
+#include "workspace/criteria/pairs.hpp"
+#include "workspace/criteria/placement.hpp"
+
+namespace ninedof {
+
+/// Thrown inside the search when a stop is requested; never leaves workspace().
+struct Stopped {};
+
+constexpr int most_groups = 9 + 6 + 6 + 1 + 1 + 3 + 1;  // legs, cones, clearance, condition, singularities, region
+
+/// What is known of one point. Allowed means that every margin is at least zero.
+struct PointMargins {
+  std::array<double, most_groups> margin{};
+  std::array<std::uint8_t, most_groups> limit{};  ///< which of limit_names() each margin is that of
+  double proof = 0.0;            ///< least margin of the legs whose lengths cannot change faster than leg_speed()
+  double condition_number = 0.0;
+
+  bool allowed(int groups) const {
+    for (int g = 0; g < groups; ++g)
+      if (!(margin[static_cast<std::size_t>(g)] >= 0.0)) return false;
+    return true;
+  }
+};
+
+/// The best O at the k-th of some points, with the r-th rotation of the domain.
+using BestAt = std::function<InternalPoint(long k, std::size_t r, const PlatformPose& pose)>;
+
+class Margins {
+ public:
+  Margins(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+          const WorkspaceCriteria& criteria, const std::optional<Configuration>& home);
+  Margins(const Margins&) = delete;
+  Margins& operator=(const Margins&) = delete;
+
+  const Chart& chart() const { return chart_; }
+  const Placement& placement() const { return placement_; }
+  /// The poses of a point: one for each rotation of a set.
+  std::size_t poses() const { return set_ ? domain_.rotations.size() : 1; }
+  PlatformPose pose(const Vec3& x, std::size_t r) const;
+  /// The size of the robot: lengths are compared with it.
+  double size() const { return size_; }
+  int groups() const { return groups_; }
+  /// Lengths per unit of the coordinates, at most.
+  double leg_speed() const;
+  /// Whether `proof` says all there is to say.
+  bool legs_alone() const { return legs_alone_; }
+  /// The home pose in the chart.
+  const Vec3& home() const { return home_at_; }
+  bool in_chart(const Vec3& x) const {
+    return (x.array() >= chart_.low().array()).all() && (x.array() <= chart_.high().array()).all();
+  }
+
+  /// Points that are best evaluated together: enough for the batch kernels, few enough to stop between two.
+  long block() const { return placement_.searched() ? 8 : set_ ? 32 : 512; }
+
+  /// Whether a few thousand poses more do not matter.
+  bool cheap() const { return !placement_.searched(); }
+
+  /// Throws Stopped. `best` says where O is, if it is sought; without it each pose is searched.
+  void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
+                const BestAt& best = {}) const;
+
+  /// What forbids a point, by margins made comparable; -1 for nothing.
+  int violated(const PointMargins& m) const;
+
+ private:
+  struct Block;
+  void fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best) const;
+  void judge(Block& b, long count, PointMargins* out) const;
+  PointMargins judge_one(const Block& b, long k) const;
+
+  const Geometry& g_;
+  WorkspaceDomain domain_;
+  WorkspaceCriteria criteria_;
+  Chart chart_;
+  Placement placement_;
+  double size_;
+  Configuration home_;
+  Vec3 home_at_;
+  std::optional<Cones> base_, platform_;
+  std::array<bool, leg_pairs> share_joint_;
+  std::vector<int> limited_legs_;
+  std::array<double, 3> signs_{};
+  std::array<double, most_groups> scale_{};  // of each group of one pose
+  int pose_groups_ = 0, groups_ = 0;
+  bool set_ = false, legs_alone_ = false;
+};
+
+}  // namespace ninedof

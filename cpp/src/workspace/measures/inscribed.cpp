@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "workspace/measures/near_points.hpp"
+#include "workspace/measures/solid_box.hpp"
+#include "workspace/measures/surface.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr int rays = 500;        // on which a ball is checked
+constexpr int candidates = 6;    // cells from which the centre of the ball is sought
+constexpr std::size_t most_points = 12'000;  // of the surface that are looked at
+
+/// Every n-th point: more than some thousands only cost time, since their distance enters by its square.
+std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
+  const std::size_t stride = points.size() / most_points + 1;
+  std::vector<Vec3> out;
+  for (std::size_t n = 0; n < points.size(); n += stride) out.push_back(points[n]);
+  return out;
+}
+
+/// Distance from the surface and from the walls of the chart.
+class Room {
+ public:
+  Room(const Chart& chart, const std::vector<Vec3>& surface)
+      : chart_(chart), near_(chart.low(), chart.high(), surface) {}
+  double at(const Vec3& x) const {
+    double wall = infinity;
+    for (int axis = chart_.first_wall(); axis < 3; ++axis)
+      wall = std::min({wall, x[axis] - chart_.low()[axis], chart_.high()[axis] - x[axis]});
+    return wall <= 0.0 ? wall : std::min(wall, near_.distance(x));
+  }
+
+ private:
+  const Chart& chart_;
+  NearPoints near_;
+};
+
+/// Moves a centre while that gives room, in ever smaller steps; never out of its own ball, and so not across the surface.
+InscribedBall settled(const Room& room, InscribedBall ball, double step) {
+  const double least = 1e-5 * step;
+  step = std::min(step, 0.5 * ball.radius);
+  for (; step > least; step *= 0.5)
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (int n = 0; n < 27; ++n) {
+        const Vec3 way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        const Vec3 there = ball.centre + step * way;
+        const double radius = room.at(there);
+        if (radius <= ball.radius * (1.0 + 1e-12)) continue;
+        ball = {there, radius};
+        moved = true;
+      }
+    }
+  return ball;
+}
+
+std::vector<char> allowed_at(const Margins& margins, const std::vector<Vec3>& x, const WorkspaceControl& control) {
+  std::vector<PointMargins> out(x.size());
+  margins.evaluate(x.data(), static_cast<long>(x.size()), out.data(), control.stop);
+  std::vector<char> allowed;
+  for (const PointMargins& m : out) allowed.push_back(m.allowed(margins.groups()));
+  return allowed;
+}
+
+/// Points of the unit sphere, evenly (Fibonacci).
+Vec3 ray(int n) {
+  constexpr double golden = 2.399963229728653;
+  const double z = 1.0 - (2.0 * n + 1.0) / rays, r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(golden * n), r * std::sin(golden * n), z};
+}
+
+void check(InscribedBall& ball, const Margins& margins, const WorkspaceControl& control) {
+  double low = 0.9 * ball.radius, high = ball.radius;
+  const auto fits = [&](double radius) {
+    std::vector<Vec3> x;
+    for (int n = 0; n < rays; ++n) x.push_back(ball.centre + radius * ray(n));
+    const std::vector<char> allowed = allowed_at(margins, x, control);
+    return std::ranges::all_of(allowed, [](char a) { return a != 0; });
+  };
+  if (fits(high)) return;
+  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  ball.radius = low;
+}
+
+void check(InscribedBox& box, const Margins& margins, const WorkspaceControl& control) {
+  constexpr int steps = 9;
+  const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+  const auto fits = [&](double scale) {
+    std::vector<Vec3> x;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int n = 0; n < 2 * steps * steps; ++n) {
+        Vec3 at;
+        at[axis] = n % 2 == 0 ? -1.0 : 1.0;
+        at[(axis + 1) % 3] = 2.0 * (n / 2 % steps) / (steps - 1) - 1.0;
+        at[(axis + 2) % 3] = 2.0 * (n / 2 / steps) / (steps - 1) - 1.0;
+        x.push_back(middle + scale * at.cwiseProduct(half));
+      }
+    const std::vector<char> allowed = allowed_at(margins, x, control);
+    return std::ranges::all_of(allowed, [](char a) { return a != 0; });
+  };
+  double low = 0.9, high = 1.0;
+  if (fits(high)) return;
+  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  box = {middle - low * half, middle + low * half};
+}
+
+}  // namespace
+
+void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
+              const Surface& surface, bool first_piece_alone, const WorkspaceControl& control, WorkspaceMap& map) {
+  const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
+  const std::vector<Vec3> points = thinned(surface.points);
+  const Room room(margins.chart(), points);
+  int coarsest = CellLattice::deepest;
+  for (const Leaf& leaf : leaves)
+    if (leaf.inside == 255 && counted(leaf)) coarsest = std::min<int>(coarsest, leaf.cell.level);
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    const Leaf& leaf = leaves[n];
+    if (leaf.inside != 255 || !counted(leaf) || leaf.cell.level > coarsest + 1)
+      continue;  // small cells are by the boundary
+    const double radius = room.at(lattice.centre(leaf.cell));
+    if (radius > 0.0) found.emplace_back(radius, n);
+  }
+  const std::size_t few = std::min<std::size_t>(candidates, found.size());
+  std::partial_sort(
+      found.begin(), found.begin() + static_cast<std::ptrdiff_t>(few), found.end(),
+      [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  for (std::size_t n = 0; n < few; ++n) {
+    const Cell& cell = leaves[found[n].second].cell;
+    const InscribedBall ball = settled(room, {lattice.centre(cell), found[n].first}, lattice.size(0).maxCoeff());
+    if (ball.radius > map.ball.radius) map.ball = ball;
+  }
+  if (const auto box = largest_box(leaves, lattice, points, margins.chart(), first_piece_alone, map.resolution))
+    map.box = *box;
+  if (!margins.cheap()) return;
+  if (map.ball.radius > 0.0) check(map.ball, margins, control);
+  if (!map.box.low.hasNaN()) check(map.box, margins, control);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,26 @@
+#pragma once
+/// The nearest of many points, by bins.
+
+#include <vector>
+
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+class NearPoints {
+ public:
+  NearPoints(const Vec3& low, const Vec3& high, const std::vector<Vec3>& points);
+  /// Distance to the nearest point; infinite if there is none.
+  double distance(const Vec3& x) const;
+
+ private:
+  static constexpr int bins = 32;  // along each side
+  std::size_t bin(const int (&at)[3]) const { return static_cast<std::size_t>((at[2] * bins + at[1]) * bins + at[0]); }
+  void place(const Vec3& x, int (&at)[3]) const;
+
+  Vec3 low_, size_;
+  std::vector<std::size_t> begin_;
+  std::vector<Vec3> points_;
+};
+
+}  // namespace ninedof

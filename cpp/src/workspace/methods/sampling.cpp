@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/parallel.hpp"
+#include "workspace/cells/best_points.hpp"
+#include "workspace/limits.hpp"
+#include "workspace/measures/surface.hpp"
+#include "workspace/sequence.hpp"
+
+namespace ninedof {
+namespace {
+
+/// With 95 % confidence less than this was missed by `count` points spread evenly over the box.
+double missed(const Margins& m, long count) {
+  return 3.0 * m.chart().box_volume() / static_cast<double>(count);
+}
+
+/// Evaluates `count` points in order, with news between pieces of work.
+std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads,
+                                    const WorkspaceControl& control, long before, long total,
+                                    const BestPoints* mapped = nullptr) {
+  std::vector<PointMargins> out(x.size());
+  const long count = static_cast<long>(x.size()), piece = 64 * m.block();
+  for (long done = 0; done < count; done += piece) {
+    const long now = std::min(piece, count - done);
+    parallel_for(now, m.block(), threads, [&](long from, long to) {
+      const auto first = static_cast<std::size_t>(done + from);
+      BestAt best;
+      if (mapped)
+        best = [&](long k, std::size_t r, const PlatformPose& pose) {
+          return mapped->at(first + static_cast<std::size_t>(k), r, pose);
+        };
+      m.evaluate(&x[first], to - from, &out[first], control.stop, best);
+    });
+    if (control.progress) control.progress(before + done + now, total, not_a_number);
+  }
+  return out;
+}
+
+Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
+  Leaf leaf;
+  const bool allowed = at.allowed(m.groups());
+  leaf.state = allowed ? CellState::inside : CellState::outside;
+  leaf.inside = allowed ? 255 : 0;
+  leaf.fraction = allowed ? 1.0 : 0.0;
+  leaf.limit = static_cast<std::int16_t>(allowed ? -1 : m.violated(at));
+  leaf.measure = measure;
+  leaf.condition_number = at.condition_number;
+  if (allowed && !std::isnan(at.condition_number)) {
+    leaf.conditioning = leaf.conditioning_coarse = measure / at.condition_number;
+    leaf.worst = at.condition_number;
+  }
+  return leaf;
+}
+
+}  // namespace
+
+void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone,
+                 const WorkspaceControl& control, WorkspaceMap& map) {
+  const int n = settings.resolution;
+  if (static_cast<double>(n) * n * n > static_cast<double>(settings.most_evaluations))
+    throw InvalidArgument(
+        "resolution", std::to_string(n),
+        "a grid of at most most_evaluations = " + std::to_string(settings.most_evaluations) + " cells");
+  CellLattice lattice(m, n, settings.threads);
+  std::vector<Cell> cells;
+  std::vector<Vec3> x;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        cells.push_back(
+            {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), 0});
+        x.push_back(lattice.centre(cells.back()));
+      }
+  const Vec3 size = lattice.size(0);
+  BestPoints best(m);
+  if (best.needed()) {
+    std::vector<std::size_t> numbers(x.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    best.reserve(x.size());
+    const auto side = static_cast<std::size_t>(n);
+    best.map(x, {side, side, side}, numbers, settings.threads, control.stop);
+    map.internal_points = best.audit();
+  }
+  const std::vector<PointMargins> known =
+      evaluated(m, x, settings.threads, control, 0, static_cast<long>(x.size()), best.needed() ? &best : nullptr);
+  std::vector<Leaf> leaves;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    leaves.push_back(leaf_of(known[c], m, size.prod() * m.chart().density(x[c])));
+    leaves.back().cell = cells[c];
+  }
+  map.pieces = find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt);
+
+  Surface surface;
+  surface.area.assign(limit::count, 0.0);
+  double undecided = 0.0;
+  map.volume = 0.0;
+  const auto counted = [&](const Leaf& l) { return l.inside != 0 && (!first_piece_alone || l.piece == 0); };
+  const std::size_t stride[] = {1, static_cast<std::size_t>(n),
+                                static_cast<std::size_t>(n) * static_cast<std::size_t>(n)};
+  for (std::size_t c = 0; c < leaves.size(); ++c) {
+    Leaf& leaf = leaves[c];
+    if (!counted(leaf)) continue;
+    map.volume += leaf.measure;
+    const std::uint32_t at[] = {leaf.cell.i, leaf.cell.j, leaf.cell.k};
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int way : {-1, 1}) {
+        const double area = size.prod() / size[axis];
+        if (at[axis] == (way < 0 ? 0U : static_cast<std::uint32_t>(n - 1))) {
+          if (axis >= m.chart().first_wall()) surface.area[limit::box] += area;
+          continue;
+        }
+        Leaf& other = leaves[way < 0 ? c - stride[axis] : c + stride[axis]];
+        if (counted(other)) continue;
+        if (leaf.state != CellState::boundary) undecided += leaf.measure * leaf.measure;
+        leaf.state = CellState::boundary;
+        if (other.limit >= 0) {
+          surface.area[static_cast<std::size_t>(other.limit)] += area;
+          leaf.limit = other.limit;
+        }
+        surface.points.push_back(lattice.centre(leaf.cell) + 0.5 * way * size[axis] * Vec3::Unit(axis));
+      }
+  }
+  // A cell that the boundary cuts is right to within a uniformly distributed part of it. Neighbours err alike along a smooth
+  // boundary: four standard errors of independent ones.
+  map.error = 4.0 * std::sqrt(undecided / 12.0);
+  map.unseen = missed(m, static_cast<long>(x.size()));
+  if (!(map.volume > 0.0)) map.error = map.unseen;
+  map.evaluations = static_cast<long>(x.size());
+  map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
+  map.limit_area = surface.area;
+  map.resolution = n;
+  summarize(leaves, lattice, first_piece_alone, map);
+  if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
+}
+
+void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const WorkspaceControl& control,
+                   WorkspaceMap& map) {
+  const Chart& chart = m.chart();
+  const Vec3 side = chart.high() - chart.low();
+  const double measure = chart.box_volume() / static_cast<double>(settings.points);
+  std::vector<double> volume, index;
+  std::vector<Leaf> leaves;
+  std::vector<Vec3> where;
+  const long total = settings.points * settings.shifts;
+  for (int shift = 0; shift < settings.shifts; ++shift) {
+    const Vec3 from = sequence_shift(settings.seed, static_cast<std::uint64_t>(shift));
+    std::vector<Vec3> x;
+    for (long n = 0; n < settings.points; ++n) x.push_back(chart.low() + sequence_point(n, from).cwiseProduct(side));
+    const std::vector<PointMargins> known = evaluated(m, x, settings.threads, control, shift * settings.points, total);
+    double held = 0.0, conditioning = 0.0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      leaves.push_back(leaf_of(known[n], m, measure / settings.shifts * chart.density(x[n])));
+      held += leaves.back().fraction * leaves.back().measure * settings.shifts;
+      conditioning += leaves.back().conditioning * settings.shifts;
+    }
+    where.insert(where.end(), x.begin(), x.end());
+    volume.push_back(held);
+    index.push_back(conditioning);
+  }
+  const auto mean_and_error = [&](const std::vector<double>& values) {
+    double mean = 0.0, square = 0.0;
+    for (const double v : values) mean += v / settings.shifts;
+    for (const double v : values) square += (v - mean) * (v - mean);
+    return std::pair(mean, std::sqrt(square / (settings.shifts - 1.0) / settings.shifts));
+  };
+  std::tie(map.volume, map.error) = mean_and_error(volume);
+  map.unseen = missed(m, total);
+  if (!(map.volume > 0.0)) map.error = map.unseen;
+  map.evaluations = total;
+  map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
+  map.resolution = settings.resolution;
+  const CellLattice lattice(m, settings.resolution, settings.threads);
+  summarize(leaves, lattice, false, map);
+  map.cells.centre = where;
+  double worst = 0.0;
+  for (std::size_t n = 0; n < leaves.size(); ++n)
+    if (leaves[n].worst > worst) {
+      worst = leaves[n].worst;
+      map.worst_at = where[n];
+    }
+  if (!(map.volume > 0.0)) return;
+  std::vector<double> ratio;
+  for (std::size_t k = 0; k < volume.size(); ++k)
+    ratio.push_back((index[k] - map.conditioning_index * volume[k]) / map.volume);
+  map.conditioning_index_error = mean_and_error(ratio).second;
+}
+
+}  // namespace ninedof
