@@ -15,7 +15,7 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G
 
 import ninedof as nd
-from ninedof.sweep import cluster
+from ninedof.sweep import cluster as schedulers
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.index import indices_of
 from ninedof.sweep.poses import COORDINATES, Poses
@@ -331,7 +331,7 @@ def test_a_missing_scheduler_is_said_in_one_line(tmp_path, capsys, monkeypatch, 
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     from ninedof.cli.app import main
 
-    monkeypatch.setattr(cluster, "PATIENCE", 0.2)
+    monkeypatch.setattr(schedulers, "PATIENCE", 0.2)
     out = tmp_path / "run"
     with socket.create_server(("127.0.0.1", 0)) as silent:  # listens and says nothing
         address = address.replace("SILENT", str(silent.getsockname()[1]))
