@@ -51,6 +51,7 @@ from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
+from ninedof.verify import check
 from ninedof.workspace import (
     WorkspaceCells,
     WorkspaceMap,
@@ -103,6 +104,7 @@ __all__ = [
     "best_internal_path",
     "best_internal_point",
     "characteristic_length",
+    "check",
     "condition_number",
     "distance_to_singularity",
     "error_bounds",

@@ -19,7 +19,7 @@ from ninedof.design.study_file import read_toml, study_arguments, study_tables, 
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
 
-__all__ = ["DesignPoint", "Study"]
+__all__ = ["Study"]
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
@@ -142,7 +142,7 @@ class Study:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tables of a study file; `Study.from_dict` reads them back."""
-        return study_tables(self)
+        return study_tables(vars(self))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file."""

@@ -6,14 +6,11 @@ import os
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ninedof.design import limits
 from ninedof.design.objective import Objective
 from ninedof.support.arguments import known_keys, table
-
-if TYPE_CHECKING:
-    from ninedof.design.study import Study
 
 __all__ = ["read_toml", "study_arguments", "study_tables", "write_toml"]
 
@@ -65,16 +62,16 @@ def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def study_tables(study: Study) -> dict[str, Any]:
-    """Return the tables of a study file."""
-    length = study.characteristic_length
+def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a study file for the arguments of a `Study`, as it normalizes them."""
+    length = arguments["characteristic_length"]
     return {
         "design": {
-            "family": study.family,
+            "family": arguments["family"],
             "characteristic_length": list(length) if isinstance(length, tuple) else length,
         },
-        "variables": {name: list(b) if isinstance(b, tuple) else b for name, b in study.variables.items()},
-        "constraints": {name: limits.to_table(name, limit) for name, limit in study.constraints.items()},
-        "objective": study.objective.to_dict(),
-        "solver": {"starts": study.starts, "seed": study.seed},
+        "variables": {name: list(b) if isinstance(b, tuple) else b for name, b in arguments["variables"].items()},
+        "constraints": {name: limits.to_table(name, limit) for name, limit in arguments["constraints"].items()},
+        "objective": arguments["objective"].to_dict(),
+        "solver": {"starts": arguments["starts"], "seed": arguments["seed"]},
     }

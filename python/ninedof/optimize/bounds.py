@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import axis_singular_values
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-
-if TYPE_CHECKING:
-    from ninedof.optimize.optimize import Result
 
 __all__ = [
     "HEXAGONAL_LIMIT",

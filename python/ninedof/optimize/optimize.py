@@ -12,7 +12,7 @@ from ninedof.optimize.result import Candidate, Result, Status, candidate_of
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
 
-__all__ = ["Candidate", "Result", "Status", "Trace", "optimize", "trace"]
+__all__ = ["Trace", "optimize", "trace"]
 
 Progress = Callable[[int, int, float], object]
 """Called with (starts done, starts in all, best objective so far)."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ninedof.design.study import Study
-from ninedof.optimize import summary as words
+from ninedof.optimize.prices import price_words
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 
@@ -157,23 +157,25 @@ class Result:
         return self.best.constraint_violation if self.best else None
 
     def summary(self) -> str:
-        """Return a few lines: how it ended, the objective, what binds and at what price, how many starts agree."""
-        return words.summary(self)
-
-    def check(self, perturbations: int = 4000, seed: int = 0) -> Any:
-        """Evaluate the best design again through the general path, and try to improve on it.
-
-        Parameters
-        ----------
-        perturbations : int
-            How many designs around it are tried.
-        seed : int
-            Of the perturbations.
-
-        """
-        from ninedof.verify import check
-
-        return check(self, perturbations, seed)
+        """Return a few lines: status, objective, what binds and at what price, how many starts agree."""
+        lines = [f"{self.status}: {self.reason}"]
+        best = self.best
+        if best is None:
+            return lines[0]
+        objective = self.study.objective
+        value = f"{objective.words} {best.objective:.6f}"
+        if objective.index != "condition_number" or objective.poses:
+            value += f"; condition number {best.condition_number:.6f} at the neutral pose"
+        if len(best.conditions) > 1:
+            value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
+        lines.append(value)
+        lines.append(f"limits reached: {', '.join(best.active) or 'nothing'}")
+        lines.extend(price_words(self.study, best.variables, best.prices))
+        found = f"{best.reached} of {self.starts_done} starts ended here ({100.0 * self.confidence:.0f} %)"
+        if len(self.candidates) > 1:
+            found += f"; the next best optimum has {self.candidates[1].objective:.6f}"
+        lines.append(found)
+        return "\n".join(lines)
 
 
 def candidate_of(problem: _core.Problem, found: _core.Candidate) -> Candidate:

@@ -16,7 +16,8 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.optimize import Progress, Result, optimize
+from ninedof.optimize.optimize import Progress, optimize
+from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 

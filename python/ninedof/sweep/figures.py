@@ -12,7 +12,8 @@ from ninedof.chunks import Arrays, Progress, kept, run
 from ninedof.chunks.crew import Executors, check_executor
 from ninedof.chunks.run import check_progress
 from ninedof.design.study import Study
-from ninedof.optimize.optimize import Status, optimize
+from ninedof.optimize.optimize import optimize
+from ninedof.optimize.result import Status
 from ninedof.paper import paper
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry

@@ -5,21 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.result import Result
 from ninedof.support.arrays import Floats
 from ninedof.verify.aim import Aim
 from ninedof.verify.perturbation import SCALES, perturb
 from ninedof.verify.robot import Places
 from ninedof.verify.rules import Limit, limits_of, margins
 from ninedof.verify.stationarity import stationarity
-
-if TYPE_CHECKING:
-    from ninedof.optimize.optimize import Result
 
 __all__ = ["Check", "Finding", "check"]
 
@@ -54,7 +52,7 @@ class Check:
         return all(finding.passed for finding in self.findings)
 
     def __bool__(self) -> bool:
-        """Be true where every test was passed."""
+        """Return True if all tests passed."""
         return self.passed
 
     def __getitem__(self, name: str) -> Finding:
@@ -113,8 +111,7 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof.verify import check
-    >>> found = check(nd.optimize(nd.Study.paper()), perturbations=500)
+    >>> found = nd.check(nd.optimize(nd.Study.paper()), perturbations=500)
     >>> found.passed, found["stationarity"].passed
     (True, True)
 

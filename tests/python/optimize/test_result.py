@@ -9,7 +9,7 @@ import pytest
 
 import ninedof as nd
 from ninedof import poses
-from ninedof.optimize.summary import price_words
+from ninedof.optimize.prices import price_words
 from ninedof.runs.records import describe_result, to_json
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
@@ -64,7 +64,7 @@ def test_summary_says_what_matters(result):
 def test_prices_say_which_way_a_limit_gives(result, constraint, words):
     study = dataclasses.replace(STUDY, constraints={"radius_ratio": constraint})
     best = dataclasses.replace(result.best, prices={"radius_ratio": 0.1234, "a1": 1e-9})
-    assert price_words(study, best) == [f"1 % {words} buys 0.123 %"]
+    assert price_words(study, best.variables, best.prices) == [f"1 % {words} buys 0.123 %"]
 
 
 def test_prices_of_bounds_say_which_bound(result):
@@ -72,7 +72,7 @@ def test_prices_of_bounds_say_which_bound(result):
     best = dataclasses.replace(
         result.best, prices={"a2": 0.5, "zp": 0.25}, variables=result.best.variables | {"a2": 6.0, "zp": 2.0}
     )
-    assert price_words(study, best) == ["1 % more a2 buys 0.5 %", "1 % less zp buys 0.25 %"]
+    assert price_words(study, best.variables, best.prices) == ["1 % more a2 buys 0.5 %", "1 % less zp buys 0.25 %"]
 
 
 def test_a_result_can_be_written(result):

@@ -16,6 +16,7 @@ from ninedof.paper import paper as the_paper
 from ninedof.runs import job
 from ninedof.runs.records import describe_result
 from ninedof.support.arrays import thread_argument
+from ninedof.verify.verdict import check as examine
 
 
 def optimize(
@@ -87,7 +88,7 @@ def _checked(result: Result, wanted: bool, screen: Screen) -> dict[str, Any]:
     """Check the best design where asked to, say how it went, and return it for the machine-readable result."""
     if not wanted or result.best is None:
         return {}
-    verdict = result.check()
+    verdict = examine(result)
     screen.print(verdict.report())
     return {"check": {"passed": verdict.passed, "report": verdict.report()}}
 

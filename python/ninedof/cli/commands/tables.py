@@ -5,8 +5,8 @@ from __future__ import annotations
 from rich.table import Table
 
 from ninedof.design.study import LENGTH
+from ninedof.optimize.prices import price_words
 from ninedof.optimize.result import Candidate, Result
-from ninedof.optimize.summary import price_words
 
 SHOWN = 4  # candidates, side by side
 MOST_FIXED = 8  # variables; of more, only the free ones are listed
@@ -50,7 +50,7 @@ def price_text(result: Result) -> list[str]:
     hopeless = (
         f"; {result.stopped_early} of {result.starts_done} were given up as hopeless" if result.stopped_early else ""
     )
-    return ["\n".join([*price_words(result.study, result.best), sure + hopeless])]
+    return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure + hopeless])]
 
 
 def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:
