@@ -60,6 +60,28 @@ def test_every_public_name_is_there_and_no_other():
     assert re.fullmatch(r"\d+\.\d+\.\d+.*", nd.__version__)
 
 
+def test_no_module_hides_a_public_name_however_late_it_is_imported():
+    """Rooms have names of functions, such as optimize: an import of a module sets the room as attribute of ninedof."""
+    modules = [
+        ".".join(["ninedof", *path.relative_to(PACKAGE).with_suffix("").parts]).removesuffix(".__init__")
+        for path in sorted(PACKAGE.rglob("*.py"))
+        if path.name != "__main__.py"
+    ]
+    assert {"ninedof.optimize.result", "ninedof.sweep.cluster", "ninedof.cli.app"} <= set(modules)
+    code = f"""
+import importlib, ninedof as nd
+before = {{name: getattr(nd, name) for name in nd.__all__}}
+assert all(callable(thing) for thing in before.values())
+for module in {modules!r}:
+    importlib.import_module(module)
+import ninedof.optimize.result
+from ninedof import paper, plot, poses
+assert callable(poses.box) and callable(plot.save)
+assert [name for name in before if getattr(nd, name) is not before[name]] == []
+"""
+    assert run(code).stderr == ""
+
+
 @pytest.mark.parametrize(("name", "parameters"), PROMISED.items(), ids=PROMISED.keys())
 def test_promised_parameters_keep_name_and_order(name, parameters):
     found = list(inspect.signature(getattr(nd, name)).parameters)
