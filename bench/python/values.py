@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import ninedof as nd
-from ninedof.bounds import HEXAGONAL_LIMIT, HEXAGONAL_TWIST_LIMIT, kappa_star, planar_leg_ratio_bound
+from ninedof.optimize.bounds import HEXAGONAL_LIMIT, HEXAGONAL_TWIST_LIMIT, kappa_star, planar_leg_ratio_bound
 
 ROOT = Path(__file__).parents[2]
 MISS = 1e-6  # relative

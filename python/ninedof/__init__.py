@@ -8,11 +8,9 @@ except ImportError as error:  # a source tree without its compiled part
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
-from ninedof.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
-from ninedof.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.atlas import atlas
-from ninedof.bounds import LowerBound, applicable_bounds
-from ninedof.conditioning import (
+from ninedof.conditioning.characteristic_length import characteristic_length
+from ninedof.conditioning.conditioning import (
     axis_singular_values,
     condition_number,
     hexagonal_condition_number,
@@ -21,21 +19,25 @@ from ninedof.conditioning import (
     reciprocal_condition_number,
     singular_values,
 )
-from ninedof.configuration import Configuration
-from ninedof.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
-from ninedof.forward_position import AssemblyModes, PositionStatus, forward_position
-from ninedof.geometry import Geometry
-from ninedof.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
-from ninedof.lengths import characteristic_length
-from ninedof.objective import Objective
-from ninedof.optimize import Trace, optimize, trace
+from ninedof.design import poses as poses
+from ninedof.design.design_point import DesignPoint
+from ninedof.design.objective import Objective
+from ninedof.design.pose import Pose
+from ninedof.design.study import Study
+from ninedof.kinematics.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
+from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
+from ninedof.kinematics.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.optimize.bounds import LowerBound, applicable_bounds
+from ninedof.optimize.optimize import Trace, optimize, trace
+from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.pareto import Front, pareto
-from ninedof.point import DesignPoint
-from ninedof.pose import Pose
-from ninedof.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
-from ninedof.redundancy_map import InternalPointMap, MapAudit, best_internal_map
-from ninedof.result import Candidate, Result, Status
-from ninedof.singularity import (
+from ninedof.position.forward_position import AssemblyModes, PositionStatus, forward_position
+from ninedof.position.tracking import Tracked, TrackStatus, track
+from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
+from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
     SingularityDistance,
@@ -45,11 +47,11 @@ from ninedof.singularity import (
     singularity_margins,
     uncontrolled_motions,
 )
-from ninedof.statics import LegForces, leg_forces, self_stress, stiffness
-from ninedof.study import Study
+from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
+from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
+from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
-from ninedof.tracking import Tracked, TrackStatus, track
-from ninedof.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.verify import check
 from ninedof.workspace import (
     WorkspaceCells,
     WorkspaceMap,
@@ -102,6 +104,7 @@ __all__ = [
     "best_internal_path",
     "best_internal_point",
     "characteristic_length",
+    "check",
     "condition_number",
     "distance_to_singularity",
     "error_bounds",

@@ -1,6 +1,6 @@
 """`python -m ninedof` is `ninedof`."""
 
-from ninedof.cli import main
+from ninedof.cli.app import main
 
 if __name__ == "__main__":
     main()

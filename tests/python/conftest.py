@@ -1,7 +1,4 @@
-"""What all tests share: one hypothesis profile, the paper's robot, the reference cases."""
-
-import json
-from pathlib import Path
+"""What all tests share: one hypothesis profile and the paper's robot."""
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -18,12 +15,6 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("fixed")
-
-REFERENCE = Path(__file__).parents[1] / "reference"
-
-
-def reference_cases():
-    return json.loads((REFERENCE / "kinematics.json").read_text(encoding="utf-8"))["cases"]
 
 
 @pytest.fixture(scope="session")

@@ -13,10 +13,10 @@ from ninedof import _core
 from ninedof.atlas import sample
 from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
-from ninedof.checks import whole
 from ninedof.chunks import Arrays, Progress, chunk_argument, kept, run
 from ninedof.chunks.crew import Executors, check_executor
 from ninedof.chunks.run import check_progress
+from ninedof.support.arguments import whole
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.work import versions
 

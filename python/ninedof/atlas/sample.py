@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
-from ninedof.arrays import Floats
-from ninedof.checks import finite, known_keys, pair
+from ninedof.support.arguments import finite, known_keys, pair
+from ninedof.support.arrays import Floats
 
 __all__ = ["BOUNDS", "VARIABLES", "Sample", "bounds_of", "closed_form", "squared_radius_ratio"]
 

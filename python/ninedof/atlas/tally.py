@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
+from ninedof.support.arrays import Floats
 
 __all__ = ["Tally", "condition_edges", "ratio_edges"]
 

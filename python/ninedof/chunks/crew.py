@@ -9,8 +9,8 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from itertools import chain, count
 from typing import Any, NamedTuple
 
-from ninedof.checks import shown
 from ninedof.chunks.work import Arrays, Task, as_arrays
+from ninedof.support.arguments import shown
 
 __all__ = ["Crew", "Executors", "check_executor"]
 

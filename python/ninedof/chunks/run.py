@@ -9,10 +9,10 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TypeVar
 
-from ninedof.checks import shown, whole
 from ninedof.chunks.crew import Crew, Executors
 from ninedof.chunks.store import Store
 from ninedof.chunks.work import Arrays, Work, as_arrays, bounds, chunks_of
+from ninedof.support.arguments import shown, whole
 
 __all__ = ["Progress", "check_progress", "chunk_argument", "kept", "run"]
 

@@ -18,8 +18,8 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from ninedof.checks import shown
 from ninedof.chunks.work import Arrays
+from ninedof.support.arguments import shown
 
 __all__ = ["Store", "write_whole"]
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ninedof.result import Result, Status
-from ninedof.study import Study
+from ninedof.design.study import Study
+from ninedof.optimize.result import Result, Status
 
 __all__ = ["Front", "objective_of"]
 
@@ -91,7 +91,7 @@ class Front:
         return rows
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the front as plain JSON values; `ninedof.front_records` writes it with everything that was found."""
+        """Return the front as plain JSON values. `ninedof.runs.front_records` writes it with all results."""
         return {
             "against": self.against,
             "objective": self.study.objective.words,

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from ninedof.check.rules import RULES
-from ninedof.checks import did_you_mean, shown
-from ninedof.objective import INDICES
-from ninedof.study import Study
+from ninedof.design.objective import INDICES
+from ninedof.design.study import Study
+from ninedof.support.arguments import did_you_mean, shown
+from ninedof.verify.rules import RULES
 
 __all__ = ["CONDITION_LIMIT", "floor_of", "limited", "own_value", "resolve"]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ninedof.check.robot import Places
-from ninedof.check.rules import limit_of, measured
-from ninedof.optimize import optimize
+from ninedof.optimize.optimize import optimize
+from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
 from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, limited, own_value
-from ninedof.pareto.sweep import Interrupted, Sweep
-from ninedof.result import Result, Status
+from ninedof.pareto.solving import Interrupted, Sweep
+from ninedof.verify.robot import Places
+from ninedof.verify.rules import limit_of, measured
 
 __all__ = ["span", "value_taken"]
 

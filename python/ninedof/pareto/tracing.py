@@ -8,14 +8,14 @@ from time import perf_counter
 
 import numpy as np
 
-from ninedof.arrays import thread_argument
-from ninedof.checks import finite, items, shown, whole
+from ninedof.design.study import Study
+from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limited import resolve
+from ninedof.pareto.solving import Interrupted, Progress, Sweep
 from ninedof.pareto.span import span
-from ninedof.pareto.sweep import Interrupted, Progress, Sweep
-from ninedof.result import Status
-from ninedof.study import Study
+from ninedof.support.arguments import finite, items, shown, whole
+from ninedof.support.arrays import thread_argument
 
 __all__ = ["pareto"]
 

@@ -12,9 +12,9 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from ninedof.geometry import Geometry
 from ninedof.plot import style
 from ninedof.plot.plates import outlines
+from ninedof.robot.geometry import Geometry
 
 __all__ = ["Sketch", "front"]
 

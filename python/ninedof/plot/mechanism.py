@@ -16,8 +16,8 @@ from ninedof.plot import scene, style
 from ninedof.plot.plates import Floats, distinct, outlines
 
 if TYPE_CHECKING:
-    from ninedof.configuration import Configuration
-    from ninedof.geometry import Geometry
+    from ninedof.robot.configuration import Configuration
+    from ninedof.robot.geometry import Geometry
 
 
 @dataclass(frozen=True)

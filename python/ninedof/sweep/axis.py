@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ninedof.arrays import Floats, as_floats
-from ninedof.checks import choice, finite, is_number, shown, whole
+from ninedof.support.arguments import choice, finite, is_number, shown, whole
+from ninedof.support.arrays import Floats, as_floats
 
 __all__ = ["Axis", "Grid", "Values", "axes_of"]
 

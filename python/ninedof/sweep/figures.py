@@ -8,16 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from ninedof import paper
-from ninedof.arrays import Floats
-from ninedof.checks import choice, whole
 from ninedof.chunks import Arrays, Progress, kept, run
 from ninedof.chunks.crew import Executors, check_executor
 from ninedof.chunks.run import check_progress
-from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
-from ninedof.optimize import Status, optimize
-from ninedof.study import Study
+from ninedof.design.study import Study
+from ninedof.optimize.optimize import optimize
+from ninedof.optimize.result import Status
+from ninedof.paper import paper
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice, whole
+from ninedof.support.arrays import Floats
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.index import INDICES, Index
 from ninedof.sweep.poses import COORDINATES, TRIPLES

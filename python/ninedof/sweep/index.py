@@ -8,19 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.arrays import Floats
-from ninedof.checks import choice, shown
-from ninedof.conditioning import (
+from ninedof.conditioning.conditioning import (
     condition_number,
     isotropy_residual,
     manipulability,
     reciprocal_condition_number,
     singular_values,
 )
-from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
-from ninedof.kinematics import leg_lengths
-from ninedof.singularity import singularity_margins
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.singularity.singularity import singularity_margins
+from ninedof.support.arguments import choice, shown
+from ninedof.support.arrays import Floats
 
 __all__ = ["INDICES", "Index", "OwnIndex", "indices_of"]
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
-from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
-from ninedof.redundancy_map import best_internal_map
+from ninedof.redundancy.redundancy_map import best_internal_map
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats
 from ninedof.sweep.index import Index
 
 __all__ = ["COORDINATES", "RULES", "Poses", "best_block"]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ninedof.chunks.npz import read_npz, write_npz
 from ninedof.chunks.store import plain
 from ninedof.chunks.work import Arrays
-from ninedof.extras import optional
+from ninedof.support.extras import optional
 
 __all__ = ["SweepResult"]
 

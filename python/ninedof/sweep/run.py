@@ -9,14 +9,14 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof import _core
-from ninedof.arrays import thread_argument
-from ninedof.checks import choice, finite, known_keys
 from ninedof.chunks import Progress, chunk_argument, kept, run
 from ninedof.chunks.crew import Executors, check_executor
 from ninedof.chunks.run import check_progress
-from ninedof.configuration import Configuration, single
-from ninedof.geometry import Geometry
-from ninedof.lengths import KINDS
+from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.robot.configuration import Configuration, single
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice, finite, known_keys
+from ninedof.support.arrays import thread_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.index import OwnIndex, indices_of
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block

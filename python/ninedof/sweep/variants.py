@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
-from ninedof.conditioning import hexagonal_condition_number
-from ninedof.configuration import Configuration
-from ninedof.study import Study
+from ninedof.conditioning.conditioning import hexagonal_condition_number
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arrays import Floats
 from ninedof.sweep.index import INDICES, Index
 
 __all__ = ["Variants"]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
-from ninedof.arrays import Floats
 from ninedof.chunks import Arrays
+from ninedof.support.arrays import Floats
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.index import Index, identity
 from ninedof.sweep.result import SweepResult

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.arrays import Floats, as_floats, as_number
-from ninedof.checks import known_keys, shown, vector
-from ninedof.redundancy_arguments import leg_limits
+from ninedof.redundancy.search_arguments import leg_limits
+from ninedof.support.arguments import known_keys, shown, vector
+from ninedof.support.arrays import Floats, as_floats, as_number
 
 __all__ = ["CRITERIA", "criteria_of"]
 

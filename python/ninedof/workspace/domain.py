@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ninedof import _core
-from ninedof.arrays import Floats, as_floats, as_number
-from ninedof.checks import choice, known_keys, pair, shown, whole
-from ninedof.configuration import Configuration
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arguments import choice, known_keys, pair, shown, whole
+from ninedof.support.arrays import Floats, as_floats, as_number
 
 __all__ = ["ARCHETYPES", "domain_of", "spread_rotations"]
 

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
-from ninedof.arrays import Floats
-from ninedof.checks import choice, finite, whole
 from ninedof.chunks import Arrays
 from ninedof.chunks.npz import read_npz, write_npz
-from ninedof.redundancy_map import MapAudit
+from ninedof.redundancy.redundancy_map import MapAudit
+from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arrays import Floats
 
 __all__ = ["WorkspaceCells", "WorkspaceMap", "WorkspaceSlice", "WorkspaceStatus"]
 

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.arrays import as_number, thread_argument
-from ninedof.checks import choice, whole
-from ninedof.configuration import Configuration
-from ninedof.geometry import Geometry
-from ninedof.redundancy_map import MapAudit
+from ninedof.redundancy.redundancy_map import MapAudit
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice, whole
+from ninedof.support.arrays import as_number, thread_argument
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus

@@ -1,0 +1,129 @@
+"""`ninedof pareto`: a trade-off, its table, its run folder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+
+from ninedof.cli.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.design.study import Study
+from ninedof.pareto import Front
+from ninedof.pareto import pareto as trace_front
+from ninedof.runs import job
+from ninedof.runs.front_records import write_front
+from ninedof.support.arrays import thread_argument
+
+if TYPE_CHECKING:
+    from ninedof.plot.front import Sketch
+
+__all__ = ["front_table", "pareto"]
+
+SKETCHED = 4  # designs drawn from above
+
+
+def pareto(
+    study: Path | None,
+    against: str,
+    values: Sequence[float] | None,
+    points: int,
+    out: Path | None,
+    starts: int | None,
+    threads: int | None,
+    figures: bool,
+    json: bool,
+) -> int:
+    """Find a front of a study (the paper's if none is given); print, record, return the exit status.
+
+    Parameters
+    ----------
+    study : path or None
+    against : str
+        What the objective is traded against.
+    values : sequence of float or None
+        Limits to solve; found by the tool if None or empty.
+    points : int
+        How many, in that case.
+    out : path or None
+        Run folder.
+    starts, threads : int or None
+    figures : bool
+        Whether figures are drawn.
+    json : bool
+        Whether the result goes to standard output as JSON.
+
+    """
+    screen = Screen(json)
+    thread_argument(threads)
+    chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
+    directory = job.new_directory(out)
+    name = "the paper's problem" if study is None else study.name
+    with screen.progress(f"{name}, {against}") as bar:
+        front = trace_front(
+            chosen, against, list(values) if values else None, points, threads=threads, progress=bar.starts
+        )
+    screen.print(front_table(front))
+    if front.interrupted:
+        screen.print("[bold]interrupted[/bold]: what was found until then is kept")
+    record = write_front(front, directory)
+    if figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits):
+        screen.say("drawing the front")
+        record = write_front(front, directory, tuple(path.name for path in _draw(front, directory)))
+    screen.print(
+        f"run folder {record.parent}: {record.name}"
+        + (", figure front (PNG and SVG)" if (record.parent / "front.png").exists() else "")
+    )
+    screen.data({"front": front.to_dict(), "record": str(record)})
+    if front.interrupted:
+        return INTERRUPTED
+    return DONE if any(not math.isnan(value) for value in front.objectives) else NO_RESULT
+
+
+def front_table(front: Front) -> Table:
+    """Lay a front out for a person: one limit a row, the tightest first."""
+    words = front.study.objective.words
+    table = Table(title=f"{words} against {front.against.replace('_', ' ')}", title_justify="left", title_style="bold")
+    for title in (f"{front.against}\nat most", "objective", "neutral\ncondition number", "price\n% for 1 %"):
+        table.add_column(title, justify="right")
+    table.add_column("limits reached, or why there is no design", overflow="fold")
+    for row in front.table():
+        if row["objective"] is None:
+            table.add_row(f"{row['limit']:.5g}", "-", "-", "-", f"{row['status']}: {row['reason']}")
+            continue
+        reached = ", ".join(row["active"]) or "nothing"
+        if row["status"] != "optimal":
+            reached = f"{row['status']}: {row['reason']}"
+        elif row["dominated"]:
+            reached += " (no better than a tighter limit)"
+        price = "-" if row["price"] is None else f"{row['price']:.3f}"
+        table.add_row(
+            f"{row['limit']:.5g}", f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price, reached
+        )
+    return table
+
+
+def _draw(front: Front, directory: Path) -> list[Path]:
+    from ninedof import plot
+    from ninedof.plot.front import front as front_figure
+
+    figure = front_figure(front.table(), front.against, front.study.objective.words, sketches=_sketches(front))
+    return plot.save(figure, directory, "front")
+
+
+def _sketches(front: Front) -> list[Sketch]:
+    """Pick a few designs, the tightest and the loosest among them."""
+    from ninedof.plot.front import Sketch
+
+    good = [k for k, value in enumerate(front.objectives) if not math.isnan(value)]
+    count = min(SKETCHED, len(good))
+    picked = sorted({good[round(j * (len(good) - 1) / max(count - 1, 1))] for j in range(count)})
+    out = []
+    for k in picked:
+        best = front.results[k].best
+        assert best is not None
+        turn = best.configuration.rotation
+        out.append(Sketch(front.limits[k], best.geometry, math.atan2(turn[1, 0], turn[0, 0])))
+    return out

@@ -1,0 +1,79 @@
+"""Run folders of long work: chunks as they are finished, the result at the end, and what to say in between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ninedof.cli.commands.screen import Screen
+from ninedof.runs import job
+from ninedof.support.extras import MissingExtra
+from ninedof.sweep import SweepResult
+from ninedof.sweep.cluster import dask_executor
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["compute", "run_folder", "write"]
+
+CHUNKS = "chunks"
+
+
+@contextmanager
+def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
+    """Give a new run folder, or that of an interrupted run."""
+    if not resume:
+        with job.run_directory(out) as directory:
+            yield directory
+        return
+    if out is None:
+        raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
+    if not (out / CHUNKS).is_dir():
+        raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
+    yield out
+
+
+def compute(
+    asked: Callable[..., SweepResult], title: str, directory: Path, scheduler: str | None, screen: Screen
+) -> SweepResult | None:
+    """Compute with a bar, keeping chunks in the run folder; None where Ctrl-C ended it."""
+    try:
+        with _executor(scheduler) as executor, screen.points(title) as bar:
+            return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
+    except KeyboardInterrupt:
+        screen.print(
+            f"[bold]interrupted[/bold]: finished chunks are kept in {directory}; the same command with "
+            f"--out {directory} --resume goes on from there"
+        )
+        screen.data({"interrupted": True, "run": str(directory)})
+        return None
+
+
+def write(
+    result: SweepResult, directory: Path, stem: str, draw: Callable[[], Figure] | None, screen: Screen, data: Any
+) -> None:
+    """Write the result and its figure, and say where they are."""
+    record = result.save(directory / stem)
+    if draw is not None:
+        screen.say("drawing")
+        from ninedof import plot
+
+        plot.save(draw(), directory, stem)
+    screen.print(f"run folder {directory}: {record.name}" + (f", figure {stem} (PNG and SVG)" if draw else ""))
+    screen.data({**data, "record": str(record)})
+
+
+@contextmanager
+def _executor(scheduler: str | None) -> Iterator[Executor | None]:
+    if scheduler is None:
+        yield None
+        return
+    with ExitStack() as stack:
+        try:
+            executor = stack.enter_context(dask_executor(scheduler))
+        except (MissingExtra, ValueError) as error:
+            raise ValueError(f"--scheduler: {str(error).removeprefix('address: ')}") from None
+        yield executor

@@ -1,0 +1,76 @@
+"""`ninedof atlas`: a survey of the hexagonal family."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+from ninedof.atlas import atlas as survey
+from ninedof.atlas.sample import VARIABLES, squared_radius_ratio
+from ninedof.cli.commands.kept import compute, run_folder, write
+from ninedof.cli.commands.screen import DONE, INTERRUPTED, Screen
+from ninedof.design.study import Study
+from ninedof.optimize.optimize import optimize
+from ninedof.sweep import SweepResult
+
+__all__ = ["atlas"]
+
+SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+
+
+def atlas(
+    designs: int,
+    seed: int,
+    out: Path | None,
+    resume: bool,
+    scheduler: str | None,
+    figures: bool,
+    json: bool,
+) -> int:
+    """Survey; print, record, return the exit status."""
+    screen = Screen(json)
+    asked = partial(survey, designs, seed)
+    with run_folder(out, resume) as directory:
+        result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
+    if result is None:
+        return INTERRUPTED
+    screen.print(_table(result))
+    ratio, best = result["radius_ratio"], result["best"]
+    rows = [
+        {
+            "radius_ratio": float(low),
+            "condition_number": float(kappa),
+            "design": dict(zip(result["variable"].tolist(), design.tolist(), strict=True)),
+        }
+        for low, kappa, design in zip(ratio, best, result["design"], strict=True)
+        if np.isfinite(kappa)
+    ]
+    data = {"atlas": {"designs": int(result["histogram"].sum()), "best": rows}}
+
+    def draw() -> object:
+        from ninedof import plot
+
+        best = optimize(Study.paper()).best
+        assert best is not None, "the paper's study has an optimum"
+        sides = np.array([[best.variables[name] for name in VARIABLES]])
+        return plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
+
+    write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]
+    return DONE
+
+
+def _table(result: SweepResult) -> Table:
+    """Lay out the best designs up to a few sizes of the base."""
+    table = Table(title="best of all designs up to a radius ratio", title_justify="left", title_style="bold")
+    for head in ("radius ratio\nbelow", "condition\nnumber", *result["variable"].tolist()):
+        table.add_column(head, justify="right")
+    for limit in SHOWN:
+        below = result["best"][: int(np.searchsorted(result["radius_ratio"], limit))]
+        if np.isfinite(below).any():
+            k = int(np.nanargmin(below))
+            table.add_row(f"{limit:g}", f"{below[k]:.4f}", *(f"{v:.4f}" for v in result["design"][k]))
+    return table

@@ -1,0 +1,71 @@
+"""The candidates of a study, laid out for a person."""
+
+from __future__ import annotations
+
+from rich.table import Table
+
+from ninedof.design.study import LENGTH
+from ninedof.optimize.prices import price_words
+from ninedof.optimize.result import Candidate, Result
+
+SHOWN = 4  # candidates, side by side
+MOST_FIXED = 8  # variables; of more, only the free ones are listed
+
+
+def short(value: float) -> str:
+    """Return four decimals, zero as such."""
+    return "0" if value == 0.0 else f"{value:.4f}"
+
+
+def result_table(result: Result) -> Table:
+    """Lay the candidates of a study side by side, best first."""
+    shown = result.candidates[:SHOWN]
+    table = Table(title=f"{_count(len(result.candidates))}, {result.starts_done} starts", title_justify="left")
+    table.add_column("", overflow="fold")
+    for k in range(len(shown)):
+        table.add_column("best" if k == 0 else f"no. {k + 1}", justify="right", overflow="fold")
+    _add_indices(table, result, shown)
+    study = result.study
+    listed = [name for name, bound in study.variables.items() if isinstance(bound, tuple)]
+    if len(study.variables) - len(listed) <= MOST_FIXED:
+        listed = list(study.variables)
+    for name in listed:
+        table.add_row(name + " (rad)" * (name in study.angles), *(short(c.variables[name]) for c in shown))
+    if study.characteristic_length != 1.0:
+        table.add_row(LENGTH.replace("_", " "), *(short(c.characteristic_length) for c in shown))
+    table.add_section()
+    table.add_row("limits reached", *(", ".join(c.active) or "nothing" for c in shown))
+    table.add_row("starts that ended here", *(str(c.reached) for c in shown))
+    table.add_row("stationarity", *(f"{c.optimality_residual:.1e}" for c in shown))
+    table.add_row("violation", *(f"{c.constraint_violation:.1e}" for c in shown))
+    return table
+
+
+def price_text(result: Result) -> list[str]:
+    """Return what the table does not say: which limits cost what at the best candidate, and how many starts agree."""
+    if result.best is None:
+        return []
+    which = "starts followed to their end" if result.stopped_early else "starts"
+    sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
+    hopeless = (
+        f"; {result.stopped_early} of {result.starts_done} were given up as hopeless" if result.stopped_early else ""
+    )
+    return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure + hopeless])]
+
+
+def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:
+    """Add the objective and, where it is something else, the neutral condition number and those over the poses."""
+    objective = result.study.objective
+    plain = objective.index == "condition_number" and not objective.poses
+    table.add_row(objective.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
+    if plain:
+        return
+    several = len(objective.poses) > 1
+    table.add_row("neutral condition number", *(f"{c.condition_number:.6f}" for c in shown), end_section=not several)
+    if several:
+        table.add_row("worst over the poses", *(f"{max(c.conditions):.6f}" for c in shown))
+        table.add_row("best over the poses", *(f"{min(c.conditions):.6f}" for c in shown), end_section=True)
+
+
+def _count(optima: int) -> str:
+    return "1 local optimum" if optima == 1 else f"{optima} distinct local optima"

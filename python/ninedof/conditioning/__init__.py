@@ -1,0 +1,1 @@
+"""The characteristic length and the indices of the conditioning matrix."""

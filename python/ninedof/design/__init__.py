@@ -1,0 +1,1 @@
+"""Design studies: families, limits, objectives, poses and study files."""

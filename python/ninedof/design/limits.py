@@ -1,0 +1,164 @@
+"""Constraints of a study: as people give them, as files hold them, as the core takes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.support.angles import exact_degrees
+from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
+
+__all__ = ["Limit", "for_core", "parse", "to_table"]
+
+Limit = tuple[float | None, float | None] | Mapping[str, Any]
+"""(low, high), None for an open side; where there are options, a mapping of min, max and the options."""
+
+
+class Shape(NamedTuple):
+    """What may be said about one constraint besides its kind, which the core knows."""
+
+    sides: tuple[str, ...] = ("min", "max")
+    of: tuple[str, ...] = ("length",)
+    options: tuple[str, ...] = ()
+
+
+SHAPES = {
+    "stroke_ratio": Shape(("max",)),
+    "stroke": Shape(("max",), ("length", "zp")),
+    "leg_length": Shape(of=("length", "zp")),
+    "external_length": Shape(of=("length", "zp")),
+    "upper_length": Shape(of=("length", "zp")),
+    "lower_length": Shape(of=("length", "zp")),
+    "joint_height": Shape(("max",), ("length", "radius")),
+    "joint_spacing": Shape(("min",), ("length", "radius")),
+    "leg_clearance": Shape(("min",), ("length", "zp"), ("radius",)),
+    "base_cone": Shape(("max",), options=("axis",)),
+    "platform_cone": Shape(("max",), options=("axis",)),
+    "singularity_free": Shape(("min",), options=("steps",)),
+}
+LEAST_DETERMINANT = 1e-3  # default of singularity_free
+STEPS, MOST_STEPS = 4, 1000  # parts of the way from the neutral pose that singularity_free looks at
+
+
+def parse(name: str, value: Any) -> Limit:
+    """Return a limit in its normal form: checked, angles in radians, defaults left out.
+
+    `value` is (low, high), None for an open side, or a mapping of min, max (max_deg for angles) and the options of the
+    constraint.
+    """
+    shape = SHAPES.get(name, Shape())
+    if isinstance(value, Mapping):
+        low, high, options = _from_mapping(name, shape, value)
+    else:
+        expected = "(low, high), None for an open side, or a mapping"
+        low, high = (None if x is None else number(name, x) for x in pair(name, value, expected))
+        options = {}
+    if name == "singularity_free" and low is None:
+        low = LEAST_DETERMINANT
+    for side, limit in (("min", low), ("max", high)):
+        if limit is not None and side not in shape.sides:
+            raise ValueError(f"{name}: got a {side}, {limit:g}, expected only a {shape.sides[0]}")
+    _sensible(name, low, high)
+    if not options:
+        return low, high
+    if low is None and high is None:
+        raise ValueError(f"{name}: got {', '.join(options)} alone, expected {' or '.join(shape.sides)} too")
+    sides = {side: limit for side, limit in (("min", low), ("max", high)) if limit is not None}
+    return MappingProxyType(sides | options)
+
+
+def to_table(name: str, limit: Limit) -> dict[str, Any]:
+    """Return the table of a study file; `parse` reads it back to the same bits."""
+    low, high, options = _parts(limit)
+    out: dict[str, Any] = {}
+    for side, value in (("min", low), ("max", high)):
+        if value is not None:
+            degrees = exact_degrees(value) if _is_angle(name) else None
+            out |= {side: value} if degrees is None else {f"{side}_deg": degrees[0]}
+    return out | {key: list(v) if isinstance(v, tuple) else v for key, v in options.items()}
+
+
+def for_core(name: str, limit: Limit) -> dict[str, Any]:
+    """Return the limit as the core takes it: open sides 0 and infinity, the axis of unit length."""
+    low, high, options = _parts(limit)
+    axis = options.get("axis", ())
+    return {
+        "name": name,
+        "low": 0.0 if low is None else low,
+        "high": math.inf if high is None else high,
+        "of": options.get("of", "length"),
+        "axis": _unit(axis) if axis else [],
+        "steps": options.get("steps", STEPS),
+    }
+
+
+def _unit(axis: Sequence[float]) -> list[float]:
+    """Return the direction of an axis; its largest entry first, so that no square over- or underflows."""
+    scaled = np.array(axis) / max(abs(v) for v in axis)
+    return [float(v) for v in scaled / np.linalg.norm(scaled)]
+
+
+def _is_angle(name: str) -> bool:
+    return str(_core.constraint_kinds()[name]) == "angle"
+
+
+def _parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
+    if isinstance(limit, tuple):
+        return *limit, {}
+    options = {key: value for key, value in limit.items() if key not in ("min", "max")}
+    return limit.get("min"), limit.get("max"), options
+
+
+def _from_mapping(
+    name: str, shape: Shape, given: Mapping[str, Any]
+) -> tuple[float | None, float | None, dict[str, Any]]:
+    """Return low, high and the options that are not at their default."""
+    sides = [*shape.sides, *(f"{side}_deg" for side in shape.sides if _is_angle(name))]
+    of = ["of"] if len(shape.of) > 1 else []
+    known_keys(f"constraints.{name}", given, [*sides, *of, *shape.options])
+    low, high = _side(name, given, "min"), _side(name, given, "max")
+    if given.get("radius") is not None:
+        if low is not None:
+            raise ValueError(f"{name}: got both min and radius, expected one of the two (min is twice the radius)")
+        low = 2.0 * number(f"{name}.radius", given["radius"])
+    options: dict[str, Any] = {}
+    if choice(f"{name}.of", given.get("of", "length"), shape.of) != "length":
+        options["of"] = given["of"]
+    if "axis" in given:
+        options["axis"] = _axis(f"{name}.axis", given["axis"])
+    steps = whole(f"{name}.steps", given.get("steps", STEPS), 1, MOST_STEPS)
+    if steps != STEPS:
+        options["steps"] = steps
+    return low, high, options
+
+
+def _side(name: str, given: Mapping[str, Any], side: str) -> float | None:
+    plain, degrees = given.get(side), given.get(f"{side}_deg")
+    if plain is not None and degrees is not None:
+        raise ValueError(f"{name}: got both {side} and {side}_deg, expected one of the two")
+    if degrees is not None:
+        return math.radians(number(name, degrees))
+    return None if plain is None else number(name, plain)
+
+
+def _axis(name: str, value: Any) -> Vector:
+    axis = vector(name, value)
+    if not math.hypot(*axis) > 0.0:
+        raise ValueError(f"{name}: got {shown(value)}, expected a direction, not zero")
+    return axis
+
+
+def _sensible(name: str, low: float | None, high: float | None) -> None:
+    """Refuse limits that no design could meet, or that mean nothing."""
+    least, most = 0.0 if low is None else low, math.inf if high is None else high
+    if not (0.0 <= least <= most and least < math.inf and most > 0.0):
+        raise ValueError(f"{name}: got ({low}, {high}), expected 0 <= low <= high, high above 0")
+    if high is not None and _is_angle(name) and not high <= math.pi:
+        raise ValueError(f"{name}: got {high:g} radians, expected at most pi (degrees are given as max_deg)")
+    if name == "singularity_free" and not 0.0 < least < 1.0:
+        raise ValueError(f"{name}: got min = {least:g}, expected a number between 0 and 1")

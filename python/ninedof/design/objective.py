@@ -1,0 +1,174 @@
+"""What a study makes least: an index of the Jacobian, at which poses, and how those are taken together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from ninedof.design import poses
+from ninedof.design.pose import POSE_KEYS, Pose
+from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
+
+__all__ = ["Objective", "Pose"]
+
+Made = TypeVar("Made")
+
+INDICES = {
+    "condition_number": "condition number",
+    "frobenius": "Frobenius condition number",
+    "speed": "1 / least singular value",
+    "six_legged": "condition number of the six-legged platform",
+}
+AGGREGATES = {
+    "worst": "worst {index}",
+    "mean_inverse": "harmonic mean of the {index}",
+    "weighted": "worst and harmonic mean, weighted, of the {index}",
+}
+SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
+SET_KEYS = {  # the first of each must be there
+    "box": ["half", "points", "tilt", "tilt_deg", "internal_point", "unit"],
+    "ball": ["radius", "points", "tilt", "tilt_deg", "internal_point", "unit"],
+    "path": ["positions", "rotations", "rotations_deg", "points", "internal_point", "unit"],
+}
+
+
+@dataclass(frozen=True)
+class Objective:
+    """The number that an optimization makes least. By default the condition number at the neutral pose.
+
+    Parameters
+    ----------
+    index : str
+        "condition_number": of J', largest / smallest singular value (default). "frobenius": eq. (4), a smooth
+        alternative. "speed": 1 / smallest singular value, the worst case of the speed that leg rates give.
+        "six_legged": the condition number of the platform with six legs on the same plates, a yardstick; neutral pose
+        only.
+    aggregate : str
+        Over the poses: "worst" (default); "mean_inverse", the harmonic mean, its inverse being the global conditioning
+        index; "weighted", between the two.
+    weight : float
+        Share of the worst in "weighted", in logarithms, from 0 to 1; 0.5 by default.
+    condition_limit : float, optional
+        Bound on the condition number at every pose, whatever the index; at least 1. None by default.
+    poses : sequence of Pose or mappings
+        Where the design is judged; none, the default: at the neutral pose alone. See `ninedof.poses`.
+
+    Raises
+    ------
+    ValueError
+        Naming the entry that does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof import poses
+    >>> nd.Objective(poses=poses.box((0.1, 0.1, 0.1), unit="zp")).words
+    'worst condition number over 27 poses'
+
+    """
+
+    index: str = "condition_number"
+    aggregate: str = "worst"
+    weight: float = 0.5
+    condition_limit: float | None = None
+    poses: tuple[Pose, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check and normalise every entry."""
+        listed = items("objective.poses", self.poses, "a sequence of poses")
+        for name, value in {
+            "index": choice("objective.index", self.index, INDICES),
+            "aggregate": choice("objective.aggregate", self.aggregate, AGGREGATES),
+            "weight": finite("objective.weight", self.weight, 0.0, 1.0),
+            "condition_limit": _condition_limit(self.condition_limit),
+            "poses": tuple(_pose(k, pose) for k, pose in enumerate(listed)),
+        }.items():
+            object.__setattr__(self, name, value)
+        if len(self.poses) > poses.MOST_POSES:
+            raise ValueError(f"objective.poses: got {len(self.poses)}, expected at most {poses.MOST_POSES}")
+        if self.index == "six_legged" and self.poses:
+            raise ValueError(
+                f"objective.poses: got {len(self.poses)}, expected none: the six-legged index is for the neutral pose"
+            )
+
+    @property
+    def words(self) -> str:
+        """What is made least, in words."""
+        index = INDICES[self.index]
+        if not self.poses:
+            return index
+        over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"
+        return f"{AGGREGATES[self.aggregate].format(index=index)} {over}"
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Objective:
+        """Make an objective from the table [objective] of a study file; box, ball and path become poses."""
+        known_keys(
+            "objective",
+            data,
+            ["index", "aggregate", "weight", "condition_limit", "internal_point", "unit", "poses", *SETS],
+        )
+        defaults = {name: data[name] for name in ("internal_point", "unit") if name in data}
+        found: list[Pose] = []
+        for k, entry in enumerate(items("objective.poses", data.get("poses", []), "tables [[objective.poses]]")):
+            found.append(_pose(k, entry, **defaults))
+        for name, make in SETS.items():
+            if name in data:
+                where = f"objective.{name}"
+                known_keys(where, table(where, data[name]), SET_KEYS[name])
+                if SET_KEYS[name][0] not in data[name]:
+                    raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
+                found.extend(_named(where, make, **(defaults | dict(data[name]))))
+        if defaults:
+            _named("objective", Pose, **defaults)  # a slip is told even where no pose takes the default
+        rest = {n: data[n] for n in ("index", "aggregate", "weight", "condition_limit") if n in data}
+        return cls(poses=tuple(found), **rest)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the table of a study file: the index, and what differs from the defaults."""
+        out: dict[str, Any] = {"index": self.index}
+        if self.aggregate != "worst":
+            out["aggregate"] = self.aggregate
+        if self.weight != 0.5:
+            out["weight"] = self.weight
+        if self.condition_limit is not None:
+            out["condition_limit"] = self.condition_limit
+        if self.poses:
+            out["poses"] = [pose.to_dict() for pose in self.poses]
+        return out
+
+    def for_core(self) -> dict[str, Any]:
+        """Return the objective as the core takes it."""
+        return {
+            "index": self.index,
+            "aggregate": self.aggregate,
+            "weight": self.weight,
+            "condition_limit": math.inf if self.condition_limit is None else self.condition_limit,
+            "poses": [pose.for_core() for pose in self.poses],
+        }
+
+
+def _condition_limit(value: Any) -> float | None:
+    if value is None or (number("objective.condition_limit", value) == math.inf):
+        return None
+    return finite("objective.condition_limit", value, least=1.0)
+
+
+def _pose(index: int, value: Any, **defaults: Any) -> Pose:
+    """Return a pose, made from a table where it is one."""
+    if isinstance(value, Pose):
+        return value
+    if not isinstance(value, Mapping):
+        raise ValueError(f"objective.poses[{index}]: got {shown(value)}, expected a Pose or a table")
+    known_keys(f"objective.poses[{index}]", value, POSE_KEYS)
+    return _named(f"objective.poses[{index}]", Pose.from_dict, value, **defaults)
+
+
+def _named(where: str, make: Callable[..., Made], /, *arguments: Any, **named: Any) -> Made:
+    """Call a maker whose messages begin with the bare entry, and put the place before it."""
+    try:
+        return make(*arguments, **named)
+    except ValueError as error:
+        raise ValueError(f"{where}.{error}") from None

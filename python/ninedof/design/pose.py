@@ -1,0 +1,98 @@
+"""One pose at which a design is judged, as shifts from its neutral pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ninedof.support.angles import rotation_entry, vector_argument
+from ninedof.support.arguments import Vector, choice, known_keys, shown, vector
+
+__all__ = ["Pose"]
+
+ZERO: Vector = (0.0, 0.0, 0.0)
+UNITS = ("length", "zp")
+PLACES = ("stay", "best")
+POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit")
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A pose of the platform and of O, told from the neutral pose of whatever design is judged there.
+
+    Parameters
+    ----------
+    position : (3,) floats
+        Shift of p from its neutral place (0, 0, zp), base frame. None by default.
+    rotation : (3,) floats
+        Rotation vector in radians, base axes, applied after the neutral rotation. None by default.
+    internal_point : (3,) floats, "stay" or "best"
+        Shift of s from its neutral place (0, 0, zs), base frame. "stay", the default, is no shift; "best" leaves the
+        place to the optimizer.
+    unit : {"length", "zp"}
+        Of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger design
+        moves farther.
+
+    Raises
+    ------
+    ValueError
+        Naming the entry that does not fit.
+
+    Examples
+    --------
+    >>> import math
+    >>> from ninedof.design.pose import Pose
+    >>> Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), unit="zp").internal_point
+    'stay'
+
+    """
+
+    position: Vector = ZERO
+    rotation: Vector = ZERO
+    internal_point: Vector | str = "stay"
+    unit: str = "length"
+
+    def __post_init__(self) -> None:
+        """Check and normalise every entry."""
+        point = self.internal_point
+        if isinstance(point, str):
+            place: Vector | str = choice("internal_point", point, PLACES)
+        elif point is None:
+            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'stay' or 'best'")
+        else:
+            place = vector("internal_point", point)
+        object.__setattr__(self, "position", vector("position", self.position))
+        object.__setattr__(self, "rotation", vector("rotation", self.rotation))
+        object.__setattr__(self, "internal_point", "stay" if place == ZERO else place)
+        object.__setattr__(self, "unit", choice("unit", self.unit, UNITS))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], internal_point: Any = "stay", unit: Any = "length") -> Pose:
+        """Make a pose from a table [[objective.poses]]; the last two arguments are for poses that do not say."""
+        known_keys("pose", data, POSE_KEYS)
+        return cls(
+            position=data.get("position", ZERO),
+            rotation=vector_argument("rotation", data.get("rotation"), data.get("rotation_deg")),
+            internal_point=data.get("internal_point", internal_point),
+            unit=data.get("unit", unit),
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the table of a study file: what differs from the neutral pose."""
+        out: dict[str, Any] = {}
+        if self.position != ZERO:
+            out["position"] = list(self.position)
+        if self.rotation != ZERO:
+            out |= rotation_entry("rotation", self.rotation)
+        if self.internal_point != "stay":
+            point = self.internal_point
+            out["internal_point"] = point if isinstance(point, str) else list(point)
+        if self.unit != "length":
+            out["unit"] = self.unit
+        return out
+
+    def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool]:
+        """Return position, rotation vector, shift of s, whether s is placed by the tool, whether shifts are in zp."""
+        shift = ZERO if isinstance(self.internal_point, str) else self.internal_point
+        return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp"

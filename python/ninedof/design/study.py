@@ -1,0 +1,238 @@
+"""A design study: which family, which variables are free, what is allowed, what is made least."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
+
+from ninedof import _core
+from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.design import limits
+from ninedof.design.design_point import DesignPoint, design_point
+from ninedof.design.objective import Objective
+from ninedof.design.study_file import read_toml, study_arguments, study_tables, write_toml
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
+
+__all__ = ["Study"]
+
+Bound = float | tuple[float, float]
+"""A fixed value, or (low, high)."""
+
+LENGTH = "characteristic_length"
+
+
+@dataclass(frozen=True)
+class Study:
+    """A design problem: the least value of an objective over the free variables of a family, within limits.
+
+    Immutable; `dataclasses.replace` makes another.
+
+    Parameters
+    ----------
+    family : str
+        "hexagonal": the plates of eqs. (37)-(38), variables a1 a2 b1 b2 zp zs theta_z. "symmetric": planar triples,
+        each with its radius and angle. "symmetric_nonplanar": with heights too. "general": all 36 joint coordinates.
+    variables : mapping
+        Name to (low, high) for a free variable (either may be infinite) or to a number for a fixed one. Those left out
+        take the family's defaults, in characteristic lengths if that is a number and in units of length otherwise; a
+        hexagonal design has sides in [0, 60], heights in [0.05, 80] and theta_z = 0. Lengths in one unit of your
+        choice, angles in radians.
+    constraints : mapping
+        Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
+        {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
+
+        ratios: radius_ratio (base / platform, largest joint distance from the axis), leg_ratio (longest / shortest leg
+        over all poses), stroke_ratio (longest / shortest of one leg over the poses), zs_fraction (zs / zp).
+        lengths: stroke, leg_length, external_length, upper_length, lower_length and leg_clearance (`of` "length" or
+        "zp"), joint_height and joint_spacing (`of` "length" or "radius"), height, footprint. leg_clearance takes the
+        `radius` of a leg in place of min. angles: base_cone and platform_cone (`axis` of the cone, by default the
+        leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose.
+    objective : Objective or mapping
+        What is made least; by default the condition number at the neutral pose. A mapping is read as the table
+        [objective] of a study file.
+    characteristic_length : float, str or (low, high)
+        l_c of eqs. (30)-(33), in the same unit: a number; a kind of `ninedof.characteristic_length`, taken at the
+        neutral pose; or bounds, and it is a free variable. An upper bound of a variable of a million characteristic
+        lengths or more counts as none.
+    starts, seed : int
+        Number of low-discrepancy starts and the shift of their sequence.
+
+    Raises
+    ------
+    ValueError
+        Naming the entry that does not fit, what came and what was expected.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> study = nd.Study(variables={"theta_z": (-1.0, 1.0)}, constraints={"radius_ratio": (None, 2.0)})
+    >>> round(nd.optimize(study).condition_number, 6)
+    3.749827
+
+    """
+
+    family: str = "hexagonal"
+    variables: Mapping[str, Bound] = field(default_factory=dict)
+    constraints: Mapping[str, limits.Limit] = field(default_factory=dict)
+    characteristic_length: float | str | tuple[float, float] = 1.0
+    starts: int = 64
+    seed: int = 0
+    objective: Objective = field(default_factory=Objective)
+    defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
+    """Free variables that were not given and took the family's default bounds."""
+
+    __hash__ = None  # type: ignore[assignment]  # mappings inside
+
+    def __post_init__(self) -> None:
+        """Complete the variables, normalise numbers, and let the core check the whole."""
+        family = choice("family", self.family, _core.design_family_names())
+        known = _core.family_variables(family)
+        length = _length(self.characteristic_length)
+        known_keys("variables", self.variables, [name for name, *_ in known])
+        known_keys("constraints", self.constraints, _core.constraint_names())
+        variables: dict[str, Bound] = {}
+        for name, kind, low, high in known:
+            unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
+            default: Bound = low * unit if low == high else (low * unit, high * unit)
+            variables[name] = _bound(name, self.variables.get(name, default))
+        objective = self.objective
+        for name, value in {
+            "variables": MappingProxyType(variables),
+            "constraints": MappingProxyType({n: limits.parse(n, value) for n, value in self.constraints.items()}),
+            "characteristic_length": length,
+            "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
+            "starts": whole("starts", self.starts, 1, 2**31 - 1),
+            "seed": whole("seed", self.seed, 0),
+            "defaulted": tuple(n for n, b in variables.items() if n not in self.variables and isinstance(b, tuple)),
+        }.items():
+            object.__setattr__(self, name, value)
+        self.problem()
+
+    @classmethod
+    def paper(cls) -> Study:
+        """Return the study of the paper, eqs. (8)-(9), with the base at most twice the platform (section 5)."""
+        return cls(family="hexagonal", constraints={"radius_ratio": (None, 2.0)})
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Study:
+        """Read a study from a TOML file.
+
+        Raises
+        ------
+        ValueError
+            If the file cannot be read, is not TOML, or an entry does not fit; the message names the file.
+
+        """
+        data = read_toml(path)
+        try:
+            return cls.from_dict(data)
+        except ValueError as error:
+            raise ValueError(f"{os.fspath(path)}: {error}") from None
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Study:
+        """Make a study from the tables of a study file."""
+        return cls(**study_arguments(data))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the tables of a study file; `Study.from_dict` reads them back."""
+        return study_tables(vars(self))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the study as a TOML file."""
+        write_toml(path, self.to_dict())
+
+    def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
+        """Return the same study with another number of starts or another seed."""
+        new = replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
+        object.__setattr__(new, "defaulted", self.defaulted)
+        return new
+
+    @property
+    def angles(self) -> tuple[str, ...]:
+        """Names of the variables that are angles, in radians."""
+        return tuple(name for name, kind, *_ in _core.family_variables(self.family) if kind == "angle")
+
+    def problem(self) -> _core.Problem:
+        """Return the study as the core takes it, checked there once more."""
+        bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
+        constraints = [limits.for_core(name, limit) for name, limit in self.constraints.items()]
+        return _core.Problem(self.family, bounds, constraints, self.characteristic_length, self.objective.for_core())
+
+    def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
+        """Return objective, condition numbers, margins and exact gradients of one design.
+
+        Parameters
+        ----------
+        variables : mapping
+            Name to value, as `vector` takes them; bounds are not enforced.
+
+        """
+        return design_point(self.problem(), self.vector(variables))
+
+    def vector(self, variables: Mapping[str, float]) -> list[float]:
+        """Return named values in the order of the problem.
+
+        Fixed variables may be left out. So may a free characteristic length, which is then the one that is best at
+        the neutral pose, and free places of O, which then stay.
+        """
+        problem = self.problem()
+        names = list(problem.names)
+        known_keys("variables", variables, names)
+        out = []
+        for name in names:
+            bound = self.variables.get(name, 0.0)
+            if name in variables:
+                out.append(finite(name, variables[name]))
+            elif isinstance(bound, tuple):
+                raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
+            else:
+                out.append(bound)
+        if LENGTH in names and LENGTH not in variables:
+            out[names.index(LENGTH)] = 1.0  # any will do to ask for the robot
+            out[names.index(LENGTH)] = self._best_length(problem, out)
+        return out
+
+    def _best_length(self, problem: _core.Problem, x: list[float]) -> float:
+        """Return the characteristic length that is best at the neutral pose, within the bounds."""
+        best = float(length_of(problem.geometry(x), Configuration(*problem.configurations(x))[0], "optimal"))
+        low, high = self.characteristic_length if isinstance(self.characteristic_length, tuple) else (0.0, math.inf)
+        return min(max(best if math.isfinite(best) else 1.0, low), high)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickle and copy plain dictionaries: a read-only view cannot be."""
+        constraints = {n: dict(v) if isinstance(v, Mapping) else v for n, v in self.constraints.items()}
+        return self.__dict__ | {"variables": dict(self.variables), "constraints": constraints}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Make the dictionaries read-only again."""
+        constraints = {n: MappingProxyType(v) if isinstance(v, dict) else v for n, v in state["constraints"].items()}
+        views = {"variables": MappingProxyType(state["variables"]), "constraints": MappingProxyType(constraints)}
+        self.__dict__.update(state | views)
+
+
+def _bound(name: str, value: Any) -> Bound:
+    if is_number(value):
+        return finite(name, value)
+    low, high = pair(name, value, "a number, or (low, high)")
+    return number(name, low), number(name, high)
+
+
+def _length(value: Any) -> float | str | tuple[float, float]:
+    if isinstance(value, str):
+        return choice(LENGTH, value, KINDS)
+    if not is_number(value):
+        low, high = (finite(LENGTH, x) for x in pair(LENGTH, value, "a number, a kind, or (low, high)"))
+        if not 0.0 < low <= high:
+            raise ValueError(f"{LENGTH}: got {shown(value)}, expected 0 < low <= high")
+        return low if low == high else (low, high)
+    length = finite(LENGTH, value)
+    if not length > 0.0:
+        raise ValueError(f"{LENGTH}: got {shown(value)}, expected a number above 0")
+    return length

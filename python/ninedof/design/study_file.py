@@ -1,0 +1,77 @@
+"""Study files: TOML tables to the arguments of a `Study`, and back."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ninedof.design import limits
+from ninedof.design.objective import Objective
+from ninedof.support.arguments import known_keys, table
+
+__all__ = ["read_toml", "study_arguments", "study_tables", "write_toml"]
+
+
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Read a TOML file, with or without the mark that some editors put before UTF-8.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it cannot be read or is not TOML.
+
+    """
+    name = os.fspath(path)
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{name}: cannot be read (not UTF-8 text)") from None
+    except RecursionError:
+        raise ValueError(f"{name}: not a TOML file we can read: nested too deep") from None
+    except ValueError as error:  # TOML's own, or a whole number of thousands of digits
+        raise ValueError(f"{name}: not a TOML file: {error}") from None
+
+
+def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:
+    """Write tables as a TOML file."""
+    import tomli_w
+
+    Path(path).write_text(tomli_w.dumps(tables), encoding="utf-8")
+
+
+def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments of `Study` that the tables of a study file stand for."""
+    if isinstance(data, Mapping) and "geometry" in data:
+        raise ValueError("study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`")
+    names = ["design", "variables", "constraints", "objective", "solver"]
+    known_keys("study", data, names)
+    tables = {name: table(name, data.get(name, {})) for name in names}
+    known_keys("design", tables["design"], ["family", "characteristic_length"])
+    known_keys("solver", tables["solver"], ["starts", "seed"])
+    return {
+        "variables": tables["variables"],
+        "constraints": {name: table(f"constraints.{name}", limit) for name, limit in tables["constraints"].items()},
+        "objective": Objective.from_dict(tables["objective"]),
+        **tables["design"],
+        **tables["solver"],
+    }
+
+
+def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a study file for the arguments of a `Study`, as it normalizes them."""
+    length = arguments["characteristic_length"]
+    return {
+        "design": {
+            "family": arguments["family"],
+            "characteristic_length": list(length) if isinstance(length, tuple) else length,
+        },
+        "variables": {name: list(b) if isinstance(b, tuple) else b for name, b in arguments["variables"].items()},
+        "constraints": {name: limits.to_table(name, limit) for name, limit in arguments["constraints"].items()},
+        "objective": arguments["objective"].to_dict(),
+        "solver": {"starts": arguments["starts"], "seed": arguments["seed"]},
+    }

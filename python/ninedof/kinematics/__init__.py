@@ -1,0 +1,1 @@
+"""Leg lengths, velocity matrices, rates and accelerations."""

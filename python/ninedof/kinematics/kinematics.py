@@ -1,0 +1,130 @@
+"""Leg lengths, and the matrices of eqs. (30)-(36)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.conditioning.characteristic_length import resolve_length
+from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, checked_out, thread_argument
+
+__all__ = [
+    "VelocityMatrices",
+    "jacobian",
+    "leg_lengths",
+    "velocity_matrices",
+]
+
+
+class VelocityMatrices(NamedTuple):
+    """The matrices of eqs. (30)-(35); leading dimensions are those of the configuration."""
+
+    A: Floats
+    """External legs, rows [u_i x e_i / l_c, e_i], shape (..., 3, 6). Eq. (30)."""
+    B: Floats
+    """Lower internal unit vectors, base joint to O, shape (..., 3, 3). Eq. (31)."""
+    C: Floats
+    """Upper internal unit vectors, platform joint to O, shape (..., 3, 3). Eq. (32)."""
+    D: Floats
+    """Rows u~_i x e~_i / l_c, shape (..., 3, 3). Eq. (33)."""
+    E: Floats
+    """[D C], shape (..., 3, 6). Eq. (35b)."""
+    F: Floats
+    """[A; E], shape (..., 6, 6). Eq. (35a)."""
+    G: Floats
+    """[1 0 0; 0 -1 C B^-1], shape (..., 6, 9); NaN in the last block where det B = 0. Eq. (35a)."""
+
+
+def leg_lengths(
+    geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
+) -> Floats:
+    """Return the nine leg lengths: inverse position analysis.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        One configuration or a stack of shape (...).
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    out : numpy.ndarray, optional
+        Where to put the result: float64, C-contiguous, aligned, of the result's shape.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 9)
+        l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b), in the length unit of the input.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> nd.leg_lengths(g, nd.Configuration.neutral(3.9828, 2.4432)).round(4)[[0, 3, 6]]
+    array([4.9304, 2.2772, 4.151 ])
+
+    """
+    operands_of = operands(geometry, configuration)
+    shape = (*configuration.shape, 9)
+    flat = _core.leg_lengths(*operands_of, thread_argument(threads), checked_out(out, shape))
+    return out if out is not None else flat.reshape(shape)
+
+
+def velocity_matrices(
+    geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0
+) -> VelocityMatrices:
+    """Return A, B, C, D, E, F and G of eqs. (30)-(35) by name.
+
+    The twist they act on is (l_c omega, pdot): with plain omega, eqs. (27) and (29) as printed would need undivided
+    angular columns.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0 that makes the matrices homogeneous, or a kind as in `characteristic_length`.
+
+    Raises
+    ------
+    ValueError
+        If the characteristic length is not finite and positive.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    flat = _core.velocity_matrices(*operands(geometry, configuration), lc, 0)
+    sizes = {"A": (3, 6), "B": (3, 3), "C": (3, 3), "D": (3, 3), "E": (3, 6), "F": (6, 6), "G": (6, 9)}
+    parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes.values()])[:-1], axis=1)
+    shaped = (
+        np.ascontiguousarray(part).reshape(*configuration.shape, *size)
+        for part, size in zip(parts, sizes.values(), strict=True)
+    )
+    return VelocityMatrices(*shaped)
+
+
+def jacobian(geometry: Geometry, configuration: Configuration, characteristic_length: ArrayLike | str = 1.0) -> Floats:
+    """Return J' = F^-1 G of eq. (36), in closed form.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    characteristic_length : float, array_like of shape (...), or str
+        Length l_c > 0, or a kind as in `characteristic_length`.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 6, 9)
+        Rows: twist (l_c omega, pdot). Columns: leg rates in the order of `leg_lengths`. All NaN at a configuration
+        where F or B is exactly singular, since J' does not exist there; `condition_number` is infinite.
+
+    """
+    lc = resolve_length(geometry, configuration, characteristic_length)
+    flat = _core.jacobian(*operands(geometry, configuration), lc, 0)
+    return flat.reshape(*configuration.shape, 6, 9)

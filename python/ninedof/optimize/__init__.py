@@ -1,0 +1,1 @@
+"""The optimizer, its result, its lower bounds and its summary."""

@@ -1,0 +1,119 @@
+"""Optimum design: one call to the compiled solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from time import perf_counter
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.optimize.result import Candidate, Result, Status, candidate_of
+from ninedof.optimize.warm import Warm, warm_starts
+from ninedof.support.arrays import thread_argument
+
+__all__ = ["Trace", "optimize", "trace"]
+
+Progress = Callable[[int, int, float], object]
+"""Called with (starts done, starts in all, best objective so far)."""
+
+MAX_EVALUATIONS = 500  # of one start; a converging one takes about 30
+
+
+def optimize(
+    study: Study,
+    starts: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    warm: Warm | Iterable[Warm] | None = None,
+) -> Result:
+    """Find the design of least objective: by default, of least condition number.
+
+    Multi-start sequential quadratic programming (NLopt's SLSQP) on the smooth minimax form of the problem, with exact
+    gradients; every end is polished by Newton's method and judged by checks that do not believe the solver. Ctrl-C
+    stops within a fraction of a second and returns what there is, with status "stopped".
+
+    Parameters
+    ----------
+    study : Study
+    starts, seed : int, optional
+        In place of the study's own.
+    threads : int, optional
+        One a processor by default. The result is the same, bit for bit, for any number.
+    progress : callable, optional
+        Called as progress(starts done, starts in all, best objective so far).
+    warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
+        Extra starts, tried first: a result of a similar study (its best four candidates), or a design you know. Moved
+        inside the bounds.
+
+    Returns
+    -------
+    Result
+        Infeasible and unbounded studies are answers, not errors: see `Status`.
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> result = nd.optimize(nd.Study.paper())
+    >>> result.status, round(result.condition_number, 6), result.active
+    (<Status.OPTIMAL: 'optimal'>, 3.762659, ('a1', 'b2', 'radius_ratio'))
+
+    """
+    if not isinstance(study, Study):
+        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
+    study = study.with_solver(starts, seed)
+    problem = study.problem()
+    extra = warm_starts(study, warm)
+    begin = perf_counter()
+    core = _core.optimize(problem, study.starts, study.seed, thread_argument(threads), MAX_EVALUATIONS, progress, extra)
+    return Result(
+        status=Status(core.status),
+        reason=core.reason,
+        causes=tuple(core.causes),
+        candidates=tuple(candidate_of(problem, c) for c in core.candidates),
+        evaluations=core.evaluations,
+        starts_done=core.starts_done,
+        seconds=perf_counter() - begin,
+        study=study,
+        interrupted=core.interrupted,
+        stopped_early=core.stopped_early,
+        followed=core.followed,
+    )
+
+
+@dataclass(frozen=True)
+class Trace:
+    """One run from one start."""
+
+    best: tuple[float, ...]
+    """Least objective of an allowed design after each evaluation; infinite before the first."""
+    end: Candidate
+
+
+def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax") -> Trace:
+    """Follow a single run from a given start.
+
+    Parameters
+    ----------
+    study : Study
+    start : mapping
+        Name to value of the free variables; moved inside the bounds.
+    formulation : {"minimax", "plain"}
+        "plain" minimises log(objective) itself, as the paper's SQP run did, and jams where two singular values meet.
+
+    """
+    if not isinstance(study, Study):
+        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if formulation not in ("minimax", "plain"):
+        raise ValueError(f'formulation: got {formulation!r}, expected "minimax" or "plain"')
+    problem = study.problem()
+    best, end = _core.trace(problem, study.vector(start), formulation)
+    return Trace(tuple(best), candidate_of(problem, end))

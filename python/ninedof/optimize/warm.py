@@ -1,0 +1,60 @@
+"""Extra starts from what is known already: results, candidates or named values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.study import LENGTH, Study
+from ninedof.optimize.result import Candidate, Result
+from ninedof.support.arguments import shown
+from ninedof.support.arrays import Floats
+
+__all__ = ["Warm", "warm_starts"]
+
+Warm = Result | Candidate | Mapping[str, float]
+"""A start: a result stands for its best candidates."""
+
+MOST_OF_A_RESULT = 4  # candidates: more would crowd out the starts asked for
+
+
+def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | None:
+    """Return extra starts as rows of full vectors, or None without any.
+
+    Fixed variables keep the study's value. A characteristic length or a place of O that this study does not leave free
+    is passed over, so that the answer to one study may start another.
+    """
+    if warm is None:
+        return None
+    expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
+    given = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
+    starts: list[Mapping[str, float]] = []
+    for item in given:
+        if isinstance(item, Result):
+            starts.extend(c.variables for c in item.candidates[:MOST_OF_A_RESULT])
+        elif isinstance(item, Candidate):
+            starts.append(item.variables)
+        elif isinstance(item, Mapping):
+            starts.append(item)
+        else:
+            raise ValueError(f"warm: got {shown(item)}, expected {expected}")
+    names = set(study.problem().names)
+    rows = [_row(study, names, start) for start in starts]
+    return np.array(rows) if rows else None
+
+
+def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]:
+    fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
+    named = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
+    try:
+        return study.vector(named | {name: value for name, value in fixed.items() if name in named})
+    except ValueError as error:
+        raise ValueError(f"warm: {error}") from None
+
+
+def _of_the_poses(name: object) -> bool:
+    return name == LENGTH or (isinstance(name, str) and name.startswith("pose"))

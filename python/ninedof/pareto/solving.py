@@ -1,0 +1,117 @@
+"""Solving one study for many values of a limit, each time starting from what the neighbours found as well."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+
+from ninedof.design.study import Study
+from ninedof.optimize.optimize import optimize
+from ninedof.optimize.result import Result, Status
+from ninedof.pareto.front import SAME, objective_of
+from ninedof.pareto.limited import limited
+
+__all__ = ["Interrupted", "Progress", "Sweep"]
+
+Progress = Callable[[int, int, float], object]
+"""Called with (solved so far, to be solved in all as far as known, last objective)."""
+
+
+class Interrupted(Exception):  # a way out, not an error
+    """Ctrl-C was pressed while a limit was being solved."""
+
+
+class Sweep:
+    """The limits solved so far and the best result for each."""
+
+    def __init__(self, study: Study, against: str, threads: int | None, progress: Progress | None) -> None:
+        """Begin with nothing."""
+        self.study, self.against = study, against
+        self.results: dict[float, Result] = {}
+        self.open_ended: Result | None = None
+        self._threads, self._progress = threads, progress
+        self._solved, self.planned = 0, 0
+
+    def solve(self, limit: float | None, warm: Iterable[Result | None] = (), again: bool = False) -> Result:
+        """Solve for one limit (None: open) and keep what is best.
+
+        Parameters
+        ----------
+        limit : float or None
+        warm : results
+            Whose designs are tried as starts.
+        again : bool
+            Whether this is not the first time: then other starts are taken, and fewer.
+
+        """
+        study = limited(self.study, self.against, limit)
+        if again:
+            study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
+        known = [result for result in warm if result is not None and result.candidates]
+        result = optimize(study, threads=self._threads, warm=known or None)
+        if result.interrupted:
+            raise Interrupted
+        self._solved += 1
+        if self._progress is not None:
+            self._progress(self._solved, max(self.planned, self._solved), objective_of(result))
+        if limit is None:
+            self.open_ended = result
+            return result
+        old = self.results.get(limit)
+        if old is None or _rank(result) < _rank(old, better_by=1e-12):
+            self.results[limit] = result
+        return self.results[limit]
+
+    def both_ways(self, limits: Sequence[float]) -> None:
+        """Solve from the loosest limit to the tightest and back; limits in increasing order.
+
+        On the way down a design that has just been cut off is the start; on the way up one that is allowed, so that a
+        looser limit does not end worse.
+        """
+        self.planned = self._solved + 2 * len(limits)
+        for k in reversed(range(len(limits))):
+            self.solve(limits[k], self._beside(limits, k))
+        for k in range(len(limits)):
+            self.solve(limits[k], self._beside(limits, k), again=True)
+
+    def between(self, low: float, high: float) -> float:
+        """Solve for the geometric middle of two limits, from both; return it."""
+        middle = math.sqrt(low * high)
+        self.solve(middle, (self.results.get(low), self.results.get(high)))
+        return middle
+
+    def repair(self) -> None:
+        """Make sure that no looser limit has a worse design: what a tighter one allows, it allows."""
+        best: tuple[float, Result] | None = None
+        for limit in sorted(self.results):
+            if best is not None and self._is_worse(limit, best[1]):
+                self.solve(limit, [best[1]], again=True)
+                if self._is_worse(limit, best[1]):
+                    self.results[limit] = _adopted(best[1], limited(self.study, self.against, limit), best[0])
+            if not math.isnan(objective_of(self.results[limit])):
+                best = limit, self.results[limit]
+
+    def _is_worse(self, limit: float, tighter: Result) -> bool:
+        result = self.results[limit]
+        if result.status == Status.UNBOUNDED:
+            return False
+        return not objective_of(result) <= objective_of(tighter) * (1.0 + SAME)
+
+    def _beside(self, limits: Sequence[float], k: int) -> list[Result | None]:
+        return [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
+
+
+def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
+    """Order results: a proved optimum first, then by objective; no least value at all is the lowest."""
+    if result.status == Status.UNBOUNDED:
+        return 0, -math.inf
+    if result.best is None or result.status == Status.INFEASIBLE:
+        return 2, 0.0
+    return int(result.status != Status.OPTIMAL), result.best.objective * (1.0 - better_by)
+
+
+def _adopted(result: Result, study: Study, limit: float) -> Result:
+    """Return the design of a tighter limit as that of a looser one, without the claim of an optimum."""
+    reason = f"the design found for the limit {limit:g} is better than any found for this one, so it is shown here too"
+    return replace(result, study=study, status=Status.STOPPED, reason=reason)

@@ -1,0 +1,1 @@
+"""Direct position analysis: all assembly modes, and tracking of one."""

@@ -1,0 +1,224 @@
+"""Direct position analysis: every configuration that has given leg lengths."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, thread_argument
+
+__all__ = ["AssemblyModes", "PositionStatus", "forward_position"]
+
+CHUNK = 4096  # rows between two looks at the keyboard; their modes fit the cache of no machine and the memory of all
+
+OBSTACLES = {
+    "lower_legs": "no point has the distances r1 r2 r3 from the base's joints: the lower internal legs do not meet",
+    "upper_legs": "no point has the distances q1 q2 q3 from the platform's joints: the upper internal legs do not meet",
+    "external_leg_1": "the external leg l1 is too long or too short for O where the internal legs put it",
+    "external_leg_2": "the external leg l2 is too long or too short for O where the internal legs put it",
+    "external_leg_3": "the external leg l3 is too long or too short for O where the internal legs put it",
+    "external_legs": "no rotation of the platform fits the external legs l1 l2 l3 together",
+}
+
+
+class PositionStatus(StrEnum):
+    """What nine leg lengths allow."""
+
+    FOUND = "found"
+    """Finitely many modes, all simple: each goes on smoothly as the lengths change."""
+    TANGENT = "tangent"
+    """Finitely many, and two meet here: a singular configuration. Its coordinates are good to half the digits."""
+    INFEASIBLE = "infeasible"
+    """No configuration has these lengths; `reason` says which legs are to blame."""
+    SELF_MOTION = "self_motion"
+    """The robot moves with these lengths held. No list of modes exists, and none is given."""
+    NO_DATA = "no_data"
+    """The row of lengths has NaN."""
+
+
+class AssemblyModes(Configuration):
+    """The assembly modes of one set of lengths, a stack of shape (count,), or of many, shape (..., most).
+
+    Where many sets of lengths were given, modes stand at the front of the last axis and the rest is NaN.
+    """
+
+    __slots__ = ("_base_side", "_certain", "_count", "_platform_side", "_reason", "_separation", "_status")
+    _base_side: NDArray[np.int64]
+    _certain: Any
+    _count: Any
+    _platform_side: NDArray[np.int64]
+    _reason: Any
+    _separation: Floats
+    _status: Any
+
+    @property
+    def status(self) -> Any:
+        """A PositionStatus, or an array of them, shape (...)."""
+        return self._status
+
+    @property
+    def reason(self) -> Any:
+        """Why there is no mode, in words; empty where there is one. A string, or an array of shape (...)."""
+        return self._reason
+
+    @property
+    def count(self) -> Any:
+        """Number of modes, 0 to 32. An integer, or an array of shape (...)."""
+        return self._count
+
+    @property
+    def certain(self) -> Any:
+        """Whether the count is confirmed. A bool, or an array of shape (...).
+
+        True where every root of the eliminant was isolated and became a mode of its own, or where the null-space method
+        found its solutions well apart. Near a double solution two modes may be one or none, and it is False.
+        """
+        return self._certain
+
+    @property
+    def separation(self) -> Floats:
+        """How far each mode is from meeting another, shape of the stack; 0 at a singular one, sqrt(3) at most.
+
+        Smallest singular value of the rows (Q w_i) x d_i, d_i and w_i being unit vectors from O to the external joints.
+        """
+        return self._separation
+
+    @property
+    def base_side(self) -> NDArray[np.int64]:
+        """Side of the plane of the base's internal joints that O is on: 1 along (c2 - c1) x (c3 - c1), -1, 0 in it."""
+        return self._base_side
+
+    @property
+    def platform_side(self) -> NDArray[np.int64]:
+        """The same for the platform's internal joints, in the platform frame."""
+        return self._platform_side
+
+    def __repr__(self) -> str:
+        """Say how many there are, or why none."""
+        if len(self.shape) != 1:
+            return f"<AssemblyModes of shape {self.shape}>"
+        return f"<{self.count} assembly modes: {self.status}{', ' + self.reason if self.reason else ''}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle everything."""
+        return _restored, (self._arrays(), tuple(getattr(self, name) for name in AssemblyModes.__slots__))
+
+
+def _restored(arrays: tuple[Floats, Floats, Floats], extra: tuple[Any, ...]) -> AssemblyModes:
+    modes = AssemblyModes._of(*arrays)
+    for name, value in zip(AssemblyModes.__slots__, extra, strict=True):
+        setattr(modes, name, value)
+    return modes
+
+
+def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | None = None) -> AssemblyModes:
+    """Return every configuration that has the given leg lengths: all real assembly modes, up to 32.
+
+    O is one of two points over the base's internal joints and one of two over the platform's. For each of the four
+    combinations up to eight rotations fit the external legs. They are found by eliminating one angle, which leaves a
+    polynomial of degree eight; each root is polished on SO(3) until all nine lengths hold, and the number of modes is
+    held against the number of roots. Where that does not come out, a null-space method solves the branch again. Where
+    base and platform are flat, half the modes are mirror images of the other half.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    leg_lengths : array_like, shape (..., 9)
+        l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b), >= 0, in the length unit of the geometry.
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    AssemblyModes
+        A stack of configurations of shape (count,), with `status`, `reason`, `separation` and the sides of O. For many
+        rows, shape (..., most): `count` modes first, then NaN. The order is that of the branches and has no other
+        meaning. Lengths that allow no configuration, or infinitely many, give an empty stack and a status that says so.
+
+    Raises
+    ------
+    ValueError
+        If a length is negative or infinite, or all nine are zero. NaN is refused too in a single row; in a stack it
+        marks a row without data.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> lengths = nd.leg_lengths(g, nd.Configuration.neutral(3.9828, 2.4432))
+    >>> modes = nd.forward_position(g, lengths)
+    >>> modes
+    <32 assembly modes: found>
+    >>> bool(abs(nd.leg_lengths(g, modes) - lengths).max() < 1e-14 * lengths.max())
+    True
+    >>> nd.forward_position(g, lengths * [1, 1, 1, 1, 1, 1, 0.5, 0.5, 0.5]).status
+    <PositionStatus.INFEASIBLE: 'infeasible'>
+
+    """
+    if not isinstance(geometry, Geometry):
+        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    lengths = as_floats("leg_lengths", leg_lengths, (9,))
+    if lengths.ndim == 1 and np.isnan(lengths).any():
+        raise ValueError("leg_lengths: got NaN, expected nine finite lengths >= 0")
+    rows = np.ascontiguousarray(lengths.reshape(-1, 9))
+    workers = thread_argument(threads)
+    chunks = [
+        _core.forward_position(geometry, rows[k : k + CHUNK], workers) for k in range(0, max(1, len(rows)), CHUNK)
+    ]
+    counts, certain, flat, separation, sides = (np.concatenate([c[k] for c in chunks]) for k in (0, 3, 4, 5, 6))
+    status = [PositionStatus(word or "no_data") for c in chunks for word in c[1]]
+    reason = [OBSTACLES.get(word, "") for c in chunks for word in c[2]]
+    return _modes(
+        lengths.shape[:-1], counts, flat.reshape(-1, 15), separation, sides.reshape(-1, 2), status, reason, certain
+    )
+
+
+def _modes(
+    shape: tuple[int, ...],
+    counts: NDArray[np.intc],
+    flat: Floats,
+    separation: Floats,
+    sides: NDArray[np.intc],
+    status: list[PositionStatus],
+    reason: list[str],
+    certain: NDArray[np.uint8],
+) -> AssemblyModes:
+    """Arrange the modes of all rows, one after the other in the core's answer, as a padded stack."""
+    most = int(counts.max(initial=0))
+    places = np.repeat(np.arange(len(counts)) * most, counts) + _positions_in_row(counts)
+    padded = np.full((len(counts) * most, 15), np.nan)
+    padded[places] = flat
+    spread = np.full(len(counts) * most, np.nan)
+    spread[places] = separation
+    side = np.zeros((len(counts) * most, 2), dtype=np.int64)
+    side[places] = sides
+    full = (*shape, most)
+    single = shape == ()
+    return _restored(
+        (
+            padded[:, :3].reshape(*full, 3),
+            padded[:, 3:12].reshape(*full, 3, 3),
+            padded[:, 12:].reshape(*full, 3),
+        ),
+        (
+            side[:, 0].reshape(full),
+            bool(certain[0]) if single else certain.astype(bool).reshape(shape),
+            int(counts[0]) if single else counts.astype(np.int64).reshape(shape),
+            side[:, 1].reshape(full),
+            reason[0] if single else np.array(reason, dtype=object).reshape(shape),
+            spread.reshape(full),
+            status[0] if single else np.array(status, dtype=object).reshape(shape),
+        ),
+    )
+
+
+def _positions_in_row(counts: NDArray[np.intc]) -> NDArray[np.int64]:
+    """0, 1, ... within each row."""
+    ends = np.cumsum(counts)
+    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)

@@ -1,0 +1,161 @@
+"""Direct position analysis for control: the assembly mode a robot goes on in."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument
+
+__all__ = ["TrackStatus", "Tracked", "track"]
+
+
+class TrackStatus(StrEnum):
+    """How a step ended."""
+
+    TRACKED = "tracked"
+    """Reached, and certified to be the only mode near the start of the last step."""
+    LOST = "lost"
+    """Not reached: on the straight way of the lengths the mode meets another, or O a plane of internal joints."""
+    INFEASIBLE = "infeasible"
+    """The internal legs do not meet, or an external leg is too long or too short for O where it is."""
+
+
+class Tracked(Configuration):
+    """Configurations reached, with the certificate of each; NaN where a mode was not reached."""
+
+    __slots__ = ("_numbers", "_status")
+    _numbers: Floats
+    _status: Any
+
+    @property
+    def status(self) -> Any:
+        """A TrackStatus, or an array of them of the stack's shape."""
+        return self._status
+
+    @property
+    def certificate(self) -> Any:
+        """Kantorovich's number h = sqrt(3) beta eta at the start of the last step, shape (...).
+
+        Up to 1/2, Newton's method is proved to converge, and to the only mode within `alone_within`. Above it a tracked
+        mode is certified from its own side: the start is nearer than 0.385 times its `separation`.
+        """
+        return self._numbers[..., 0][()]
+
+    @property
+    def alone_within(self) -> Any:
+        """No second mode with O on these sides is nearer to the start of the last step, rad; NaN where h > 1/2."""
+        return self._numbers[..., 1][()]
+
+    @property
+    def separation(self) -> Any:
+        """As in AssemblyModes: how far the mode is from meeting another, shape (...)."""
+        return self._numbers[..., 2][()]
+
+    @property
+    def steps(self) -> Any:
+        """Into how many steps the way had to be divided, shape (...)."""
+        return self._numbers[..., 3].astype(np.int64)[()]
+
+    @property
+    def reached(self) -> Any:
+        """Fraction of the way from the lengths of the start to the lengths asked for, shape (...); 1 where tracked."""
+        return self._numbers[..., 4][()]
+
+    def __repr__(self) -> str:
+        """Show a single configuration with its status, or the shape of a stack."""
+        if self.shape:
+            return f"<Tracked stack of shape {self.shape}>"
+        return f"<{self.status}: {super().__repr__()}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle everything."""
+        return _restored, (self._arrays(), self._numbers, self._status)
+
+
+def _restored(arrays: tuple[Floats, Floats, Floats], numbers: Floats, status: Any) -> Tracked:
+    new = Tracked._of(*arrays)
+    new._numbers, new._status = numbers, status
+    return new
+
+
+def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, threads: int | None = None) -> Tracked:
+    """Return the assembly mode reached from `start` when the leg lengths go straight to the given ones.
+
+    O stays on its side of the plane of the base's internal joints and of that of the platform's, where three spheres
+    give it in closed form. The rotation follows by Newton's method on SO(3). A step counts if Kantorovich's theorem
+    proves beforehand that Newton converges, or if the mode found proves it afterwards; otherwise the way is divided.
+    Lengths between the ends of a step are not looked at. To pass a singularity the lengths would have to say which way
+    to go: the mode is lost there, and nothing is returned.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    leg_lengths : array_like
+        Shape (..., 9), broadcast against `start`: one step each. With one dimension more than `start` has, shape
+        (..., n, 9): a trajectory of n steps each, every one from where the last one ended.
+    start : Configuration
+        Where the robot is known to be, shape (...). Its own lengths are where the way begins.
+    threads : int, optional
+        For a stack of starts; one a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    Tracked
+        Configurations of the shape of `leg_lengths` without its last dimension, with `status`, `certificate`,
+        `alone_within`, `separation`, `steps` and `reached`. NaN from where the mode is lost or the lengths are
+        infeasible on, and from a row of lengths with NaN on, which counts as lost; `forward_position` lists what modes
+        there are then.
+
+    Raises
+    ------
+    ValueError
+        If a length is negative or infinite, or shapes do not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> home = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> there = home.moved([0.02, 0.0, 0.01, 0.05, 0.0, 0.1, 0.0, 0.03, 0.05])
+    >>> now = nd.track(g, nd.leg_lengths(g, there), home)
+    >>> now.status, bool(now.certificate < 0.5), bool(abs(now.position - there.position).max() < 1e-13)
+    (<TrackStatus.TRACKED: 'tracked'>, True, True)
+
+    """
+    operands(geometry, start)
+    lengths = as_floats("leg_lengths", leg_lengths, (9,))
+    named = {
+        "position": (start.position, 1),
+        "rotation": (start.rotation, 2),
+        "internal_point": (start.internal_point, 1),
+    }
+    is_path = lengths.ndim - 1 > len(start.shape)
+    path = lengths.shape[-2] if is_path else 1
+    shape, (p, q, s, rows) = broadcast_leading(named | {"leg_lengths": (lengths, 2 if is_path else 1)})
+    flat, status = _core.track(
+        geometry,
+        rows.reshape(-1, 9),
+        path,
+        p.reshape(-1, 3),
+        q.reshape(-1, 3, 3),
+        s.reshape(-1, 3),
+        thread_argument(threads),
+    )
+    full = (*shape, path) if is_path else shape
+    words = np.array([TrackStatus(word) for word in _core.track_statuses], dtype=object)[status]
+    return _restored(
+        (
+            flat[:, :3].reshape(*full, 3),
+            flat[:, 3:12].reshape(*full, 3, 3),
+            flat[:, 12:15].reshape(*full, 3),
+        ),
+        flat[:, 15:].reshape(*full, 5),
+        words.reshape(full)[()],
+    )

@@ -1,0 +1,1 @@
+"""The best internal point for a pose, along a path and over a map."""

@@ -1,0 +1,239 @@
+"""Where to put the internal point: what nine legs for six coordinates leave free."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.redundancy.search_arguments import clearance_of, leg_limits, poses_of, starts_of
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
+
+__all__ = ["InternalPoint", "InternalPointStatus", "best_internal_path", "best_internal_point"]
+
+CHUNK = 256  # poses between two looks at the keyboard
+
+
+class InternalPointStatus(StrEnum):
+    """How the search for an internal point ended."""
+
+    FOUND = "found"
+    """Within the limits and stationary by our own checks."""
+    STOPPED = "stopped"
+    """Within the limits, but our checks did not pass: the best point looked at."""
+    INFEASIBLE = "infeasible"
+    """An external leg is out of its limits, or no point keeps the internal ones; `active` names them."""
+    UNBOUNDED = "unbounded"
+    """The criterion keeps improving as O runs away, or into a joint; `active` names the legs."""
+    SINGULAR = "singular"
+    """The start lies on a singularity, and so on no side of it."""
+    MISSING = "missing"
+    """The pose has NaN."""
+
+
+@dataclass(frozen=True)
+class InternalPoint:
+    """Internal points found, one for each pose."""
+
+    configuration: Configuration
+    """The poses with O in its place, shape (...); NaN where there is none."""
+    value: Any
+    """Condition number, least |det| or sum of squares, by criterion: float or shape (...). NaN where there is none."""
+    status: Any
+    """An InternalPointStatus, or an array of them, shape (...)."""
+    active: Any
+    """Names of what holds O where it is, or of what leaves it no place: a tuple, or an array of tuples, shape (...).
+
+    "q1 low" and "r3 high" are limits of legs, "det B" the distance kept from a singularity."""
+
+
+def best_internal_point(
+    geometry: Geometry,
+    position: ArrayLike,
+    rotation: Any = None,
+    criterion: str = "condition_number",
+    limits: tuple[ArrayLike, ArrayLike] | None = None,
+    characteristic_length: float = 1.0,
+    start: ArrayLike | None = None,
+    clearance: float | None = None,
+    threads: int | None = None,
+) -> InternalPoint:
+    """Return the internal point that is best for a pose of the platform.
+
+    The pose fixes the external legs. O is free in three directions (`null_motion`): moving it takes the six internal
+    legs along and leaves the platform where it is. It is sought in the chamber of `start`, where det B, det C and det M
+    keep their signs, so that the robot can get there without passing a singularity. Local optima are found by Newton's
+    method from many starts; the best is returned.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    position : array_like, shape (..., 3)
+        Origin p of the platform, length units, base frame.
+    rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
+        Q, platform frame to base frame. The identity by default. Broadcasts against the position.
+    criterion : {"condition_number", "singularity", "leg_centring"}
+        "condition_number" makes that of J' least (eq. 2). "singularity" makes the smallest of |det B|, |det C| and the
+        like of M largest, all of them free of units. "leg_centring" makes the sum of ((length - middle) / half range)^2
+        over the internal legs least, and needs finite limits.
+    limits : (low, high), optional
+        Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
+    characteristic_length : float
+        Of the condition number.
+    start : array_like, shape (..., 3), optional
+        A point of the chamber meant. By default midway between the centroids of the internal joints of base and
+        platform.
+    clearance : float, optional
+        Each of the three |det| of "singularity" stays above it; "det B" in `active` says that it binds. By default 0.01
+        for "leg_centring", which does not mind a singularity by itself, and 1e-10 for the others, which do.
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    InternalPoint
+        `configuration`, `value`, `status` and `active`, for one pose or a stack.
+
+    Raises
+    ------
+    ValueError
+        If an argument has another shape, a limit, the length or the criterion makes no sense, or leg_centring lacks
+        limits.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> best = nd.best_internal_point(g, [0.8, 0.0, 3.9828])
+    >>> middle = nd.Configuration([0.8, 0.0, 3.9828], internal_point=[0.4, 0.0, 1.9914])
+    >>> best.status, bool(best.value < nd.condition_number(g, middle))
+    (<InternalPointStatus.FOUND: 'found'>, True)
+
+    """
+    shape, p, q = poses_of(geometry, position, rotation)
+    low, high = leg_limits(limits)
+    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
+    starts = starts_of(start, shape)
+    workers = thread_argument(threads)
+    chunks = [
+        _core.best_internal_point(
+            geometry,
+            p[k : k + CHUNK],
+            q[k : k + CHUNK],
+            starts[k : k + CHUNK],
+            criterion,
+            low,
+            high,
+            length,
+            room,
+            workers,
+        )
+        for k in range(0, max(1, len(p)), CHUNK)
+    ]
+    s, value = (np.concatenate([c[k] for c in chunks]) for k in (0, 1))
+    return _result(shape, p, q, s, value, [w for c in chunks for w in c[2]], [n for c in chunks for n in c[3]])
+
+
+def best_internal_path(
+    geometry: Geometry,
+    position: ArrayLike,
+    rotation: Any = None,
+    criterion: str = "condition_number",
+    limits: tuple[ArrayLike, ArrayLike] | None = None,
+    characteristic_length: float = 1.0,
+    start: ArrayLike | None = None,
+    clearance: float | None = None,
+    smoothness: float = 0.1,
+) -> InternalPoint:
+    """Return internal points along a path of the platform: good at every pose, and smooth.
+
+    Made least is the mean of f along the path plus `smoothness` times the mean square of the speed of O along it,
+
+        mean f(s_k) + smoothness (n - 1) sum |s_(k+1) - s_k|^2 / size^2,
+
+    f being the logarithm of the condition number, minus the logarithm of the least |det|, or the sum of squares, and
+    size the robot's. Which local optimum to be in at which pose is decided for the whole path; all points then settle
+    together. O stays in one chamber, except where a gap divides the path.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    position : array_like, shape (n, 3)
+        The path of the platform origin, in order.
+    rotation : array_like, shape (n, 3, 3), or scipy.spatial.transform.Rotation
+        The identity by default.
+    criterion : {"condition_number", "singularity", "leg_centring"}
+    limits : (low, high), optional
+    characteristic_length : float
+        As in `best_internal_point`.
+    start : array_like, shape (3,), optional
+        A point of the chamber meant, at the first pose.
+    clearance : float, optional
+        As in `best_internal_point`.
+    smoothness : float
+        Greater than zero: O moves less, and is worth less. With little of it O moves as the best points do.
+
+    Returns
+    -------
+    InternalPoint
+        Shape (n,). Poses that allow no point divide the path: on their two sides O is placed independently, in the
+        chamber it was in before if the poses behind the gap have it, else in that of the default start.
+
+    Raises
+    ------
+    ValueError
+        As `best_internal_point`, and if the path is no (n, 3) array or the smoothness not finite and positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> t = np.linspace(0.0, 1.0, 21)
+    >>> path = nd.best_internal_path(g, np.stack([t, 0 * t, 3.98 + 0 * t], axis=-1))
+    >>> steps = np.linalg.norm(np.diff(path.configuration.internal_point, axis=0), axis=1)
+    >>> set(path.status.tolist()), bool(steps.max() < 0.1)
+    ({<InternalPointStatus.FOUND: 'found'>}, True)
+
+    """
+    shape, p, q = poses_of(geometry, position, rotation)
+    if len(shape) != 1:
+        raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
+    low, high = leg_limits(limits)
+    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
+    weight = as_number("smoothness", smoothness)
+    first = np.empty((0, 3))
+    if start is not None:
+        first = as_floats("start", start, (3,))
+        if first.ndim != 1:
+            raise ValueError(f"start: got shape {first.shape}, expected shape (3,)")
+    s, value, status, active = _core.best_internal_path(
+        geometry, p, q, first, criterion, low, high, length, room, weight
+    )
+    return _result(shape, p, q, s, value, status, active)
+
+
+def _result(
+    shape: tuple[int, ...],
+    p: Floats,
+    q: Floats,
+    s: Floats,
+    value: Floats,
+    status: list[str],
+    active: list[tuple[str, ...]],
+) -> InternalPoint:
+    words = np.array([InternalPointStatus(w) for w in status], dtype=object)
+    names = np.empty(len(active), dtype=object)
+    names[:] = active
+    return InternalPoint(
+        Configuration._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3)),
+        value.reshape(shape)[()],
+        words.reshape(shape)[()],
+        names.reshape(shape)[()],
+    )

@@ -1,0 +1,59 @@
+"""What the searches for an internal point are asked: poses, starts, leg limits, clearance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, as_number
+
+__all__ = ["clearance_of", "leg_limits", "poses_of", "starts_of"]
+
+CRITERIA = ("condition_number", "singularity", "leg_centring")
+
+
+def poses_of(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tuple[int, ...], Floats, Floats]:
+    """Check a stack of poses as a configuration would; return its shape and flat arrays."""
+    if not isinstance(geometry, Geometry):
+        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    c = Configuration(position, rotation, np.zeros(3))
+    return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
+
+
+def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
+    """Return one start a pose, or no rows where there is none."""
+    if start is None:
+        return np.empty((0, 3))
+    given = as_floats("start", start, (3,))
+    try:
+        return np.ascontiguousarray(np.broadcast_to(given, (*shape, 3))).reshape(-1, 3)
+    except ValueError:
+        raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
+
+
+def clearance_of(criterion: Any, clearance: float | None) -> float:
+    """Return the clearance of a criterion, its own default where none is given."""
+    if not isinstance(criterion, str):
+        raise ValueError(f"criterion: got {criterion!r}, expected one of {', '.join(CRITERIA)}")
+    if clearance is None:
+        return 1e-2 if criterion == "leg_centring" else 1e-10
+    return as_number("clearance", clearance)
+
+
+def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
+    """Return least and greatest lengths of the nine legs from (low, high), each a number or nine."""
+    if limits is None:
+        return np.zeros(9), np.full(9, np.inf)
+    if not isinstance(limits, tuple | list) or len(limits) != 2:
+        raise ValueError(f"{name}: got {limits!r}, expected (low, high), each a number or nine")
+    ends = []
+    for side, end in zip(("low", "high"), limits, strict=True):
+        values = as_floats(f"{name} ({side})", end, ())
+        if values.shape not in ((), (9,)):
+            raise ValueError(f"{name} ({side}): got shape {values.shape}, expected a number or shape (9,)")
+        ends.append(np.ascontiguousarray(np.broadcast_to(values, 9)))
+    return ends[0], ends[1]

@@ -1,0 +1,204 @@
+"""Where the robot stands: one configuration or a stack of them."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof import _core
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen
+
+__all__ = ["Configuration"]
+
+
+class Configuration:
+    """Nine coordinates: platform position p, platform rotation Q and internal point s, all in the base frame.
+
+    One configuration, or a stack with any leading dimensions; the three arguments broadcast against each other.
+    Immutable: the arrays are read-only.
+
+    Parameters
+    ----------
+    position : array_like, shape (..., 3)
+        Origin p of the platform frame, length units.
+    rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
+        Q, platform frame to base frame. The identity by default.
+    internal_point : array_like, shape (..., 3)
+        The point s where the six internal legs meet, length units.
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, a number is not finite, or a matrix is not a proper rotation (to 1e-9). In a stack NaN
+        is allowed: it marks a pose without data, and every result for that pose alone is NaN.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.Configuration.neutral(zp=3.9828, zs=[2.3745, 2.4435]).shape
+    (2,)
+
+    """
+
+    __slots__ = ("_internal_point", "_position", "_rotation")
+
+    def __init__(self, position: ArrayLike, rotation: Any = None, internal_point: ArrayLike | None = None) -> None:
+        if internal_point is None:
+            raise ValueError("internal_point: got None, expected the coordinates of O, shape (..., 3)")
+        if rotation is None:
+            rotation = np.eye(3)
+        elif hasattr(rotation, "as_matrix"):
+            rotation = rotation.as_matrix()
+        p = as_floats("position", position, (3,))
+        q = as_floats("rotation", rotation, (3, 3))
+        s = as_floats("internal_point", internal_point, (3,))
+        shape, (p, q, s) = broadcast_leading(
+            {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)},
+        )
+        _core.check_configurations(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3), bool(shape))
+        self._position, self._rotation, self._internal_point = frozen(p), frozen(q), frozen(s)
+
+    @classmethod
+    def neutral(cls, zp: ArrayLike, zs: ArrayLike, theta_z: ArrayLike = 0.0) -> Configuration:
+        """Eq. (6): p = (0, 0, zp), s = (0, 0, zs), Q a rotation by theta_z about z.
+
+        Parameters
+        ----------
+        zp, zs : array_like
+            Heights of the platform and of O above the base, length units; any shapes that broadcast.
+        theta_z : array_like
+            Twist of the platform, radians. The paper has 0; its eq. (7) claims no gain from it, wrongly.
+
+        """
+        shape, arrays = broadcast_leading(
+            {
+                "zp": (as_floats("zp", zp, ()), 0),
+                "zs": (as_floats("zs", zs, ()), 0),
+                "theta_z": (as_floats("theta_z", theta_z, ()), 0),
+            }
+        )
+        flat_zp, flat_zs, flat_theta_z = (a.reshape(-1) for a in arrays)
+        p, q, s = _core.neutral(flat_zp, flat_zs, flat_theta_z, bool(shape))
+        return cls._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
+
+    @classmethod
+    def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Self:
+        """Take arrays that have been checked before."""
+        new = cls.__new__(cls)
+        new._position, new._rotation, new._internal_point = map(frozen, (position, rotation, internal_point))
+        return new
+
+    def moved(self, tangent: ArrayLike) -> Configuration:
+        """Return the configuration displaced along a tangent, Q becoming exp(omega) Q.
+
+        Parameters
+        ----------
+        tangent : array_like, shape (..., 9)
+            (omega, dp, ds): rotation vector in radians and displacements in length units, base frame. Broadcasts
+            against the configuration.
+
+        """
+        t = as_floats("tangent", tangent, (9,))
+        p, q, s = self._arrays()
+        shape, (p, q, s, t) = broadcast_leading(
+            {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1), "tangent": (t, 1)}
+        )
+        moved = _core.moved(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3), t.reshape(-1, 9))
+        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in moved))
+
+    @property
+    def position(self) -> Floats:
+        """P, shape (..., 3)."""
+        return self._position
+
+    @property
+    def rotation(self) -> Floats:
+        """Q, shape (..., 3, 3)."""
+        return self._rotation
+
+    @property
+    def internal_point(self) -> Floats:
+        """S, shape (..., 3)."""
+        return self._internal_point
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Leading dimensions; () for a single configuration."""
+        return self._position.shape[:-1]
+
+    def __len__(self) -> int:
+        """Length of the first leading dimension."""
+        if not self.shape:
+            raise TypeError("a single configuration has no length")
+        return self.shape[0]
+
+    def __getitem__(self, index: Any) -> Configuration:
+        """Pick configurations from a stack, indexed along the leading dimensions."""
+        if not self.shape:
+            raise TypeError("a single configuration cannot be indexed")
+        picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
+        p, q, s = self._arrays()
+        return Configuration._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
+
+    def __bool__(self) -> bool:
+        """Be true, as objects are; the length of a stack does not matter."""
+        return True
+
+    def __eq__(self, other: object) -> bool:
+        """Compare numbers and shape."""
+        if not isinstance(other, Configuration):
+            return NotImplemented
+        pairs = zip(self._arrays(), other._arrays(), strict=True)
+        return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+
+    __hash__ = None  # type: ignore[assignment]  # a stack of arrays, as numpy's own
+
+    def __repr__(self) -> str:
+        """Show the numbers of a single configuration, or the shape of a stack."""
+        if self.shape:
+            return f"<Configuration stack of shape {self.shape}>"
+        p, q, s = (a.tolist() for a in self._arrays())
+        return f"Configuration(position={p}, rotation={q}, internal_point={s})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as the three arrays."""
+        return Configuration._of, self._arrays()
+
+    def _arrays(self) -> tuple[Floats, Floats, Floats]:
+        return self._position, self._rotation, self._internal_point
+
+
+def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+    """Return what the core takes: the geometry, and (n, 3), (n, 3, 3), (n, 3). A swapped argument is named."""
+    if not isinstance(geometry, Geometry):
+        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    if not isinstance(configuration, Configuration):
+        raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
+    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
+    return geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+
+
+def operands_with(
+    geometry: Geometry, configuration: Configuration, others: dict[str, Floats]
+) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
+    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands, and (n, k) arrays."""
+    operands(geometry, configuration)
+    for name, values in others.items():
+        if np.isinf(values).any():
+            raise ValueError(f"{name}: got an infinite number, expected finite ones")
+    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
+    named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
+    shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
+    flat = geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+    return shape, flat, [a.reshape(-1, a.shape[-1]) for a in rest]
+
+
+def single(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+    """Return what the core takes of one configuration; a stack is refused."""
+    flat = operands(geometry, configuration)
+    if configuration.shape:
+        raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
+    return flat

@@ -1,0 +1,1 @@
+"""Singular configurations: mechanisms, margins and the distance to the nearest."""

@@ -1,0 +1,275 @@
+"""Where locked legs no longer hold the robot: which mechanism gives way, how it moves, how far off that is."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration, operands, operands_with, single
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, as_number, checked_out, thread_argument
+
+__all__ = [
+    "Mechanism",
+    "Singularity",
+    "SingularityDistance",
+    "SingularityMargins",
+    "distance_to_singularity",
+    "singularity",
+    "singularity_margins",
+    "uncontrolled_motions",
+]
+
+
+class Mechanism(StrEnum):
+    """What can give way while all nine legs are locked."""
+
+    NONE = ""
+    """Nothing, or a configuration without data."""
+    M = "m"
+    """The planes (O, A_i, B_i) of the external legs share a line through O; the platform turns about it."""
+    B = "b"
+    """O is in the plane of the lower internal joints; it leaves the plane and drags the platform along."""
+    C = "c"
+    """O is in the plane of the upper internal joints; the platform moves and O does not."""
+
+
+class SingularityMargins(NamedTuple):
+    """Signed determinants of rows without unit: in [-1, 1], zero at a singularity, the same in any length unit."""
+
+    det_m: Any
+    """Of the rows d^_i x w^_i, unit vectors from O to the joints of external leg i; shape (...)."""
+    det_b: Any
+    """Of the unit vectors of the lower internal legs, base joint to O; shape (...)."""
+    det_c: Any
+    """Of the unit vectors of the upper internal legs, platform joint to O; shape (...)."""
+
+
+class Singularity(NamedTuple):
+    """What is weakest at a configuration; leading dimensions are those of the configuration."""
+
+    margins: SingularityMargins
+    """Signed determinants of the three mechanisms."""
+    smallest: Floats
+    """Smallest singular values of the same three matrices in the order m, b, c, shape (..., 3)."""
+    mechanism: Any
+    """The `Mechanism` whose smallest singular value is least; for a stack an array of their words."""
+    omega: Floats
+    """Turn of the platform in its uncontrolled motion, rad, base frame, shape (..., 3)."""
+    pdot: Floats
+    """Displacement of the platform origin in it, length, shape (..., 3)."""
+    sdot: Floats
+    """Displacement of the internal point in it, length, shape (..., 3)."""
+
+
+class SingularityDistance(NamedTuple):
+    """How far it is to the first singular configuration on a path; leading dimensions broadcast."""
+
+    distance: Any
+    """In multiples of the direction, shape (...); infinite where the whole path is free."""
+    mechanism: Any
+    """The `Mechanism` lost there, `NONE` where the path is free; for a stack an array of their words."""
+    each: Floats
+    """The distance for each mechanism alone, in the order m, b, c, shape (..., 3)."""
+    resolved: Any
+    """False where the path is known to be free up to `distance`, and what lies beyond was not settled; shape (...)."""
+
+
+def singularity_margins(
+    geometry: Geometry, configuration: Configuration, threads: int | None = None, out: Floats | None = None
+) -> SingularityMargins:
+    """Return the signed, length-free determinants whose zeros are the singularities.
+
+    det H = -det M det C det B / l_c^3: each factor is a way of its own to lose control, and changes sign across it.
+    Their size says how spread the directions of the legs are, not how far a singularity is: for that see `singularity`
+    and `distance_to_singularity`. Theory of position and velocity, section 5.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+    out : numpy.ndarray, shape (..., 3), optional
+        Where to put the three: float64, C-contiguous, aligned. The result shows it.
+
+    Returns
+    -------
+    SingularityMargins
+        det_m, det_b, det_c, each a float or of shape (...). det_m is the Jacobian determinant of the rotation problem
+        with unit vectors; the theory's det M, of rows w_i x e_i, is det_m |d_1||w_1||d_2||w_2||d_3||w_3| / (l1 l2 l3).
+        A leg of zero length, and a joint of an external leg at O, make their determinant 0.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> margins = nd.singularity_margins(g, nd.Configuration.neutral(3.9828, [0.0, 2.4432]))
+    >>> margins.det_b.round(4)
+    array([ 0.    , -0.9994])
+
+    """
+    operands_of = operands(geometry, configuration)
+    checked_out(out, (*configuration.shape, 3))
+    flat = _core.singularity_margins(*operands_of, thread_argument(threads), out)
+    return _margins(flat.reshape(-1, 3), configuration.shape)
+
+
+def singularity(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Singularity:
+    """Return which mechanism is closest to giving way, and the motion that locked legs hold least.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    threads : int, optional
+        Threads for a stack; one a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    Singularity
+        The mechanism is the one of least singular value; of several lost to rounding (1.4e-14) the first of m, c, b, so
+        that the motion exists. The motion is noticed by its own legs only: m by the external ones (sdot = 0, the
+        platform turns about a line through O), c by the upper (sdot = 0), b by the lower (sdot normal to their plane),
+        and by these not at all where the configuration is singular. It is as long as a turn by one radian,
+
+            |omega|^2 + (|v_O|^2 + |sdot|^2) / L^2 = 1,    v_O = pdot + omega x (s - p),
+
+        L the root mean square distance of the six platform joints from O: the same motion in any length unit, its sign
+        arbitrary. It is NaN where the mechanism is lost to a leg of zero length: that leg locks whatever moves it.
+
+    See Also
+    --------
+    uncontrolled_motions : all of them, when more than one mechanism is lost.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> found = nd.singularity(g, nd.Configuration.neutral(3.9828, 0.0))
+    >>> found.mechanism
+    <Mechanism.B: 'b'>
+    >>> bool(abs(found.sdot[2]) > 1.0)
+    True
+
+    """
+    flat = _core.singularity(*operands(geometry, configuration), thread_argument(threads))
+    shape = configuration.shape
+    omega, pdot, sdot = (flat[:, k : k + 3].reshape(*shape, 3) for k in (7, 10, 13))
+    return Singularity(
+        _margins(flat[:, :3], shape), flat[:, 3:6].reshape(*shape, 3), _words(flat[:, 6], shape), omega, pdot, sdot
+    )
+
+
+def uncontrolled_motions(geometry: Geometry, configuration: Configuration, tolerance: float = 1e-9) -> Floats:
+    """Return every independent motion that the nine legs do not notice.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        One configuration.
+    tolerance : float
+        Largest leg rate of such a motion, over L. The 9x9 matrix of leg rates H acts on (L omega, v_O, sdot), as in
+        `singularity`; its singular values are about 0.1 to 2 in a good configuration and a few 1e-16 in a singular one.
+
+    Returns
+    -------
+    numpy.ndarray, shape (k, 9)
+        Rows (omega, pdot, sdot), base frame, the least noticed first, none where the robot is under control. A small
+        multiple of one is a tangent for `Configuration.moved`; leg lengths change in second order. They are orthonormal
+        in the measure of `singularity`. A leg of zero length holds its two ends together.
+
+    Raises
+    ------
+    ValueError
+        If a stack is given, the configuration has NaN, or the tolerance is not finite and positive.
+
+    Examples
+    --------
+    Both plates and O in one plane:
+
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> nd.uncontrolled_motions(g, nd.Configuration([0, 0, 0], internal_point=[0.1, 0, 0])).shape
+    (4, 9)
+
+    """
+    return _core.uncontrolled_motions(*single(geometry, configuration), as_number("tolerance", tolerance))
+
+
+def distance_to_singularity(
+    geometry: Geometry,
+    configuration: Configuration,
+    direction: ArrayLike,
+    most: float = 1.0,
+    threads: int | None = None,
+) -> SingularityDistance:
+    """Return how far one can go along a direction before a mechanism gives way.
+
+    The path is t -> configuration.moved(t * direction): p and s on straight lines, the platform turning about a fixed
+    axis at a fixed rate. Nothing is stepped over: a step is only as long as bounds of the derivatives prove the
+    determinants to keep their signs. A zero that is touched without a change of sign is found where the determinant
+    sinks below its rounding error, its place known to about the square root of that.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    direction : array_like, shape (..., 9)
+        (omega, dp, ds): rotation vector in radians and displacements in length units, base frame, as for
+        `Configuration.moved`. Broadcasts against the configuration.
+    most : float
+        How far to look, in multiples of the direction. 1 by default: the displacement itself, so that an infinite
+        answer says that the whole move is free. For a pure rotation 2 pi / |omega| is all there is.
+    threads : int, optional
+        Threads for a stack; one a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    SingularityDistance
+        0 where the configuration itself is singular, infinite where nothing is lost on the path, NaN where the
+        configuration or the direction has NaN.
+
+    Raises
+    ------
+    ValueError
+        If the direction has another shape or is infinite, or `most` is not finite and positive.
+
+    Examples
+    --------
+    O sinks to the plane of the lower joints:
+
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> c = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> found = nd.distance_to_singularity(g, c, [0, 0, 0, 0, 0, 0, 0, 0, -1.0], most=5.0)
+    >>> round(float(found.distance), 10), found.mechanism
+    (2.4432, <Mechanism.B: 'b'>)
+
+    """
+    t = as_floats("direction", direction, (9,))
+    shape, flat, (t,) = operands_with(geometry, configuration, {"direction": t})
+    out = _core.distance_to_singularity(*flat, t, as_number("most", most), thread_argument(threads))
+    return SingularityDistance(
+        out[:, 0].reshape(shape)[()],
+        _words(out[:, 1], shape),
+        out[:, 3:].reshape(*shape, 3),
+        (out[:, 2] == 1.0).reshape(shape)[()],
+    )
+
+
+def _margins(flat: Floats, shape: tuple[int, ...]) -> SingularityMargins:
+    return SingularityMargins(*(flat[:, k].reshape(shape)[()] for k in range(3)))
+
+
+def _words(codes: Floats, shape: tuple[int, ...]) -> Any:
+    words = np.array(list(Mechanism), dtype="U1")[codes.astype(int)].reshape(shape)  # members in the core's order
+    return words if shape else Mechanism(str(words))

@@ -1,0 +1,1 @@
+"""Leg forces, stiffness, ellipsoids and accuracy."""

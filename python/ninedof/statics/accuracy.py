@@ -1,0 +1,187 @@
+"""How far errors of legs and joints move the platform: first-order bounds, and samples without linearization."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration, operands, operands_with, single
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import whole
+from ninedof.support.arrays import Floats, one_or_each, thread_argument
+
+__all__ = ["ErrorBounds", "error_bounds", "error_map", "error_samples"]
+
+CHUNK = 20_000  # samples between two looks at the keyboard: some hundredths of a second
+
+
+class ErrorBounds(NamedTuple):
+    """First-order effect of errors; leading dimensions are those of the configuration and the tolerances."""
+
+    components: Floats
+    """Largest modulus of each of (rotation, displacement of p, displacement of O), base axes, shape (..., 9)."""
+    rotation: Any
+    """Largest angle by which the platform is turned, rad, shape (...)."""
+    position: Any
+    """Largest distance of p from its place, shape (...)."""
+    internal_point: Any
+    """Largest distance of O from its place, shape (...)."""
+    covariance: Floats
+    """Of (rotation, p, s), errors independent and uniform within their tolerances, shape (..., 9, 9)."""
+
+
+def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
+    """Return how (rotation, p, s) move for each unit of error in the nine leg lengths: H^-1 of eqs. (24)-(26).
+
+    A joint that is off by d acts as a leg that is longer by the component of d along it, where the leg begins (r_i,
+    r^_i and u~_i), and shorter by as much where it ends (u_i). Legs point as e, e~ and e^ do.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 9, 9)
+        Rows: rotation vector (rad/length), displacement of p, displacement of O, base axes. The first six are the
+        Jacobian for l_c = 1. At a singular configuration rows of what the lengths do not determine are infinite: all
+        nine where O lies in the plane of the lower joints, else the first six.
+
+    """
+    return _core.error_map(*operands(geometry, configuration), 0).reshape(*configuration.shape, 9, 9)
+
+
+def error_bounds(
+    geometry: Geometry, configuration: Configuration, leg_errors: ArrayLike = 0.0, joint_errors: ArrayLike = 0.0
+) -> ErrorBounds:
+    """Return how far errors within tolerances can move the platform and O, to first order, and their covariance.
+
+    A joint centre that is off by d changes what its leg spans by the component of d along the leg, so a ball of radius
+    rho adds exactly rho to the tolerance of that leg, and every set of errors is a point of a box of nine lengths. A
+    linear map of a box is largest at a corner: `components` are sums of moduli, the three distances the largest over
+    all corners. All are attained, each by errors of its own. What is left out is of second order in the tolerances;
+    `error_samples` has it.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    leg_errors : float or array_like of shape (..., 9)
+        A leg is off by at most this, either way; the same for all, or in the order of `leg_lengths`. None by default.
+    joint_errors : float or array_like of shape (..., 12)
+        A joint centre lies within this distance of where it should be; the same for all, or three for each triple in
+        the order of `Geometry` (base external, base internal, platform external, platform internal). None by default.
+        Each joint errs on its own, coincident ones too. O has no error: it is where the six legs meet.
+
+    Returns
+    -------
+    ErrorBounds
+        Lengths in the unit of the input. The standard deviation of a component is the root of a diagonal entry of
+        `covariance`; a leg contributes the variance t^2/3 of its interval, a joint rho^2/5 along its leg. Infinite
+        where a singular configuration leaves it undetermined (in the covariance, NaN beside the diagonal).
+
+    Raises
+    ------
+    ValueError
+        If a tolerance is negative or infinite.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)
+    >>> c = nd.Configuration.neutral(0.39828, 0.24432)
+    >>> found = nd.error_bounds(g, c, leg_errors=10e-6, joint_errors=20e-6)  # metres
+    >>> print(f"{1e6 * found.position:.1f} um, {1e3 * found.rotation:.3f} mrad")
+    152.5 um, 1.284 mrad
+
+    """
+    shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
+    out = _core.error_bounds(*flat, tolerances, 0).reshape(*shape, 93)
+    rotation, position, internal_point = (out[..., k].copy()[()] for k in (9, 10, 11))
+    covariance = out[..., 12:].reshape(*shape, 9, 9)
+    return ErrorBounds(out[..., :9].copy(), rotation, position, internal_point, covariance.copy())
+
+
+def error_samples(
+    geometry: Geometry,
+    configuration: Configuration,
+    leg_errors: ArrayLike = 0.0,
+    joint_errors: ArrayLike = 0.0,
+    samples: int = 10_000,
+    seed: int = 0,
+    threads: int | None = None,
+) -> Floats:
+    """Return where robots with random errors stand when they are told to take a configuration: Monte Carlo.
+
+    Each sample is a robot whose joints are off by points of a ball and whose legs are off by numbers of an interval,
+    all independent and uniform. It is told the leg lengths of the intended configuration, and the configuration it
+    takes is solved for, without linearization.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        A single one, the intended.
+    leg_errors : float or array_like of shape (9,)
+    joint_errors : float or array_like of shape (12,)
+        Tolerances as in `error_bounds`.
+    samples : int
+    seed : int
+        The same seed gives the same samples, and the first samples of a longer run are those of a shorter one.
+    threads : int, optional
+        One a processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    numpy.ndarray, shape (samples, 9)
+        Tangent (rotation vector, displacement of p, displacement of O) from the intended configuration to the one
+        taken, base axes; `configuration.moved(tangent)` is the latter. A row is NaN where no configuration can be
+        followed from the intended one: errors too great, or the configuration singular.
+
+    Raises
+    ------
+    ValueError
+        If a tolerance is negative or infinite, or the configuration is a stack.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=0.58124, b1=0.29062, b2=0.0)
+    >>> c = nd.Configuration.neutral(0.39828, 0.24432)
+    >>> off = nd.error_samples(g, c, leg_errors=10e-6, joint_errors=20e-6, samples=2000)
+    >>> distance = np.linalg.norm(off[:, 3:6], axis=1)
+    >>> print(f"95 % within {1e6 * np.quantile(distance, 0.95):.0f} um")
+    95 % within 45 um
+
+    """
+    single(geometry, configuration)
+    count = whole("samples", samples, 0, 2**40)
+    key = whole("seed", seed, 0)
+    workers = thread_argument(threads)
+    shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
+    if shape:
+        raise ValueError(f"leg_errors, joint_errors: got a stack of shape {shape}, expected those of one robot")
+    out = np.empty((count, 9))
+    for first in range(0, count, CHUNK):  # the core hears no Ctrl-C
+        size = min(CHUNK, count - first)
+        out[first : first + size] = _core.error_samples(*flat, tolerances, first, size, key, workers)
+    return out
+
+
+def _with_tolerances(
+    g: Geometry, c: Configuration, leg_errors: ArrayLike, joint_errors: ArrayLike
+) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], Floats]:
+    parts = {
+        "leg_errors": one_or_each("leg_errors", leg_errors, 9),
+        "joint_errors": one_or_each("joint_errors", joint_errors, 12),
+    }
+    shape, flat, (legs, joints) = operands_with(g, c, parts)
+    stacked = np.concatenate([legs.reshape(-1, 9), joints.reshape(-1, 12)], axis=1)
+    return shape, flat, np.ascontiguousarray(stacked)

@@ -1,0 +1,164 @@
+"""Leg forces that balance a load, the self-stresses of a singular configuration, stiffness."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.robot.configuration import Configuration, operands_with, single
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats, as_floats, one_or_each
+
+__all__ = ["LegForces", "leg_forces", "self_stress", "stiffness"]
+
+
+class LegForces(NamedTuple):
+    """The legs' answer to a load; leading dimensions are those of the configuration and the load."""
+
+    forces: Floats
+    """In the order of `leg_lengths`, positive where the leg pushes, shape (..., 9)."""
+    unbalanced: Floats
+    """What no leg forces carry: moment, force and force at O, shape (..., 9). Exactly 0 unless singular."""
+
+
+def leg_forces(
+    geometry: Geometry,
+    configuration: Configuration,
+    moment: ArrayLike,
+    force: ArrayLike,
+    force_at_o: ArrayLike = (0.0, 0.0, 0.0),
+) -> LegForces:
+    """Return the forces with which the legs balance a load.
+
+    Virtual work: with H of eqs. (24)-(26), udot = H (omega, pdot, sdot), legs at forces f feed in the power f.udot, so
+    H^T f + load = 0. Nine forces hold nine coordinates: apart from singular configurations there is one such f, and
+    the redundancy leaves no choice but where O is put. At a singular configuration f is the one of least norm, to
+    which any `self_stress` may be added.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    moment, force : array_like, shape (..., 3)
+        Load on the platform from outside: moment about its origin p (force times length) and force, base axes. They
+        broadcast against the configuration.
+    force_at_o : array_like, shape (..., 3)
+        Load on the internal point; none by default.
+
+    Returns
+    -------
+    LegForces
+        `forces` are positive where a leg pushes, that is, works to become longer; a leg of zero length gets 0.
+        At a singular configuration `unbalanced` is the part of the load that works on the motions which locked legs
+        leave free, and `forces` balance the rest (moments weighed by the platform radius). A load with an unbalanced
+        part moves the machine, whatever the legs do.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> c = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> forces, _ = nd.leg_forces(g, c, moment=[0, 0, 0], force=[0, 0, -9.81])  # a weight on the platform
+    >>> (forces + 0.0).round(3)[[0, 3, 6]]  # external legs idle: no moment about O
+    array([0.   , 4.837, 5.556])
+
+    """
+    parts = {
+        "moment": as_floats("moment", moment, (3,)),
+        "force": as_floats("force", force, (3,)),
+        "force_at_o": as_floats("force_at_o", force_at_o, (3,)),
+    }
+    shape, flat, load = operands_with(geometry, configuration, parts)
+    stacked = np.ascontiguousarray(np.concatenate([part.reshape(-1, 3) for part in load], axis=1))
+    out = _core.leg_forces(*flat, stacked, 0).reshape(*shape, 2, 9)
+    return LegForces(out[..., 0, :].copy(), out[..., 1, :].copy())
+
+
+def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
+    """Return the leg forces that are in balance without any load: the null space of H^T.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        A single one.
+
+    Returns
+    -------
+    numpy.ndarray, shape (9, k)
+        Orthonormal columns, the entry of largest modulus positive. k = 0 at a regular configuration; k is also the
+        number of independent motions that locked legs leave free. A leg of zero length has no direction, and a column
+        of its own. One column of NaN where the configuration has NaN.
+
+    Raises
+    ------
+    ValueError
+        If the configuration is a stack: k may differ from one to the next.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> nd.self_stress(g, nd.Configuration.neutral(3.9828, 2.4432)).shape
+    (9, 0)
+    >>> nd.self_stress(g, nd.Configuration.neutral(3.9828, 0.0)).round(3)[[0, 3, 6], 0]  # O in the base plane
+    array([0.   , 0.   , 0.577])
+
+    """
+    return _core.self_stress(*single(geometry, configuration))
+
+
+def stiffness(
+    geometry: Geometry, configuration: Configuration, leg_stiffness: ArrayLike, internal: bool = False
+) -> Floats:
+    """Return the stiffness matrix of the platform, actuators locked, O free to settle.
+
+    Springs of stiffness k in the nine legs make the 9x9 matrix K9 = H^T diag(k) H over (rotation, p, s). Nothing but
+    the legs holds O, so it settles where the spring energy is least, and what the platform feels is the Schur
+    complement of K9: K = (J diag(1/k) J^T)^-1 with the 6x9 Jacobian J for l_c = 1. The textbook J^-T diag(k) J^-1 has
+    no meaning here, since J is not square. With the pseudo-inverse in place of J^-1 it is too stiff unless all k are
+    equal: O would sit where the changes of length are least, not the energy. K is found by an orthogonal factorization
+    of sqrt(k) H, never by inverting: at a singular configuration it is finite, and singular.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        Shape (...).
+    leg_stiffness : float or array_like of shape (..., 9)
+        k >= 0, force/length, the same for all legs or in the order of `leg_lengths`; 0 for a leg that is missing.
+        Broadcasts against the configuration.
+    internal : bool
+        Whether to return K9, which holds O as well; by default K.
+
+    Returns
+    -------
+    numpy.ndarray, shape (..., 6, 6), or (..., 9, 9)
+        Symmetric and positive semidefinite. (Moment about the platform origin p, force) for a small displacement
+        (rotation, translation of p), base axes; followed by force and displacement of O with `internal`. It is the
+        stiffness of a machine without load: what preloaded legs add by changing direction (the geometric stiffness) is
+        left out.
+
+    Raises
+    ------
+    ValueError
+        If a stiffness is negative or infinite.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> c = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> K = nd.stiffness(g, c, 1e6)
+    >>> (K.diagonal() / 1e6).round(3)
+    array([3.81 , 3.81 , 2.935, 0.966, 0.966, 2.549])
+
+    """
+    k = one_or_each("leg_stiffness", leg_stiffness, 9)
+    shape, flat, (k,) = operands_with(geometry, configuration, {"leg_stiffness": k})
+    core, size = (_core.stiffness_with_o, 9) if internal else (_core.stiffness, 6)
+    return core(*flat, k.reshape(-1, 9), 0).reshape(*shape, size, size)

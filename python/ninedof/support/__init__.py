@@ -1,0 +1,1 @@
+"""Arrays, arguments, angles and optional dependencies: knows nothing of robots."""

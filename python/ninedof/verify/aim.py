@@ -1,0 +1,119 @@
+"""What a study aims at, computed once more from its definition, and all gradients of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ninedof.conditioning.conditioning import condition_number, singular_values
+from ninedof.kinematics.kinematics import jacobian
+from ninedof.support.arrays import Floats
+from ninedof.verify.nonsmooth import TIE, Ends, ends_of
+from ninedof.verify.robot import Robot
+
+if TYPE_CHECKING:
+    from ninedof.design.study import Study
+
+__all__ = ["Aim", "Slopes"]
+
+
+@dataclass(frozen=True)
+class Aim:
+    """What a study makes least."""
+
+    index: str = "condition_number"
+    aggregate: str = "worst"
+    weight: float = 0.5
+    condition_limit: float = math.inf
+
+    @classmethod
+    def of(cls, study: Study) -> Aim:
+        """Take the objective of a study."""
+        o = study.objective
+        return cls(o.index, o.aggregate, o.weight, math.inf if o.condition_limit is None else o.condition_limit)
+
+    def values(self, robot: Robot) -> Floats:
+        """Return the index at every pose of the objective, shape (n,), by the general path."""
+        g, poses, length = robot.geometry, robot.poses, robot.length
+        if self.index == "condition_number":
+            return np.asarray(condition_number(g, poses, length))
+        if self.index == "frobenius":
+            return np.asarray(condition_number(g, poses, length, norm="frobenius"))
+        if self.index == "speed":
+            with np.errstate(divide="ignore"):
+                return np.asarray(1.0 / singular_values(g, poses, length)[:, -1])
+        sigma = np.linalg.svd(six_legged(robot), compute_uv=False)
+        with np.errstate(divide="ignore"):
+            return np.asarray(sigma[:, 0] / sigma[:, -1])
+
+    def total(self, values: Floats) -> float:
+        """Return the number made least: the worst, the harmonic mean, or both weighted in logarithms."""
+        worst = float(values.max())
+        if self.aggregate == "worst" or not math.isfinite(worst):
+            return worst
+        harmonic = 1.0 / float(np.mean(1.0 / values))
+        if self.aggregate == "mean_inverse":
+            return harmonic
+        return math.exp(self.weight * math.log(worst) + (1.0 - self.weight) * math.log(harmonic))
+
+    def matrices(self, robot: Robot) -> Floats:
+        """Return the matrices whose singular values the index is made of, shape (n, 6, 9) or (1, 6, 6)."""
+        if self.index == "six_legged":
+            return six_legged(robot)
+        return jacobian(robot.geometry, robot.poses, robot.length)
+
+
+class Slopes:
+    """All gradients of log(objective) at a design, and of log(condition number) where that has a limit."""
+
+    def __init__(self, aim: Aim, robot: Robot, matrices: Floats, slopes: Floats) -> None:
+        """Take the matrices of `Aim.matrices` and their derivatives, shape (variables, n, 6, k)."""
+        self._aim = aim
+        self._values = aim.values(robot)
+        self._ends = [ends_of(m, slopes[:, k]) for k, m in enumerate(matrices)]
+        self._smooth = [_frobenius(m, slopes[:, k]) for k, m in enumerate(matrices)]
+        limited = math.isfinite(aim.condition_limit) and aim.index != "six_legged"
+        conditions = np.asarray(condition_number(robot.geometry, robot.poses, robot.length)) if limited else np.empty(0)
+        self._held = np.flatnonzero(np.log(conditions) >= math.log(aim.condition_limit) - TIE)
+
+    def steepest(self, direction: Floats) -> Floats:
+        """Return the gradient of log(objective) that rises least along a direction: it is one of many at a tie."""
+        o, values = self._aim, self._values
+        each = np.array([self._one(k, direction) for k in range(len(values))])
+        worst = np.flatnonzero(np.log(values) >= math.log(values.max()) - TIE)
+        best_of_worst: Floats = min((each[k] for k in worst), key=lambda g: float(g @ direction))
+        if o.aggregate == "worst":
+            return best_of_worst
+        mean: Floats = (1.0 / values) @ each / float(np.sum(1.0 / values))
+        return mean if o.aggregate == "mean_inverse" else o.weight * best_of_worst + (1.0 - o.weight) * mean
+
+    def held(self, direction: Floats) -> list[Floats]:
+        """Return gradients of log(condition number) at poses on its limit, those that rise least along a direction."""
+        return [self._ends[k].steepest(direction) for k in self._held]
+
+    def _one(self, k: int, direction: Floats) -> Floats:
+        if self._aim.index == "frobenius":
+            return self._smooth[k]
+        ends: Ends = self._ends[k]
+        return ends.steepest_speed(direction) if self._aim.index == "speed" else ends.steepest(direction)
+
+
+def six_legged(robot: Robot) -> Floats:
+    """Return the 6x6 matrix of the platform on six legs r - u and r^ - u~ at the neutral pose, shape (1, 6, 6)."""
+    turned = robot.joints("platform") @ robot.neutral.rotation.T
+    along = robot.neutral.position + turned - robot.joints("base")
+    e = along / np.linalg.norm(along, axis=-1, keepdims=True)
+    return np.concatenate([np.cross(turned, e) / robot.length, e], axis=-1)[None]
+
+
+def _frobenius(matrix: Floats, slopes: Floats) -> Floats:
+    """Gradient of log(|M| |M^+|) = (log tr G + log tr G^-1) / 2, G = M M^T."""
+    gram, inverse = matrix @ matrix.T, np.linalg.pinv(matrix @ matrix.T)
+    change = 2.0 * np.einsum("jik,lk->jil", slopes, matrix)  # its symmetric part is the derivative of G
+    size = np.einsum("jii->j", change) / np.trace(gram)
+    other = np.einsum("jil,li->j", change, inverse @ inverse) / np.trace(inverse)
+    out: Floats = 0.5 * (size - other)
+    return out

@@ -1,0 +1,142 @@
+"""A design of a study as the checks see it: joints, configurations and a length, nothing from the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats
+
+if TYPE_CHECKING:
+    from ninedof.design.study import Study
+
+__all__ = ["Indices", "Places", "Robot"]
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A design with every configuration that its study looks at."""
+
+    geometry: Geometry
+    neutral: Configuration
+    poses: Configuration
+    """Those of the objective, shape (n,)."""
+    length: float
+    """The characteristic length l_c."""
+    apart: Indices
+    """Every two legs (0 to 8: l, q, r) that share no joint in any design of the study, shape (k, 2)."""
+
+    def joints(self, body: str) -> Floats:
+        """Return the six joints of "base" or "platform" in that body's frame, external first, shape (6, 3)."""
+        g = self.geometry
+        both = (g.base_external, g.base_internal) if body == "base" else (g.platform_external, g.platform_internal)
+        return np.vstack(both)
+
+    def ends(self, c: Configuration) -> tuple[Floats, Floats]:
+        """Return where the legs l, q, r start and end in a stack of configurations.
+
+        Returns
+        -------
+        start, end : numpy.ndarray, shape (..., 9, 3)
+            Base frame. l: base to platform; q: platform to O; r: base to O.
+
+        """
+        g, p, o = self.geometry, c.position[..., None, :], c.internal_point[..., None, :]
+        turned = np.swapaxes(c.rotation, -1, -2)
+        external, internal = p + g.platform_external @ turned, p + g.platform_internal @ turned
+        base = np.broadcast_to(np.stack([g.base_external, g.base_internal]), (*c.shape, 2, 3, 3))
+        centre = np.broadcast_to(o, external.shape)
+        start = np.concatenate([base[..., 0, :, :], internal, base[..., 1, :, :]], axis=-2)
+        return start, np.concatenate([external, centre, centre], axis=-2)
+
+
+class Places:
+    """From the variables of a study to robots, with bounds and sizes of the variables that are free."""
+
+    def __init__(self, study: Study, variables: Mapping[str, float]) -> None:
+        """Take the study and the design that sets the sizes."""
+        self.problem: Any = study.problem()
+        self.names: list[str] = list(self.problem.names)
+        self.x = np.array([variables[name] for name in self.names])
+        self._fixed = None if isinstance(study.characteristic_length, str | tuple) else study.characteristic_length
+        self.length = self._length(self.x.tolist())
+        bounds = [_bound(study, name) for name in self.names]
+        self.low = np.array([low for low, _ in bounds])
+        self.high = np.array([high for _, high in bounds])
+        self.free = np.flatnonzero(self.low < self.high)
+        # Lengths count in proportion to themselves, small ones to l_c; angles and shifts of O as they are.
+        pure = {*study.angles, *(name for name in self.names if name.startswith("pose"))}
+        relative = np.array([name in pure for name in self.names])
+        self.size = np.where(relative, 1.0, np.hypot(self.x, self.length))
+        self.apart = self._apart()
+
+    def robot(self, x: Floats) -> Robot:
+        """Return the robot of a full vector of variables; a ValueError where there is none."""
+        values = x.tolist()
+        position, rotation, point = self.problem.configurations(values)
+        every = Configuration(position, rotation, point)
+        # The neutral configuration comes first; where the objective looks at nothing else, it stands alone.
+        poses = every[1:] if len(every) > 1 else every
+        return Robot(
+            self.problem.geometry(values),
+            every[0],
+            poses,
+            self._length(values),
+            self.apart,
+        )
+
+    def _length(self, values: list[float]) -> float:
+        """Ask only where the length depends on the design."""
+        return float(self.problem.characteristic_length(values)) if self._fixed is None else self._fixed
+
+    def inside(self, x: Floats) -> Floats:
+        """Return variables moved to the nearest values within the bounds."""
+        return np.clip(x, self.low, self.high)
+
+    def _apart(self) -> Indices:
+        """Find legs that share a joint by construction: here, and in another design of the study as well."""
+        step = np.where(np.arange(len(self.x)) % 2, 0.01, 0.02) * self.size
+        moved = np.where(self.x + step <= self.high, self.x + step, np.maximum(self.x - step, self.low))
+        both = [self.problem.geometry(x.tolist()) for x in (self.x, np.where(self.low < self.high, moved, self.x))]
+        return np.array([pair for pair in combinations(range(9), 2) if not all(_meet(g, *pair) for g in both)])
+
+
+_SAME = 1e-9  # of the size of a body: joints nearer than that are one
+
+
+def _meet(g: Geometry, one: int, other: int) -> bool:
+    """Whether two legs share O or a joint; the first comes earlier in the order l, q, r."""
+    if one >= 3:
+        return True
+    base, platform = (g.base_external[one], g.base_external), (g.platform_external[one], g.platform_external)
+    if other < 3:
+        return _same(base[0], base[1][other], base[1]) or _same(platform[0], platform[1][other], platform[1])
+    if other < 6:
+        return _same(platform[0], g.platform_internal[other - 3], platform[1])
+    return _same(base[0], g.base_internal[other - 6], base[1])
+
+
+def _same(one: Floats, other: Floats, body: Floats) -> bool:
+    return float(np.linalg.norm(one - other)) <= _SAME * float(np.abs(body).max())
+
+
+def _bound(study: Study, name: str) -> tuple[float, float]:
+    given: Any = study.variables.get(name)
+    if name == LENGTH and not isinstance(study.characteristic_length, str):
+        given = study.characteristic_length
+    if given is None:  # the best length of all, or the place of O in a pose
+        return -np.inf, np.inf
+    low, high = given if isinstance(given, tuple) else (given, given)
+    return float(low), float(high)
+
+
+LENGTH = "characteristic_length"

@@ -1,0 +1,198 @@
+"""Every constraint once more, written from its definition: the second opinion on the core's margins.
+
+A rule turns a robot into the numbers that a limit speaks of, all of them: `upper` gives those that each must stay
+under the largest value allowed, `lower` those that each must stay over the least. Lengths of legs come from the general
+path of the core, everything else from joints and configurations.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ninedof.design.limits import Limit as Entry
+from ninedof.design.limits import for_core
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.support.arrays import Floats
+from ninedof.verify import directions, spacing
+from ninedof.verify.robot import Robot
+
+if TYPE_CHECKING:
+    from ninedof.design.study import Study
+
+__all__ = ["Limit", "limit_of", "limits_of", "margins", "measured"]
+
+MOST_PAIRED = 60  # poses; all pairs of lengths of more would fill the memory, and ties among so many matter less
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One constraint: what may be how large, angles in radians."""
+
+    name: str
+    low: float = 0.0
+    high: float = math.inf
+    of: str = "length"
+    axis: tuple[float, ...] = ()
+    steps: int = 4
+
+
+def limits_of(study: Study) -> list[Limit]:
+    """Return the limits of a study."""
+    return [limit_of(name, entry) for name, entry in study.constraints.items()]
+
+
+def limit_of(name: str, entry: Entry) -> Limit:
+    """Return one limit from what a study holds under its name."""
+    given = for_core(name, entry)
+    return Limit(name, given["low"], given["high"], given["of"], tuple(given["axis"]), given["steps"])
+
+
+def margins(limit: Limit, robot: Robot) -> Floats:
+    """Return every margin of a limit: relative to it, negative where it is violated.
+
+    Returns
+    -------
+    numpy.ndarray, shape (n,)
+        The same n, in the same order, for all robots of a study.
+
+    """
+    rule = RULES[limit.name]
+    out = []
+    if math.isfinite(limit.high) and rule.upper is not None:
+        values = rule.upper(robot, limit)
+        out.append(_log(limit.high) - _log(values) if rule.is_log else 1.0 - values / limit.high)
+    if rule.lower is not None and (limit.low > 0.0 or rule.is_sign):
+        values = rule.lower(robot, limit)
+        if rule.is_sign:
+            out.append(values - limit.low)
+        else:
+            out.append(_log(values) - _log(limit.low) if rule.is_log else values / limit.low - 1.0)
+    return np.concatenate(out) if out else np.empty(0)
+
+
+def measured(limit: Limit, robot: Robot) -> float:
+    """Return the least value that `max` of a limit could have with this robot still allowed."""
+    rule = RULES[limit.name]
+    if rule.upper is None:
+        raise ValueError(f"{limit.name}: got a limit without a max, expected one with a max")
+    return float(rule.upper(robot, limit).max())
+
+
+def _log(value: Any) -> Any:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.log(value)
+
+
+Values = Callable[[Robot, Limit], Floats]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What a limit is about."""
+
+    upper: Values | None = None
+    lower: Values | None = None
+    is_log: bool = True
+    """Whether margins are logarithms; otherwise differences in parts of the limit."""
+    is_sign: bool = False
+    """Whether margins are plain differences."""
+
+
+def _legs(robot: Robot) -> Floats:
+    return leg_lengths(robot.geometry, robot.poses).reshape(-1, 9)
+
+
+def _radii(robot: Robot, body: str) -> Floats:
+    out: Floats = np.linalg.norm(robot.joints(body)[:, :2], axis=-1)
+    return out
+
+
+def _height(robot: Robot) -> float:
+    return float(robot.neutral.position[2])
+
+
+def _unit(robot: Robot, limit: Limit) -> float:
+    return _height(robot) if limit.of == "zp" else 1.0
+
+
+def _some_legs(first: int, last: int) -> Rule:
+    def values(robot: Robot, limit: Limit) -> Floats:
+        return _legs(robot)[:, first:last].reshape(-1) / _unit(robot, limit)
+
+    return Rule(values, values)
+
+
+def _between_poses(robot: Robot) -> tuple[Floats, Floats]:
+    """Lengths of each leg at every two poses, broadcasting to (n, n, 9); of very many poses, beside the least."""
+    legs = _legs(robot)
+    return legs[:, None], legs[None, :] if len(legs) <= MOST_PAIRED else legs.min(axis=0)[None, None]
+
+
+def _stroke(robot: Robot, limit: Limit) -> Floats:
+    long, short = _between_poses(robot)
+    return (long - short).reshape(-1) / _unit(robot, limit)
+
+
+def _stroke_ratio(robot: Robot, limit: Limit) -> Floats:
+    long, short = _between_poses(robot)
+    return (long / short).reshape(-1)
+
+
+def _leg_ratios(robot: Robot, limit: Limit) -> Floats:
+    legs = _legs(robot)
+    others = legs if len(legs) <= MOST_PAIRED else legs.min()
+    return np.divide.outer(legs, others).reshape(-1)
+
+
+def _leg_ratio(robot: Robot, limit: Limit) -> Floats:
+    legs = _legs(robot)
+    return np.array([legs.max() / legs.min()])
+
+
+def _joint_height(robot: Robot, limit: Limit) -> Floats:
+    heights = np.abs(np.concatenate([robot.joints("base")[:, 2], robot.joints("platform")[:, 2]]))
+    largest = max(_radii(robot, "base").max(), _radii(robot, "platform").max())
+    out: Floats = heights / (largest if limit.of == "radius" else 1.0)
+    return out
+
+
+def _joint_spacing(robot: Robot, limit: Limit) -> Floats:
+    out = []
+    for body in ("base", "platform"):
+        apart = spacing.between_points(robot.joints(body))
+        out.append(apart / (_radii(robot, body).max() if limit.of == "radius" else 1.0))
+    return np.concatenate(out)
+
+
+def _fraction(robot: Robot, limit: Limit) -> Floats:
+    return np.array([robot.neutral.internal_point[2] / _height(robot)])
+
+
+RULES: Mapping[str, Rule] = {
+    # Of several joints that could be the largest, all must obey and one must suffice.
+    "radius_ratio": Rule(
+        lambda r, _: _radii(r, "base") / _radii(r, "platform").max(),
+        lambda r, _: _radii(r, "base").max() / _radii(r, "platform"),
+    ),
+    "leg_ratio": Rule(_leg_ratios, _leg_ratio),
+    "stroke_ratio": Rule(_stroke_ratio),
+    "zs_fraction": Rule(_fraction, _fraction),
+    "stroke": Rule(_stroke, is_log=False),
+    "leg_length": _some_legs(0, 9),
+    "external_length": _some_legs(0, 3),
+    "upper_length": _some_legs(3, 6),
+    "lower_length": _some_legs(6, 9),
+    "height": Rule(lambda r, _: np.array([_height(r)]), lambda r, _: np.array([_height(r)])),
+    "footprint": Rule(lambda r, _: _radii(r, "base"), lambda r, _: _radii(r, "base").max(keepdims=True)),
+    "joint_height": Rule(_joint_height, is_log=False),
+    "joint_spacing": Rule(lower=_joint_spacing, is_log=False),
+    "leg_clearance": Rule(lower=lambda r, limit: spacing.between_legs(r) / _unit(r, limit), is_log=False),
+    "base_cone": Rule(lambda r, limit: directions.cone(r, "base", limit.axis), is_log=False),
+    "platform_cone": Rule(lambda r, limit: directions.cone(r, "platform", limit.axis), is_log=False),
+    "singularity_free": Rule(lower=lambda r, limit: directions.determinants(r, limit.steps), is_sign=True),
+}

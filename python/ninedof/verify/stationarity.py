@@ -1,0 +1,147 @@
+"""Is a design stationary, kinks and all: the least convex combination of the gradients that are active.
+
+At a minimum some convex combination of the objective's gradients is balanced by the limits and bounds that hold:
+no direction improves to first order. The gradients at a tie are endless; those that matter are added one by one, each
+the one that the combination so far has most to fear from.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ninedof.support.arrays import Floats
+from ninedof.verify.aim import Aim, Slopes
+from ninedof.verify.nonsmooth import differences
+from ninedof.verify.robot import Indices, Places
+from ninedof.verify.rules import Limit, margins
+
+__all__ = ["Stationarity", "active_limits", "least_combination", "nonnegative_least_squares", "stationarity"]
+
+ACTIVE = 1e-6  # a limit or bound nearer than this part of it holds
+ROUNDS = 300
+
+
+@dataclass(frozen=True)
+class Stationarity:
+    """How far a design is from stationary."""
+
+    residual: float
+    """Norm of the least combination: relative change of the objective for a relative change of the variables."""
+    gradients: int
+    """Gradients of the objective in the last combination."""
+    limits: int
+    """Margins and bounds that hold."""
+
+
+def stationarity(places: Places, aim: Aim, limits: list[Limit]) -> Stationarity:
+    """Return the stationarity of a design over the free variables of its study."""
+    x, size, low, high = places.x, places.size, places.low, places.high
+    free = places.free
+    if not len(free):
+        return Stationarity(0.0, 0, 0)
+    slopes = differences(lambda y: aim.matrices(places.robot(y)), x, size, low, high)
+    all_slopes = Slopes(aim, places.robot(x), aim.matrices(places.robot(x)), slopes)
+    held = -active_limits(places, limits, ACTIVE)
+    room = 1.0 / np.maximum(size[free], 1e-300)
+    at_low = np.flatnonzero((x[free] - low[free]) * room <= ACTIVE)
+    at_high = np.flatnonzero((high[free] - x[free]) * room <= ACTIVE)
+    unit = np.eye(len(free))
+    cone = np.vstack([held, -unit[at_low], unit[at_high]])
+    residual, used = least_combination(all_slopes, cone)
+    return Stationarity(residual, used, len(cone))
+
+
+def active_limits(places: Places, limits: list[Limit], near: float) -> Floats:
+    """Return the gradients of all margins under `near`, in units of the sizes of the variables, shape (k, free)."""
+    here = places.robot(places.x)
+    rows = [np.empty((0, len(places.free)))]
+    for limit in limits:
+        close = np.flatnonzero(margins(limit, here) <= near)
+        if len(close):
+
+            def chosen(y: Floats, limit: Limit = limit, close: Indices = close) -> Floats:
+                out: Floats = margins(limit, places.robot(y))[close]
+                return out
+
+            rows.append(differences(chosen, places.x, places.size, places.low, places.high).T)
+    return np.vstack(rows)
+
+
+def least_combination(slopes: Slopes, cone: Floats) -> tuple[float, int]:
+    """Return the norm of the least sum of a convex combination of gradients and of a combination of a cone's rows.
+
+    Parameters
+    ----------
+    slopes : object with steepest(direction) and held(direction)
+        The sets that gradients come from; `held` gives rows of the cone.
+    cone : numpy.ndarray, shape (k, n)
+        Rows to be taken any number of times.
+
+    Returns
+    -------
+    residual : float
+    used : int
+        Gradients with a share in the combination.
+
+    """
+    n = cone.shape[1]
+    points = [slopes.steepest(np.zeros(n))]
+    rows = list(cone)
+    best, used = np.inf, 0
+    for _ in range(ROUNDS):
+        a = np.array([*points, *rows]).T
+        ones = np.concatenate([np.ones(len(points)), np.zeros(len(rows))])
+        scale = max(float(np.abs(a).max()), 1e-300)
+        # With shares that sum to one as a further equation, the solution is the least combination up to its length.
+        shares = nonnegative_least_squares(np.vstack([a / scale, ones]), np.append(np.zeros(n), 1.0))
+        shares = shares / max(float(shares[: len(points)].sum()), 1e-300)
+        rest = a @ shares
+        norm = float(np.linalg.norm(rest))
+        if norm < best:
+            best, used = norm, int(np.count_nonzero(shares[: len(points)] > 1e-9))
+        point, held = slopes.steepest(rest), slopes.held(rest)
+        worse = [row for row in held if float(row @ rest) < -1e-3 * norm * float(np.linalg.norm(row))]
+        is_new = float(point @ rest) < norm * norm * (1.0 - 1e-3)
+        if norm <= 1e-9 or not (is_new or worse):
+            break
+        if is_new:
+            points.append(point)
+        rows.extend(worse)
+    return best, used
+
+
+def nonnegative_least_squares(a: Floats, b: Floats) -> Floats:
+    """Return x >= 0 that makes |a x - b| least, by the active set method of Lawson and Hanson.
+
+    Parameters
+    ----------
+    a : numpy.ndarray, shape (m, n)
+    b : numpy.ndarray, shape (m,)
+
+    """
+    n = a.shape[1]
+    x, taken = np.zeros(n), np.zeros(n, dtype=bool)
+    tolerance = 1e-14 * (1.0 + float(np.abs(a).max())) * (1.0 + float(np.abs(b).max()))
+    for _ in range(10 * n):
+        gain = np.where(taken, -np.inf, a.T @ (b - a @ x))
+        if float(gain.max()) <= tolerance:
+            break
+        taken[int(gain.argmax())] = True
+        while True:
+            trial = np.zeros(n)
+            trial[taken] = np.linalg.lstsq(a[:, taken], b, rcond=None)[0]
+            if not np.any(trial[taken] <= 0.0):
+                break
+            out = np.flatnonzero(taken & (trial <= 0.0))
+            steps = x[out] / np.maximum(x[out] - trial[out], 1e-300)
+            x = x + float(steps.min()) * (trial - x)
+            # The one that set the step is zero now, whatever rounding has left of it: else this might never end.
+            x[out[int(steps.argmin())]] = 0.0
+            taken &= x > 1e-15
+            if not taken.any():
+                trial = np.zeros(n)
+                break
+        x = trial
+    return x

@@ -1,0 +1,359 @@
+"""Finished chunks are kept whatever happens: kills, cuts, swapped files, other questions, other runs."""
+
+import hashlib
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sweep_work as work
+from sweep_work import GRID, HOME, G
+
+import ninedof as nd
+from ninedof.chunks.store import Store, fingerprint
+from ninedof.sweep import sink
+
+QUESTION = {"kind": "test", "value": 0.1}
+
+
+def asked(folder=None, **options):
+    return nd.sweep(G, HOME, GRID, out=folder, chunk=20, **options)["condition_number"]
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return asked()
+
+
+def chunks(folder):
+    return sorted(folder.glob("chunk-*"))
+
+
+def child(folder, notes, before=""):
+    path = os.pathsep.join(
+        [str(Path(nd.__file__).parents[1]), str(Path(work.__file__).parent), os.environ.get("PYTHONPATH", "")]
+    )
+    return subprocess.Popen(
+        [sys.executable, "-c", f"{before}\nimport sweep_work; sweep_work.main({str(folder)!r})"],
+        env=os.environ | {"PYTHONPATH": path, "NINEDOF_TEST_NOTES": str(notes)},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+# --- Killed at any moment ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_killed_again_and_again_and_taken_up(tmp_path, expected, monkeypatch):
+    """SIGKILL at random moments. What was finished is never computed again, and the end is the same to the last bit."""
+    folder, notes = tmp_path / "out", tmp_path / "notes"
+    moments = random.Random(5)
+    kills = computed_before_the_end = 0
+    first_of = {repr(start): k for k, start in enumerate(firsts())}
+    for round_ in range(400):  # five or so where the machine is idle
+        mine = notes / str(round_)
+        mine.mkdir(parents=True)
+        finished = {int(p.name[-8:]) for p in chunks(folder)}
+        process = child(folder, mine)
+        deadline = time.monotonic() + 60.0
+        while not any(mine.iterdir()) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.002)  # importing takes most of the time: wait for the first chunk
+        try:
+            process.wait(moments.uniform(0.0, 0.06))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            kills += 1
+        status = process.wait()
+        assert status in (0, -signal.SIGKILL), process.stderr.read()
+        process.stderr.close()
+        called = [first_of[p.read_text()] for p in mine.iterdir() if p.read_text()]
+        assert len(set(called)) == len(called)
+        assert not finished & set(called), "a finished chunk was computed again"
+        computed_before_the_end += len(called)
+        if status == 0:
+            break
+    assert status == 0
+    assert kills >= 3
+    lost = computed_before_the_end - 20  # a chunk that was computed but not kept when the kill came
+    assert 0 <= lost <= kills
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(tmp_path))
+    found = nd.sweep(G, HOME, GRID, work.noted, out=folder, chunk=20)["noted"]
+    assert found.tobytes() == expected.tobytes()
+    assert not [p for p in tmp_path.iterdir() if p.is_file()], "a complete sweep computes nothing"
+    assert {p.name for p in folder.iterdir()} == {".lock", "manifest.json", *(f"chunk-{k:08d}" for k in range(20))}
+
+
+def firsts():
+    """Position of the platform at the first point of each chunk."""
+    x = np.repeat(nd.sweep(G, HOME, GRID)["x_p"], 17)[::20]
+    return [[float(v), 0.0, 3.9828] for v in x]
+
+
+MID_WRITE = """
+import os, signal
+real, calls = os.fsync, []
+def fsync(file):
+    calls.append(file)
+    if len(calls) == 4:  # the manifest, two chunks, and half of the third
+        os.ftruncate(file, os.fstat(file).st_size // 2)
+        os.kill(os.getpid(), signal.SIGKILL)
+    real(file)
+os.fsync = fsync
+"""
+
+
+def test_killed_in_the_middle_of_a_write(tmp_path, expected, monkeypatch):
+    out, notes, later = (tmp_path / name for name in ("out", "notes", "later"))
+    notes.mkdir()
+    later.mkdir()
+    process = child(out, notes, MID_WRITE)
+    assert process.wait(60) == -signal.SIGKILL, process.stderr.read()
+    process.stderr.close()
+    assert [p.name for p in chunks(out)] == ["chunk-00000000", "chunk-00000001"]
+    assert len(list(out.glob(".part-chunk-00000002-*"))) == 1
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(later))
+    assert nd.sweep(G, HOME, GRID, work.noted, out=out)["noted"].tobytes() == expected.tobytes()
+    assert len(list(later.iterdir())) == 18
+    assert not list(out.glob(".part-*"))
+
+
+def test_a_kill_between_write_and_rename_leaves_no_chunk(tmp_path, expected, monkeypatch):
+    def killed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.replace", killed)
+        with pytest.raises(KeyboardInterrupt):
+            Store(tmp_path, QUESTION, 20)
+    assert [p.name for p in tmp_path.iterdir()] == [".lock"]
+    Store(tmp_path, QUESTION, 20).close()
+
+
+def test_leftovers_of_a_kill_are_swept_up(tmp_path, expected):
+    asked(tmp_path)
+    (tmp_path / ".part-chunk-00000003-abcd").write_bytes(b"half")
+    chunks(tmp_path)[3].unlink()
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+    assert not list(tmp_path.glob(".part-*"))
+
+
+# --- Damage -----------------------------------------------------------------------------------------------------------
+
+
+def cut(path):
+    path.write_bytes(path.read_bytes()[:-7])
+
+
+def emptied(path):
+    path.write_bytes(b"")
+
+
+def one_bit(path):
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 4
+    path.write_bytes(data)
+
+
+def first_byte(path):
+    path.write_bytes(b"?" + path.read_bytes()[1:])
+
+
+def appended(path):
+    path.write_bytes(path.read_bytes() + b"\0")
+
+
+def of_its_neighbour(path):
+    shutil.copy(path.with_name("chunk-00000004"), path)
+
+
+@pytest.mark.parametrize("damage", [cut, emptied, one_bit, first_byte, appended, of_its_neighbour])
+def test_a_damaged_chunk_is_computed_again_and_no_other(tmp_path, damage, expected, monkeypatch):
+    out, notes = tmp_path / "out", tmp_path / "notes"
+    notes.mkdir()
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(notes))
+    nd.sweep(G, HOME, GRID, work.noted, out=out, chunk=20)
+    for path in notes.iterdir():
+        path.unlink()
+    damage(out / "chunk-00000007")
+    found = nd.sweep(G, HOME, GRID, work.noted, out=out)["noted"]
+    assert found.tobytes() == expected.tobytes()
+    assert [p.read_text() for p in notes.iterdir()] == [repr(firsts()[7])]
+
+
+def test_a_chunk_with_the_right_digest_and_wrong_contents_is_no_chunk(tmp_path):
+    with Store(tmp_path, QUESTION, 20) as store:
+        payload = b"not an archive"
+        digest = hashlib.sha256(f"{fingerprint(QUESTION)} 0 ".encode() + payload).digest()
+        store.path(0).write_bytes(b"ninedof chunk 1\n" + digest + payload)
+        assert store.read(0) is None
+        store.write(0, {"a": np.arange(3.0)})
+        assert store.read(0)["a"].tolist() == [0.0, 1.0, 2.0]
+        assert store.read(1) is None
+
+
+# --- Other questions --------------------------------------------------------------------------------------------------
+
+OTHERS = {
+    "over": lambda out: nd.sweep(G, HOME, {**GRID, "x_p": (-1.0, 1.0 + 1e-15, 23)}, out=out),
+    "order": lambda out: nd.sweep(G, HOME, dict(reversed(GRID.items())), out=out),
+    "index": lambda out: nd.sweep(G, HOME, GRID, "manipulability", out=out),
+    "home": lambda out: nd.sweep(G, nd.Configuration.neutral(3.9828, 2.4436), GRID, out=out),
+    "geometry": lambda out: nd.sweep(nd.Geometry.hexagonal(0.0, 5.8125, 2.9062, 0.0), HOME, GRID, out=out),
+    "relative": lambda out: nd.sweep(G, HOME, GRID, out=out, relative=False),
+    "internal_point": lambda out: nd.sweep(G, HOME, GRID, out=out, internal_point="carried"),
+    "characteristic_length": lambda out: nd.sweep(G, HOME, GRID, out=out, characteristic_length="optimal"),
+    "kind": lambda out: nd.sweep_designs({"a1": 0, "a2": 5, "b1": 3, "b2": 0, "zp": 4}, {"zs": [1.0]}, out=out),
+}
+
+
+@pytest.mark.parametrize("entry", OTHERS)
+def test_a_folder_answers_one_question(tmp_path, entry, expected):
+    asked(tmp_path)
+    before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    with pytest.raises(
+        ValueError, match=r"out: got .*another question \(it differs in .*\), expected an empty folder"
+    ) as e:
+        OTHERS[entry](tmp_path)
+    assert entry in str(e.value) or entry == "order"
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+
+
+def test_another_version_is_another_question(tmp_path, monkeypatch):
+    asked(tmp_path)
+    monkeypatch.setattr("ninedof._core.version", "99.0")
+    with pytest.raises(ValueError, match="differs in ninedof"):
+        asked(tmp_path)
+
+
+def test_the_chunks_there_are_set_the_size(tmp_path, expected):
+    asked(tmp_path)
+    assert nd.sweep(G, HOME, GRID, out=tmp_path, chunk=64)["condition_number"].tobytes() == expected.tobytes()
+    assert len(chunks(tmp_path)) == 20
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("notes.txt", "mine", "holds 'notes.txt' but no manifest.json"),
+        ("manifest.json", "{}", "expected one written by ninedof"),
+        ("manifest.json", "{", "expected one written by ninedof"),
+        (
+            "manifest.json",
+            json.dumps({"format": "ninedof-chunks-1", "question": {}, "chunk": 0}),
+            "expected one written",
+        ),
+    ],
+)
+def test_a_folder_of_something_else_is_left_alone(tmp_path, name, text, words):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError, match=words):
+        asked(tmp_path)
+    assert (tmp_path / name).read_text() == text
+    assert not chunks(tmp_path)
+
+
+def test_a_file_is_no_folder(tmp_path):
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(ValueError, match=r"out: got .*file, which cannot be created"):
+        asked(tmp_path / "file")
+
+
+def test_a_nameless_index_cannot_be_kept(tmp_path):
+    with pytest.raises(ValueError, match=r"index: got <function .*expected a function with a name of its own"):
+        nd.sweep(G, HOME, GRID, lambda g, c, lc: nd.condition_number(g, c, lc), out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_two_runs_do_not_share_a_folder(tmp_path):
+    notes = tmp_path / "notes"
+    notes.mkdir()
+    process = child(tmp_path / "out", notes)
+    try:
+        deadline = time.monotonic() + 60.0
+        while not chunks(tmp_path / "out") and time.monotonic() < deadline:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGSTOP)  # it must not finish while we look
+        with pytest.raises(ValueError, match="where another run is at work"):
+            asked(tmp_path / "out")
+    finally:
+        process.kill()
+        process.wait()
+        process.stderr.close()
+    with pytest.raises(ValueError, match="another question"):  # a killed run holds nothing
+        asked(tmp_path / "out")
+
+
+def test_two_stores_of_one_process_do_not_share_a_folder(tmp_path):
+    with Store(tmp_path / "out", QUESTION, 20):
+        (tmp_path / "link").symlink_to(tmp_path / "out")
+        for name in ("out", "link"):
+            with pytest.raises(ValueError, match="where another run is at work"):
+                Store(tmp_path / name, QUESTION, 20)
+        with Store(tmp_path / "other", QUESTION, 20):
+            pass
+    for _ in range(2):
+        again = Store(tmp_path / "out", QUESTION, 20)
+        again.close()
+        again.close()
+
+
+# --- Interrupted ------------------------------------------------------------------------------------------------------
+
+
+def test_an_interruption_leaves_what_was_finished(tmp_path, expected):
+    def stop(done, total, to_go):
+        if done >= 100:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        asked(tmp_path, progress=stop)
+    assert len(chunks(tmp_path)) == 5
+    seen = []
+    assert asked(tmp_path, progress=lambda *a: seen.append(a)).tobytes() == expected.tobytes()
+    assert seen[0][:2] == (100, 391)
+    assert np.isnan(seen[0][2])
+    assert [done for done, *_ in seen] == [*range(100, 391, 20), 391]
+    assert all(total == 391 for _, total, _ in seen)
+    assert all(to_go >= 0.0 for *_, to_go in seen[1:])
+    assert seen[-1][2] == 0.0
+
+
+def test_control_c_ends_a_run_at_the_next_chunk(tmp_path):
+    notes = tmp_path / "notes"
+    notes.mkdir()
+    process = child(tmp_path / "out", notes)
+    try:
+        deadline = time.monotonic() + 60.0
+        while not chunks(tmp_path / "out") and time.monotonic() < deadline:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=30)
+    finally:
+        process.kill()
+    assert "KeyboardInterrupt" in error
+    assert 1 <= len(chunks(tmp_path / "out")) < 20
+    assert not list((tmp_path / "out").glob(".part-*"))
+
+
+# --- Large arrays -----------------------------------------------------------------------------------------------------
+
+
+def test_large_arrays_go_to_files(tmp_path, expected, monkeypatch):
+    monkeypatch.setattr(sink, "IN_MEMORY", 1000)
+    found = nd.sweep(G, HOME, GRID, ["condition_number", "leg_lengths"], out=tmp_path, chunk=20)
+    assert isinstance(found["condition_number"], np.memmap)
+    assert not found["condition_number"].flags.writeable
+    assert found["condition_number"].tobytes() == expected.tobytes()
+    assert found["leg_lengths"].tobytes() == nd.sweep(G, HOME, GRID, "leg_lengths")["leg_lengths"].tobytes()
+    assert np.load(tmp_path / "leg_lengths.npy").shape == (23, 17, 9)
+    again = nd.sweep(G, HOME, GRID, ["condition_number", "leg_lengths"], out=tmp_path)
+    assert again["condition_number"].tobytes() == expected.tobytes()

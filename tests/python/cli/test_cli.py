@@ -1,0 +1,229 @@
+"""The command line as a person or a script meets it: words, JSON, exit status, files, interruption."""
+
+import json
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from ninedof.cli.app import main
+
+
+def run(capsys, line):
+    """Run a command line in this process; return status, standard output, standard error."""
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    captured = capsys.readouterr()
+    return end.value.code, captured.out, captured.err
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+
+
+def test_main_job(capsys, tmp_path):
+    status, out, _ = run(capsys, "--out run")
+    assert status == 0
+    for figure in (
+        "3.9110",
+        "3.911000",
+        "3.786570",
+        "3.762659",
+        "6.1902",
+        "2.3745",
+        "2.5110",
+        "6.0079",
+        "3.18 %",
+        "3.79 %",
+    ):
+        assert figure in out
+    names = {path.name for path in (tmp_path / "run").iterdir()}
+    stems = ("mechanism", "condition", "convergence")
+    assert names == {"record.json"} | {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg")}
+    record = json.loads((tmp_path / "run" / "record.json").read_text())
+    assert record["study"]["solver"] == {"starts": 64, "seed": 0}
+    assert {"ninedof", "python", "numpy"} <= set(record["versions"])
+    assert record["results"]["optimization"]["status"] == "optimal"
+    assert set(record["files"]) == names - {"record.json"}
+
+
+def test_json_is_all_of_standard_output(capsys):
+    status, out, err = run(capsys, "--json --no-figures --threads 1")
+    assert status == 0
+    data = json.loads(out)
+    assert data["optimization"]["candidates"][0]["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
+    assert [row["title"] for row in data["designs"]]
+    assert Path(data["record"]).is_file()
+    assert "3.762659" in err
+
+
+def test_starts_and_seed_reach_the_record(capsys):
+    run(capsys, "optimize --starts 5 --seed 7 --no-figures --out run")
+    assert json.loads(Path("run/record.json").read_text())["study"]["solver"] == {"starts": 5, "seed": 7}
+
+
+STUDIES = {
+    "optimal": ("[constraints]\nradius_ratio = { max = 2.0 }", 0),
+    "unbounded": ("[variables]\na2 = [0.0, inf]\nzp = [0.1, inf]\nzs = [0.1, inf]", 3),
+    "infeasible": ("[constraints]\nleg_ratio = { max = 0.5 }", 3),
+}
+
+
+@pytest.mark.parametrize("status", STUDIES)
+def test_study_file(capsys, status):
+    text, code = STUDIES[status]
+    Path("study.toml").write_text(text)
+    got, out, _ = run(capsys, "optimize study.toml --no-figures --out run")
+    assert got == code
+    assert status in out
+    record = json.loads(Path("run/record.json").read_text())
+    assert record["results"]["optimization"]["status"] == status
+
+
+def test_study_over_poses_shows_prices_and_poses(capsys):
+    Path("study.toml").write_text(
+        "[constraints]\nradius_ratio = { max = 2.0 }\n[objective]\nunit = 'zp'\n"
+        "[objective.box]\nhalf = [0.1, 0.0, 0.0]\n[solver]\nstarts = 8\n"
+    )
+    status, out, _ = run(capsys, "study.toml --no-figures --out run")
+    assert status == 0
+    text = " ".join(out.split())
+    for part in (
+        "neutral condition",
+        "worst over the poses",
+        "best over the poses",
+        "more radius_ratio buys",
+        "% of the",
+    ):
+        assert part in text
+    best = json.loads(Path("run/record.json").read_text())["results"]["optimization"]["candidates"][0]
+    assert len(best["conditions"]) == 3
+    assert best["objective"] == pytest.approx(max(best["conditions"]), rel=1e-9)
+    assert "radius_ratio" in best["prices"]
+    evaluated = json.loads(run(capsys, "evaluate run --json")[1])
+    assert evaluated["condition_number"] == pytest.approx(best["condition_number"], rel=1e-9)
+
+
+BAD = {
+    "missing file": ("optimize nothing.toml", "nothing.toml"),
+    "missing design": ("evaluate nothing.toml", "nothing.toml"),
+    "no starts": ("optimize --starts 0", "starts: got 0"),
+    "no threads": ("--threads 0", "threads: got 0"),
+    "negative seed": ("--seed -1", "seed: got -1"),
+    "sides missing": ("evaluate --a1 1", "--a2"),
+    "negative side": ("evaluate --a1 -1 --a2 1 --b1 1 --b2 1 --zp 2 --zs 1", "a1: got -1"),
+    "no plate": ("evaluate --a1 0 --a2 0 --b1 1 --b2 1 --zp 2 --zs 1", "a1, a2"),
+    "nan height": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp nan --zs 1", "zp: got nan"),
+    "length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc shortest", "--lc: got"),
+    "zero length": ("evaluate --a1 0 --a2 1 --b1 1 --b2 0 --zp 2 --zs 1 --lc 0", "characteristic_length: got 0"),
+    "unknown command": ("optimise", "optimise"),
+    "unknown option": ("optimize --start 3", "--start"),
+    "not a number": ("evaluate --a1 wide", "a1"),
+}
+
+
+@pytest.mark.parametrize(("line", "words"), BAD.values(), ids=BAD.keys())
+def test_bad_input_is_one_clear_error(capsys, tmp_path, line, words):
+    status, out, err = run(capsys, line)
+    assert status == 2
+    assert words in err
+    assert "Traceback" not in err + out
+    assert not (tmp_path / "runs").exists()
+
+
+def test_a_run_never_overwrites_another(capsys):
+    Path("run").mkdir()
+    Path("run/mine.txt").write_text("kept")
+    status, _, err = run(capsys, "--out run --no-figures")
+    assert status == 2
+    assert "not an empty folder" in err
+    assert [p.name for p in Path("run").iterdir()] == ["mine.txt"]
+
+
+def test_evaluate_published_design(capsys):
+    status, out, _ = run(capsys, "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.3745 --json")
+    data = json.loads(out)
+    assert status == 0
+    assert data["condition_number"] == pytest.approx(3.9110, abs=5e-5)
+    assert data["reciprocal"] == pytest.approx(1.0 / data["condition_number"])
+    assert len(data["singular_values"]) == 6
+    kinds = data["characteristic_lengths"]
+    assert min(kinds.values(), key=lambda k: k["condition_number"]) == kinds["optimal"]
+
+
+def test_evaluate_a_singular_design(capsys):
+    status, out, _ = run(capsys, "evaluate --a1 1 --a2 2 --b1 0.5 --b2 1 --zp 3 --zs 1 --json")
+    data = json.loads(out)
+    assert status == 0
+    assert data["condition_number"] == "inf"
+    assert data["reciprocal"] == 0.0
+    assert data["singular"] is True
+
+
+def test_evaluate_takes_degrees_at_the_edge(capsys):
+    published = "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432 --json"
+    turned = json.loads(run(capsys, published + " --theta-z-deg 2.8647889756541161")[1])
+    assert turned["condition_number"] == pytest.approx(3.8819, abs=5e-5)
+
+
+def test_evaluate_the_best_design_of_a_run(capsys):
+    run(capsys, "--out run --no-figures")
+    status, out, _ = run(capsys, "evaluate run --json")
+    assert status == 0
+    assert json.loads(out)["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
+
+
+def test_paper_gives_a_verdict_on_every_number(capsys):
+    status, out, _ = run(capsys, "paper --json")
+    rows = json.loads(out)
+    assert status == 0
+    assert {"eq. (7)", "eq. (39a)", "eq. (39b)", "eq. (39c)", "eq. (40)", "eq. (41)", "sec. 5"} <= {
+        r["where"] for r in rows
+    }
+    assert all(r["verdict"] for r in rows)
+
+
+@pytest.mark.parametrize("line", ["--help", "optimize --help", "evaluate -h", "paper --help"])
+def test_help(capsys, line):
+    status, out, _ = run(capsys, line)
+    assert status == 0
+    assert "Usage" in out
+    if " " in line:
+        assert "Example" in out
+
+
+def test_version(capsys):
+    status, out, _ = run(capsys, "--version")
+    assert status == 0
+    assert out.strip().count(".") == 2
+
+
+def test_interrupted_run_keeps_what_it_has(tmp_path):
+    """Ctrl-C on a run of a million starts: status 130, the best so far printed and recorded."""
+    arguments = ["--starts", "1000000", "--no-figures", "--out", "run"]
+    script = f"""
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
+sys.path[:] = {sys.path}
+import ninedof.cli.commands, ninedof.cli.app
+print("ready", flush=True)
+ninedof.cli.app.main({arguments})
+"""
+    command = [sys.executable, "-c", script]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "ready\n"
+        time.sleep(1.5)  # past the small studies, into the large one
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate(timeout=30)
+    assert child.returncode == 130, err
+    assert "Traceback" not in err
+    assert "3.762659" in out
+    assert "interrupted after" in out
+    record = json.loads((tmp_path / "run" / "record.json").read_text())
+    assert record["results"]["optimization"]["interrupted"] is True

@@ -1,0 +1,159 @@
+"""Lower bounds: the printed digits, the equations they come from, and designs that come near them."""
+
+import math
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.optimize.bounds import (
+    HEXAGONAL_LIMIT,
+    HEXAGONAL_TWIST_LIMIT,
+    applicable_bounds,
+    kappa_star,
+    planar_leg_ratio_bound,
+)
+
+# rho and kappa* as the theory note prints them.
+PRINTED = {
+    0.25: 2.7790237093,
+    0.5: 2.2864210951,
+    1.0: 1.7081835426,
+    2.0: 1.2793810843,
+    3.0: 1.1427511612,
+    5.0: 1.0563165572,
+    10.0: 1.0147468760,
+    20.0: 1.0037337467,
+    1.5396: 1.4117982731,
+}
+LEGS = {2.0: 3.1462643699, 2.5: 2.6413377370, 3.0: 2.3171775835, 4.0: 1.9318516526}
+
+
+@pytest.mark.parametrize("rho", PRINTED)
+def test_kappa_star_has_the_printed_digits(rho):
+    assert kappa_star(rho) == pytest.approx(PRINTED[rho], abs=6e-11)
+
+
+@pytest.mark.parametrize("rho", [1e-3, 0.1, 0.7, 1.5396, 4.0, 30.0])
+def test_kappa_star_is_the_smallest_root(rho):
+    q = rho * rho
+    polynomial = np.array(
+        [
+            2.0,
+            -(87 * q + 47),
+            264 + 33 * q - 27 * q**2,
+            144 + 132 * q + 27 * q**2 - q**3,
+            q**2 * (q + 3),
+        ]
+    )
+    k = kappa_star(rho) ** 2
+    size = np.polyval(np.abs(polynomial), k)
+    assert abs(np.polyval(polynomial, k)) <= 1e-13 * size
+    below = np.polyval(polynomial, np.linspace(1.0, k * (1.0 - 1e-3 * min(rho, 1.0)) - 1e-3 * (k - 1.0), 2000))
+    assert np.all(below > 0.0)  # positive at 1, so no root before k
+
+
+def test_kappa_star_falls_between_its_ends():
+    rho = np.concatenate([[0.0], np.geomspace(1e-9, 1e9, 2001), [math.inf]])
+    values = np.array([kappa_star(float(r)) for r in rho])
+    assert values[0] == pytest.approx(math.sqrt(12.0), rel=1e-15)
+    assert values[-1] == 1.0
+    assert np.all(np.diff(values) <= 1e-12)
+    assert np.abs(np.diff(values)).max() < 0.03  # no jump where one branch hands over to the next
+    assert kappa_star(1e3) == pytest.approx(1.0 + 1.5e-6, abs=1e-11)
+
+
+def test_published_orthogonal_design_is_just_above():
+    """The example of the theory note at rho = 5: sqrt(1.12), a little over kappa*."""
+    radius = math.sqrt(1.0 / 13.0)
+    external = math.hypot(0.7, 3.0)
+    g = nd.Geometry.symmetric(
+        base_external=(external, math.atan2(-3.0, 0.7), 6.2),
+        base_internal=(radius, 0.3, 0.0),
+        platform_external=(math.hypot(0.7, 1.0), math.atan2(1.0, 0.7), 0.2),
+        platform_internal=(5.0 * radius, 1.1, 0.0),
+    )
+    found = float(nd.condition_number(g, nd.Configuration.neutral(zp=6.0, zs=1.0)))
+    assert found == pytest.approx(math.sqrt(1.12), abs=1e-9)
+    assert kappa_star(5.0) < found < kappa_star(5.0) * 1.002
+
+
+@pytest.mark.parametrize("ratio", LEGS)
+def test_planar_bound_has_the_printed_digits(ratio):
+    assert planar_leg_ratio_bound(ratio) == pytest.approx(LEGS[ratio], abs=6e-11)
+
+
+def test_planar_bound_holds_for_random_planar_designs():
+    rng = np.random.default_rng(3)
+    nearest = math.inf
+    for _ in range(300):
+        radius, angle = rng.uniform(0.2, 4.0, 4), rng.uniform(-math.pi, math.pi, 4)
+        g = nd.Geometry.symmetric(*((r, a, 0.0) for r, a in zip(radius, angle, strict=True)))
+        zp = rng.uniform(0.5, 5.0)
+        c = nd.Configuration.neutral(zp, zp * rng.uniform(0.05, 0.95))
+        legs = nd.leg_lengths(g, c)
+        above = float(nd.condition_number(g, c)) / planar_leg_ratio_bound(float(legs.max() / legs.min()))
+        nearest = min(nearest, above)
+    assert 1.0 - 1e-9 <= nearest < 2.5
+
+
+def test_planar_bound_is_attained_where_legs_alone_bind():
+    """All legs equal: c = 2 sqrt2, so c + sqrt(1 + c^2) = 3 + 2 sqrt2, and a hexagonal design reaches it."""
+    found = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 1.0)}))
+    assert found.condition_number == pytest.approx(3.0 + 2.0 * math.sqrt(2.0), abs=1e-6)
+    assert planar_leg_ratio_bound(1.0) == pytest.approx(3.0 + 2.0 * math.sqrt(2.0), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("theta_z", "limit"), [(0.0, HEXAGONAL_LIMIT), ((-1.0, 1.0), HEXAGONAL_TWIST_LIMIT), (0.2, HEXAGONAL_TWIST_LIMIT)]
+)
+def test_hexagonal_designs_stay_above_their_limit(theta_z, limit):
+    sides = {name: (0.0, 1e5) for name in ("a1", "a2", "b1", "b2")}
+    heights = {"zp": (0.05, 1e5), "zs": (0.05, 1e5)}
+    result = nd.optimize(nd.Study(variables={**sides, **heights, "theta_z": theta_z}))
+    (bound,) = [b for b in applicable_bounds(result) if b.name == "hexagonal"]
+    assert bound.value == limit
+    assert not bound.proved
+    assert limit < result.condition_number
+
+
+def test_bounds_of_a_result_are_sorted_and_say_their_number():
+    result = nd.optimize(nd.Study.paper())
+    bounds = applicable_bounds(result)
+    assert [b.name for b in bounds] == ["leg ratio", "hexagonal", "distance of O", "isotropy"]
+    assert all(b.value <= result.condition_number for b in bounds)
+    assert "1.326261" in bounds[2].sentence
+    assert bounds[2].value == pytest.approx(kappa_star(result.variables["zp"] - result.variables["zs"]))
+
+
+def test_bounds_scale_with_the_characteristic_length():
+    scaled = {name: (0.0, 60e3) for name in ("a1", "a2", "b1", "b2")} | {"zp": (50.0, 80e3), "zs": (50.0, 80e3)}
+    in_mm = nd.Study(variables=scaled, constraints={"radius_ratio": (None, 2.0)}, characteristic_length=1000.0)
+    values = [b.value for b in applicable_bounds(nd.optimize(in_mm))]
+    assert values == pytest.approx([b.value for b in applicable_bounds(nd.optimize(nd.Study.paper()))], rel=1e-6)
+
+
+@pytest.mark.parametrize("rho", [-1.0, math.nan, -math.inf])
+def test_bad_distance_is_named(rho):
+    with pytest.raises(ValueError, match=r"^rho: got .*, expected a number of at least 0"):
+        kappa_star(rho)
+
+
+@pytest.mark.parametrize("ratio", [0.5, math.nan, -2.0])
+def test_bad_ratio_is_named(ratio):
+    with pytest.raises(ValueError, match=r"^ratio: got .*, expected a number of at least 1"):
+        planar_leg_ratio_bound(ratio)
+
+
+def test_result_without_a_design_is_named():
+    nothing = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 0.5)}))
+    with pytest.raises(ValueError, match=r"^result: got one without a design \(infeasible\)"):
+        applicable_bounds(nothing)
+
+
+def test_the_distance_bound_is_not_claimed_where_designs_beat_it():
+    """Below |s - p| = 0.5 l_c two threefold singular values do better than the family kappa_star is the least of."""
+    near = nd.optimize(nd.Study(variables={"zp": 1.0, "zs": 0.8}), starts=4)
+    far = nd.optimize(nd.Study(variables={"zp": 2.0, "zs": 0.8}), starts=4)
+    assert "distance of O" not in [bound.name for bound in applicable_bounds(near)]
+    assert "distance of O" in [bound.name for bound in applicable_bounds(far)]

@@ -1,0 +1,81 @@
+"""What a result tells about its best candidate, in numbers and in words."""
+
+import copy
+import dataclasses
+import math
+import pickle
+
+import pytest
+
+import ninedof as nd
+from ninedof import poses
+from ninedof.optimize.prices import price_words
+from ninedof.runs.records import describe_result, to_json
+
+POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
+STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return nd.optimize(STUDY)
+
+
+def test_a_result_tells_its_best_candidate(result):
+    best = result.best
+    assert (result.objective, result.prices, result.conditions) == (best.objective, best.prices, best.conditions)
+    assert len(best.conditions) == 3
+    assert best.objective == pytest.approx(max(best.conditions))
+    assert best.configurations.shape == (4,)
+    assert best.configuration == best.configurations[0]
+    assert best.condition_number == pytest.approx(nd.condition_number(best.geometry, best.configuration))
+    assert best.conditions == pytest.approx(nd.condition_number(best.geometry, best.configurations)[1:])
+    assert result.confidence == min(1.0, best.reached / result.starts_done)
+
+
+def test_results_can_be_pickled_and_copied(result):
+    for other in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert other.study == result.study
+        assert other.best.variables == result.best.variables
+
+
+def test_without_a_candidate_there_is_no_confidence(result):
+    nothing = dataclasses.replace(result, candidates=(), status=nd.Status.INFEASIBLE)
+    assert nothing.confidence == 0.0
+    assert nothing.objective is nothing.prices is nothing.conditions is nothing.configurations is None
+    assert nothing.summary() == f"infeasible: {result.reason}"
+
+
+def test_summary_says_what_matters(result):
+    text = result.summary()
+    assert text.startswith(f"{result.status}: {result.reason}")
+    for part in (f"{result.objective:.6f}", f"{result.condition_number:.6f}", "over 3 poses", "radius_ratio", "starts"):
+        assert part in text
+
+
+@pytest.mark.parametrize(
+    ("constraint", "words"),
+    [
+        ((None, 2.0), "more radius_ratio"),
+        ((1.0, None), "less radius_ratio"),
+        ((1.0, 2.0), "wider radius_ratio"),
+    ],
+)
+def test_prices_say_which_way_a_limit_gives(result, constraint, words):
+    study = dataclasses.replace(STUDY, constraints={"radius_ratio": constraint})
+    best = dataclasses.replace(result.best, prices={"radius_ratio": 0.1234, "a1": 1e-9})
+    assert price_words(study, best.variables, best.prices) == [f"1 % {words} buys 0.123 %"]
+
+
+def test_prices_of_bounds_say_which_bound(result):
+    study = dataclasses.replace(STUDY, variables={"a2": (1.0, 6.0), "zp": (2.0, math.inf)})
+    best = dataclasses.replace(
+        result.best, prices={"a2": 0.5, "zp": 0.25}, variables=result.best.variables | {"a2": 6.0, "zp": 2.0}
+    )
+    assert price_words(study, best.variables, best.prices) == ["1 % more a2 buys 0.5 %", "1 % less zp buys 0.25 %"]
+
+
+def test_a_result_can_be_written(result):
+    text = to_json(describe_result(result))
+    for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "stopped_early"):
+        assert f'"{entry}"' in text

@@ -1,0 +1,269 @@
+"""How an optimization may end other than well: unbounded, infeasible, nothing to do, nothing but singular designs.
+
+Oracles: the theory notes for the unbounded study; for the others the truth is plain from how the study is made.
+"""
+
+import math
+
+import pytest
+
+import ninedof as nd
+
+INF = math.inf
+OPEN = {name: (0.0, INF) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
+TWICE = {"radius_ratio": (None, 2.0)}
+PUBLISHED = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745}
+
+
+def solve(variables=None, constraints=None, **others):
+    return nd.optimize(nd.Study(variables=variables or {}, constraints=constraints or {}, **others))
+
+
+# --- Unbounded --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("high", [INF, 1e7])
+def test_equations_8_and_9_alone_have_no_minimum(high):
+    """kappa falls for ever as the base and both heights grow, towards 2.5358; the platform stays of the size of l_c."""
+    result = solve({name: (0.0, high) for name in OPEN})
+    assert result.status == "unbounded"
+    assert {"zp", "zs"} <= set(result.causes) <= {"a1", "a2", "zp", "zs"}
+    assert {"a1", "a2"} & set(result.causes)
+    for name in result.causes:
+        assert name in result.reason
+    assert 2.5358 < result.condition_number < 2.56324
+    assert {"b1", "b2"} & set(result.causes) == set()
+
+
+def test_unbounded_study_in_millimetres():
+    metres, millimetres = (
+        solve(OPEN | dict.fromkeys(("zp", "zs"), (0.05 * lc, INF)), characteristic_length=lc) for lc in (1, 1e3)
+    )
+    assert metres.status == millimetres.status == "unbounded"
+    assert metres.condition_number == pytest.approx(millimetres.condition_number, rel=1e-9)
+
+
+def test_open_bounds_alone_are_not_unbounded():
+    """With the base at most twice the platform the optimum is finite, however far the bounds."""
+    result = solve(OPEN, TWICE)
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(3.762659078596, rel=1e-9)
+    assert result.causes == ()
+
+
+def test_leg_ratio_stops_the_flight():
+    """Legs of comparable length keep a planar machine from growing to advantage (theory of limits, section 3)."""
+    far, near = solve(OPEN, {"leg_ratio": (None, 3.0)}), solve({}, {"leg_ratio": (None, 3.0)})
+    assert far.status == near.status == "optimal"
+    assert far.condition_number == pytest.approx(near.condition_number, rel=1e-9)
+
+
+@pytest.mark.parametrize("heights", [(0.05, 9e5), (0.05, 1e6), (0.0, INF)], ids=str)
+def test_bounded_sides_with_high_heights(heights):
+    """Sides up to 2e4 stop the flight whatever the heights may do: kappa 2.538402 at zp = 4736 is the answer."""
+    result = solve(dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 2e4)) | {"zp": heights, "zs": heights})
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(2.5384022, abs=5e-7)
+    assert max(result.variables["a1"], result.variables["a2"]) == pytest.approx(2e4, rel=1e-9)
+
+
+def test_value_at_sides_of_1e5():
+    """2.53645 in the theory note; heights ten times the sides do not bind."""
+    heights = (0.05, 1e6)
+    result = solve(dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 1e5)) | {"zp": heights, "zs": heights})
+    assert result.condition_number == pytest.approx(2.53645, abs=5e-6)
+    assert result.status == "optimal"
+
+
+@pytest.mark.parametrize("limit", [30.0, 100.0, 1000.0])
+def test_no_answer_stands_on_a_bound_that_nobody_set(limit):
+    """However the run treats open bounds inside: a wider study is never worse, and what is called active must exist."""
+    constraints = {"leg_ratio": (None, limit)}
+    wide, narrow = solve(OPEN, constraints), solve(dict.fromkeys(OPEN, (1e-3, 5000.0)), constraints)
+    assert narrow.status == "optimal"
+    assert wide.condition_number <= narrow.condition_number * (1.0 + 1e-6)
+    if wide.status == "optimal":
+        assert not {name for name in wide.active if wide.variables.get(name, 0.0) > 0.0}
+
+
+def test_the_whole_circle_has_no_wall():
+    """theta_z without bounds: where a run is cut inside, no local optimum may be claimed there."""
+    for seed in range(8):
+        result = solve({"theta_z": (-INF, INF)}, TWICE, seed=seed)
+        assert result.condition_number == pytest.approx(3.749827, abs=5e-7)
+        assert not [c.active for c in result.candidates if "theta_z" in c.active]
+
+
+@pytest.mark.parametrize("low", [1.0, 100.0, 1000.0, 20_000.0])
+def test_unbounded_from_a_large_base_on(low):
+    """The flight begins later from a large base; that zs comes close to zp on the way is not the limit of (9b)."""
+    result = solve(OPEN | {"a2": (low, INF)})
+    assert result.status == "unbounded"
+    assert "zp > zs" not in result.active
+
+
+@pytest.mark.parametrize("limit", [1e4, 3e5, 6e5, 9.9e5])
+def test_very_large_bounds_are_still_bounds(limit):
+    result = solve(dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, limit)) | dict.fromkeys(("zp", "zs"), (0.05, limit)))
+    assert result.status == "optimal"
+    assert 2.535842 < result.condition_number < 2.540423
+
+
+@pytest.mark.parametrize("starts", [64, 200])
+@pytest.mark.parametrize("lc", [1.0, 1000.0])
+def test_heights_from_zero_as_9b_has_them(starts, lc):
+    """Bounds as printed in (9): plates may shrink to nothing and O sink into the base, but no such end is an answer."""
+    bounds = dict.fromkeys(("zp", "zs"), (0.0, 80.0 * lc))
+    result = solve(bounds, TWICE, characteristic_length=lc, starts=starts)
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(3.762659078596, rel=1e-9)
+    assert solve(OPEN, characteristic_length=lc, starts=starts).status == "unbounded"
+
+
+# --- Infeasible -------------------------------------------------------------------------------------------------------
+
+CONFLICTS = {
+    "legs shorter than the shortest": ({}, {"leg_ratio": (None, 0.5)}, {"leg_ratio"}),
+    "O above the platform": ({}, {"zs_fraction": (1.5, 2.0)}, {"zs_fraction", "zp > zs"}),
+    "heights in the wrong order": ({"zp": 1.0, "zs": 2.0}, {}, {"zp > zs"}),
+    "bounds in the wrong order": ({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}, {}, {"zp", "zs", "zp > zs"}),
+    "base too large": (
+        dict.fromkeys(("a1", "a2"), (5.0, 6.0)) | dict.fromkeys(("b1", "b2"), (0.0, 0.1)),
+        TWICE,
+        {"a1", "a2", "b1", "b2", "radius_ratio"},
+    ),
+    "fixed design over its limit": (PUBLISHED | {"b1": 1.9062}, TWICE, {"radius_ratio"}),
+    "two constraints": (
+        {"zp": 4.0, "a1": 0.0, "a2": (0.0, 1.0)},
+        {"leg_ratio": (None, 1.2), "zs_fraction": (0.9, 0.95)},
+        {"leg_ratio", "zs_fraction"},
+    ),
+}
+
+
+@pytest.mark.parametrize(("variables", "constraints", "causes"), CONFLICTS.values(), ids=CONFLICTS.keys())
+def test_infeasible(variables, constraints, causes):
+    result = solve(variables, constraints)
+    assert result.status == "infeasible"
+    assert causes <= set(result.causes)
+    for name in result.causes:
+        assert name in result.reason
+    assert result.candidates == ()
+    for name in ("best", "condition_number", "variables", "geometry", "configuration", "active", "optimality_residual"):
+        assert getattr(result, name) is None
+    assert result.constraint_violation is None
+
+
+def test_causes_name_only_what_is_in_conflict():
+    """No design has a longest leg of half its shortest: no bound of any variable has a part in that."""
+    assert solve({}, {"leg_ratio": (None, 0.5)}).causes == ("leg_ratio",)
+    variables, constraints, causes = CONFLICTS["base too large"]
+    pinned = {"zp": (3.0, 3.0 + 1e-9), "zs": (1.0, 1.0 + 1e-9)}  # on their bounds wherever they go, and innocent
+    assert set(solve(variables | pinned, constraints).causes) == causes
+
+
+def test_internal_point_in_the_base_breaks_9b():
+    """zs = 0 is outside 0 < zs < zp, and every such design is singular."""
+    result = solve({"zs": 0.0})
+    assert result.status == "infeasible"
+    assert "zs" in " ".join(result.causes)
+
+
+# --- Nothing to look for ----------------------------------------------------------------------------------------------
+
+
+def test_all_fixed():
+    result = solve(PUBLISHED, TWICE)
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(3.9110, abs=5e-5)
+    assert result.variables == PUBLISHED | {"theta_z": 0.0}
+    assert len(result.candidates) == 1
+
+
+SINGULAR = {
+    "one similar pair": {"a1": 1.0, "a2": 2.0, "b1": 0.5, "b2": 1.0, "zp": 3.9828, "zs": 2.3745},
+    "regular hexagons, heights free": {"a1": 1.0, "a2": 1.0, "b1": 1.0, "b2": 1.0},
+    "triangles on triangles, one side free": {"a1": 0.0, "b1": 0.0},
+}
+
+
+@pytest.mark.parametrize("variables", SINGULAR.values(), ids=SINGULAR.keys())
+def test_nothing_but_singular_designs(variables):
+    """Every design of these studies is singular: none is an optimum, and no finite condition number may be quoted."""
+    result = solve(variables)
+    assert result.status != "optimal"
+    assert result.condition_number in (None, INF)
+    for c in result.candidates:
+        assert nd.condition_number(c.geometry, c.configuration) < INF
+
+
+def test_one_free_variable():
+    result = solve(PUBLISHED | {"zs": (0.1, 3.9)})
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(3.9070664, abs=5e-7)
+    assert result.active == ()
+
+
+def test_plate_without_size():
+    """Both sides of a plate fixed at 0 is no robot: said when the study is made or solved, in the study's words."""
+    with pytest.raises(ValueError, match=r"a1.*a2"):
+        solve({"a1": 0.0, "a2": 0.0})
+    with pytest.raises(ValueError, match=r"b1.*b2"):
+        solve({"b1": 0.0, "b2": (0.0, 0.0)})
+
+
+def test_sides_that_may_both_vanish_are_no_error():
+    result = solve({"a1": (0.0, 1e-3), "a2": (0.0, 1e-3)})
+    assert result.status in ("optimal", "stopped")
+
+
+# --- Bounds always hold -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("high", [1e6, 2e6, 1e7])
+def test_no_candidate_leaves_a_bound_however_large(high):
+    """Bounds too large to stop a flight are still bounds of the study."""
+    for variables in (OPEN | {"a2": (0.0, high)}, dict.fromkeys(OPEN, (0.0, 9e5)) | {"a2": (0.0, high)}):
+        result = solve(variables)
+        for c in result.candidates:
+            for name, (low, top) in variables.items():
+                assert low <= c.variables[name] <= top
+
+
+def test_zs_fraction_of_one_is_infeasible():
+    result = solve({}, {"zs_fraction": (1.0, None)})
+    assert result.status == "infeasible"
+    assert set(result.causes) == {"zs_fraction", "zp > zs"}
+
+
+def test_conflict_is_told_as_the_ratio_it_is():
+    """zp at most 1 and zs at least 2: off by a factor of two, ln 2 = 0.6931."""
+    assert "0.6931" in solve({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}).reason
+
+
+def test_an_optimum_far_out_is_no_flight():
+    """Legs of at most 1000 to 1 stop the flight at a base of 17 466: beyond the first cuts, not beyond all."""
+    result = solve(OPEN, {"leg_ratio": (None, 1000.0)})
+    assert result.status == "optimal"
+    assert result.condition_number == pytest.approx(2.539702, abs=5e-6)
+    assert result.active.count("leg_ratio") == 1
+
+
+def test_a_weight_that_rounding_leaves_above_zero_ends_the_search():
+    """The least-squares test of stationarity once ran for ever on this study."""
+    study = nd.Study(
+        constraints={"radius_ratio": (None, 2.0), "base_cone": {"max": 0.7 * math.exp(1e-4), "axis": [0, 0, 1]}},
+        objective={"poses": [{}, {"position": (0.1, 0.05, 0), "unit": "zp"}, {"rotation": (0.1, 0.05, 0)}]},
+    )
+    assert nd.optimize(study).status == "optimal"
+
+
+def test_legs_that_meet_in_one_design_only_collide():
+    """Free sides may not slip out of a clearance by letting two joints coincide; sides fixed at zero share joints."""
+    wanted = {"constraints": {"leg_clearance": {"min": 0.3, "of": "zp"}}}
+    free = nd.optimize(nd.Study(**wanted))
+    assert nd.check(free).passed
+    assert min(free.variables[side] for side in ("a1", "a2", "b1", "b2")) > 0.05
+    coupled = nd.optimize(nd.Study(variables={"a1": 0.0, "b2": 0.0}, **wanted))
+    assert coupled.status == "optimal"
+    assert nd.check(coupled).passed

@@ -1,0 +1,68 @@
+"""Extra starts from what is known: a result of one study starts another."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof import poses
+from ninedof.optimize.warm import warm_starts
+
+POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
+STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return nd.optimize(STUDY)
+
+
+def test_warm_starts_are_full_vectors(result):
+    rows = warm_starts(STUDY, result)
+    assert rows.shape[1] == len(STUDY.problem().names)
+    assert 1 <= len(rows) <= 4
+    assert rows[0].tolist() == list(result.best.variables.values())
+    assert warm_starts(STUDY, [result.best, result.best.variables]).shape == (2, 7)
+    assert warm_starts(STUDY, None) is None
+    assert warm_starts(STUDY, []) is None
+    assert warm_starts(STUDY, dataclasses.replace(result, candidates=())) is None
+
+
+def test_warm_starts_of_another_study(result):
+    fixed = dataclasses.replace(STUDY, variables={"zp": 1.25})
+    assert dict(zip(fixed.variables, warm_starts(fixed, result)[0], strict=True))["zp"] == 1.25
+    freer = dataclasses.replace(
+        STUDY, characteristic_length="optimal", objective={"poses": [{"internal_point": "best"}]}
+    )
+    row = warm_starts(freer, result)[0]
+    assert row.shape == (8,)  # at the neutral place O is placed by zs, which is a variable already
+    assert np.isfinite(row).all()
+    back = dict(zip(freer.problem().names, row.tolist(), strict=True))
+    assert warm_starts(STUDY, back)[0].tolist() == row[:7].tolist()
+
+
+def test_a_warm_start_is_tried(result):
+    again = nd.optimize(STUDY, starts=1, warm=result)
+    assert again.objective <= result.objective * (1.0 + 1e-9)
+
+
+BAD = {
+    "number": 3,
+    "text": "best",
+    "text inside": ["best"],
+    "numbers": [1.0, 2.0],
+    "array": np.zeros((2, 7)),
+    "unknown name": {"a9": 1.0},
+    "variable missing": {"a1": 1.0},
+    "nan": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), math.nan),
+    "bool": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), True),
+    "text value": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), "1"),
+}
+
+
+@pytest.mark.parametrize("bad", BAD.values(), ids=BAD.keys())
+def test_bad_warm_starts(bad):
+    with pytest.raises(ValueError, match=r"(?s)^warm: .*got .+, expected .+"):
+        nd.optimize(STUDY, warm=bad)

@@ -1,0 +1,310 @@
+"""Fronts: as good as solving each limit alone, monotone whatever the solver does, interruptible."""
+
+import math
+import os
+import signal
+import threading
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+
+import ninedof as nd
+from ninedof.pareto import pareto
+from ninedof.pareto import solving as sweeping
+from ninedof.pareto.limited import limited, resolve
+from ninedof.verify import check
+
+PAPER = nd.Study.paper()
+
+
+@pytest.fixture(scope="module")
+def front():
+    return pareto(PAPER, "radius_ratio", values=[3.0, 1.5, 2.0, 1.5])
+
+
+SHIFTED = [{"position": [0.1, 0, 0], "unit": "zp"}, {"rotation_deg": [0, 10, 0]}, {}]
+ROOMY = {"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0), "stroke": {"max": 0.3, "of": "zp"}}
+MOVING = nd.Study("symmetric", constraints=ROOMY, objective={"poses": SHIFTED})
+
+TRADED = {
+    "radius ratio": (PAPER, "radius_ratio"),
+    "leg ratio": (PAPER, "leg_ratio"),
+    "height": (PAPER, "height"),
+    "footprint": (PAPER, "footprint"),
+    "stroke in parts of zp": (MOVING, "stroke"),
+    "cone about the neutral legs": (MOVING, "platform_cone"),
+}
+
+
+def objectives(front):
+    return [value for value in front.objectives if not math.isnan(value)]
+
+
+def is_monotone(front):
+    values = objectives(front)
+    return all(after <= before * (1.0 + 1e-9) for before, after in pairwise(values))
+
+
+# --- Given limits -----------------------------------------------------------------------------------------------------
+
+
+def test_given_limits_are_solved_in_order(front):
+    assert front.limits == (1.5, 2.0, 3.0)
+    assert front.against == "radius_ratio"
+    assert len(front) == len(front.results) == 3
+    assert [r.study.constraints["radius_ratio"][1] for r in front.results] == [1.5, 2.0, 3.0]
+    assert [result.objective for result in front] == list(front.objectives)
+    assert not front.interrupted
+
+
+def test_each_limit_is_as_good_as_solved_alone(front):
+    for limit, value in zip(front.limits, front.objectives, strict=True):
+        alone = nd.optimize(nd.Study(constraints={"radius_ratio": (None, limit)}))
+        assert value == pytest.approx(alone.objective, rel=1e-9)
+    assert front.objectives[1] == pytest.approx(3.762659078596, rel=1e-9)
+
+
+def test_points_of_a_front_pass_the_check(front):
+    for result in front.results:
+        found = check(result, perturbations=200)
+        assert found.passed, found.report()
+
+
+def test_prices_are_the_slope(front):
+    """The price at 2 lies between the slopes of the chords beside it, in logarithms."""
+    x, y = ([math.log(v) for v in values] for values in (front.limits, front.objectives))
+    before, after = ((y[k] - y[k + 1]) / (x[k + 1] - x[k]) for k in (0, 1))
+    assert min(before, after) * 0.9 < front.prices[1] < max(before, after) * 1.1
+
+
+def test_rows_say_everything(front):
+    row = front.table()[1]
+    assert set(row) == {
+        *("limit", "status", "reason", "objective", "condition_number", "price", "active", "variables", "dominated")
+    }
+    assert row["status"] == "optimal"
+    assert row["variables"] == front.results[1].variables
+    assert "radius_ratio" in row["active"]
+    assert not row["dominated"]
+
+
+def test_a_limit_that_does_not_bind_is_marked():
+    found = pareto(PAPER, "leg_ratio", values=[2.0, 3.0, 4.0])  # the best design has 2.32
+    assert found.dominated == (False, False, True)
+    assert found.objectives[1] == pytest.approx(found.objectives[2], rel=1e-12)
+
+
+def test_impossible_limits_are_rows_too():
+    found = pareto(nd.Study(), "leg_ratio", values=[0.5, 0.9, 2.0])
+    assert [row["status"] for row in found.table()] == ["infeasible", "infeasible", "optimal"]
+    assert math.isnan(found.objectives[0])
+    assert found.prices[0] is None
+    assert found.table()[0]["objective"] is None
+    assert found.table()[0]["reason"]
+    assert found.dominated == (False, False, False)
+
+
+def test_other_options_of_the_limit_are_kept():
+    study = nd.Study(constraints={"zs_fraction": (0.2, 0.9), "leg_ratio": (None, 3.0)})
+    moved = limited(study, "zs_fraction", 0.5)
+    assert moved.constraints["zs_fraction"] == (0.2, 0.5)
+    assert moved.constraints["leg_ratio"] == (None, 3.0)
+    stroke = limited(MOVING, "stroke", 0.1).constraints["stroke"]
+    assert dict(stroke) == {"max": 0.1, "of": "zp"}
+    assert limited(study, "zs_fraction", None).constraints["zs_fraction"] == (0.2, None)
+    assert "leg_ratio" not in limited(study, "leg_ratio", None).constraints
+    assert study.constraints["zs_fraction"] == (0.2, 0.9)
+
+
+def test_two_indices():
+    speed = nd.Study(objective={"index": "speed"})
+    for given, against in ((speed, "condition_limit"), (speed, "condition_number"), (nd.Study(), "speed")):
+        study, limit = resolve(given, against)
+        assert limit == "condition_limit"
+        assert study.objective.index == "speed"
+        assert limited(study, limit, 4.0).objective.condition_limit == 4.0
+
+
+# --- Limits that are found --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", TRADED)
+def test_a_found_front_is_monotone_and_spans_the_range(name):
+    study, against = TRADED[name]
+    found = pareto(study, against, points=9)
+    assert len(objectives(found)) == 9
+    assert is_monotone(found)
+    assert list(found.limits) == sorted(found.limits)
+    without = nd.optimize(limited(study, against, None))
+    assert found.objectives[-1] == pytest.approx(without.objective, rel=1e-6)
+    assert max(objectives(found)) <= 3.0 * without.objective * (1.0 + 1e-9)
+    assert not any(found.dominated[:-1])
+
+
+def test_a_front_of_two_indices_runs_from_one_best_to_the_other():
+    found = pareto(PAPER, "speed", points=7)
+    assert found.against == "condition_limit"
+    assert found.study.objective.index == "speed"
+    assert len(objectives(found)) == 7
+    assert is_monotone(found)
+    assert found.limits[0] == pytest.approx(3.762659, rel=0.01)
+    for limit, result in zip(found.limits, found.results, strict=True):
+        assert max(result.conditions) <= limit * (1.0 + 1e-8)
+
+
+def test_steep_parts_get_more_points():
+    found = pareto(PAPER, "radius_ratio", points=13)
+    values = objectives(found)
+    steps = [before - after for before, after in pairwise(values)]
+    evenly = pareto(PAPER, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], 13))
+    coarse = objectives(evenly)
+    assert max(steps) < max(before - after for before, after in pairwise(coarse))
+
+
+def _geometric(low, high, count):
+    return [low * (high / low) ** (k / (count - 1)) for k in range(count)]
+
+
+def test_an_impossible_study_is_one_row():
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
+    assert [row["status"] for row in found.table()] == ["infeasible"]
+    assert found.limits == (math.inf,)
+
+
+def test_without_a_scale_limits_must_be_given():
+    boundless = nd.Study(variables={n: (0.0, math.inf) for n in ("a1", "a2", "b1", "b2", "zp", "zs")})
+    with pytest.raises(
+        ValueError, match=r"^values: got None, expected limits to sweep: without a limit on radius_ratio"
+    ):
+        pareto(boundless, "radius_ratio")
+    limited_itself = replace(boundless, constraints={"radius_ratio": (None, 1.0)})
+    assert is_monotone(pareto(limited_itself, "radius_ratio", points=5))
+
+
+# --- Monotone, whatever the solver does -------------------------------------------------------------------------------
+
+
+def worse(result, factor):
+    """The result as a solver would return it that missed the best design."""
+    wrong = tuple(replace(c, objective=factor * c.objective) for c in result.candidates)
+    return replace(result, candidates=wrong)
+
+
+@pytest.mark.parametrize("bad_calls", [1, 2, 99])
+def test_a_solver_that_misses_the_best_is_repaired(monkeypatch, bad_calls):
+    """At the limit 2 the solver returns something 30 % worse: once, twice (both sweeps), or always."""
+    calls = []
+
+    def unlucky(study, **options):
+        result = nd.optimize(study, **options)
+        if study.constraints["radius_ratio"][1] == 2.0:
+            calls.append(options["warm"])
+            return worse(result, 1.3) if len(calls) <= bad_calls else result
+        return result
+
+    monkeypatch.setattr(sweeping, "optimize", unlucky)
+    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+    assert is_monotone(found)
+    if bad_calls < 3:
+        assert found.objectives[1] == pytest.approx(3.762659078596, rel=1e-9)
+    else:  # the design of the tighter limit is shown, and no optimum is claimed
+        assert found.objectives[1] == found.objectives[0]
+        assert found.results[1].status == "stopped"
+        assert "limit 1.5 is better" in found.results[1].reason
+        assert found.prices[1] is None
+        assert found.results[1].study.constraints["radius_ratio"] == (None, 2.0)
+
+
+def test_neighbours_are_passed_on(monkeypatch):
+    given = []
+
+    def watched(study, **options):
+        given.append((study.constraints["radius_ratio"][1], options["warm"]))
+        return nd.optimize(study, **options)
+
+    monkeypatch.setattr(sweeping, "optimize", watched)
+    pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+    assert [limit for limit, _ in given] == [3.0, 2.0, 1.5, 1.5, 2.0, 3.0]
+    assert given[0][1] is None
+    ratios = [[r.study.constraints["radius_ratio"][1] for r in warm] for _, warm in given[1:]]
+    assert ratios == [[3.0], [2.0], [2.0, 1.5], [1.5, 3.0, 2.0], [2.0, 3.0]]
+
+
+# --- Interruption and progress ----------------------------------------------------------------------------------------
+
+
+def test_progress_counts_to_the_end():
+    seen = []
+    pareto(PAPER, "radius_ratio", values=[1.5, 2.0], progress=lambda *told: seen.append(told))
+    assert [(done, total) for done, total, _ in seen] == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert all(value > 1.0 for *_, value in seen)
+
+
+@pytest.mark.parametrize("solved", [1, 3, 5])
+def test_interrupted_between_limits(solved):
+    def stop(done, total, value):
+        if done == solved:
+            raise KeyboardInterrupt
+
+    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0], progress=stop)
+    assert found.interrupted
+    assert len(found) <= 3
+    assert list(found.limits) == [1.5, 2.0, 3.0][max(0, 4 - solved) :] or solved >= 3
+    assert is_monotone(found)
+
+
+def test_interrupted_inside_the_solver_keeps_what_there_is(monkeypatch):
+    def slow(study, **options):
+        result = nd.optimize(study, **options)
+        return replace(result, interrupted=study.constraints["radius_ratio"][1] == 1.5)
+
+    monkeypatch.setattr(sweeping, "optimize", slow)
+    found = pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+    assert found.interrupted
+    assert found.limits == (2.0, 3.0)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c():
+    timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    try:
+        found = pareto(PAPER, "radius_ratio", values=_geometric(1.0, 5.0, 400), starts=2000, threads=1)
+    finally:
+        timer.cancel()
+    assert found.interrupted
+    assert len(found) < 400
+    assert found.seconds < 10.0
+
+
+def test_same_front_for_any_number_of_threads():
+    one, two = (pareto(PAPER, "leg_ratio", values=[1.5, 2.0], threads=n) for n in (1, 2))
+    assert one.table() == two.table()
+
+
+# --- Bad input --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"study": "paper"}, r"^study: got str, expected a Study"),
+        ({"against": "radius_ratoi"}, r"^against: got 'radius_ratoi', .* \(did you mean 'radius_ratio'\?\)"),
+        ({"against": "joint_spacing"}, r"^against: got 'joint_spacing', expected a constraint with a max"),
+        ({"against": 3}, r"^against: got 3, expected a constraint"),
+        ({"against": "condition_number"}, r"^against: got 'condition_number' for a study of the index 'condition"),
+        ({"against": "condition_limit"}, r"^against: got 'condition_limit' for a study of the index 'condition"),
+        ({"values": []}, r"^values: got \[\], expected one or more limits above 0"),
+        ({"values": [2.0, -1.0]}, r"^values: got \[2.0, -1.0\], expected one or more limits above 0"),
+        ({"values": [2.0, math.nan]}, r"^values\[1\]: got nan, expected a finite number"),
+        ({"values": 2.0}, r"^values: got 2.0, expected a sequence of limits"),
+        ({"points": 1}, r"^points: got 1, expected a whole number from 2"),
+        ({"starts": 0}, r"^starts: got 0, expected a whole number"),
+        ({"threads": -1}, r"^threads: got -1, expected"),
+        ({"progress": 1}, r"^progress: got 1, expected a callable"),
+    ],
+)
+def test_bad_input_is_named(options, message):
+    with pytest.raises(ValueError, match=message):
+        pareto(**({"study": PAPER, "against": "radius_ratio", "values": [2.0]} | options))

@@ -1,0 +1,341 @@
+"""Direct position analysis against cases solved with 80 digits, the lengths it must reproduce, and at its edges.
+
+The reference was found in multiple precision, confirmed by a brute-force search, and shares no code. Lengths are
+checked by plain numpy.
+"""
+
+import json
+import pickle
+
+import numpy as np
+import numpy_model
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from reference_cases import REFERENCE, of_case, rotation
+from robots import any_pose
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+CASES = json.loads((REFERENCE / "forward.json").read_text(encoding="utf-8"))["cases"]
+OCTAHEDRON = {"a1": 0.0, "a2": np.sqrt(2.0), "b1": np.sqrt(2.0), "b2": 0.0}
+
+
+def errors(modes, p, q, s, unit):
+    """Of every mode against one configuration: entries of Q, and lengths over the unit."""
+    return np.maximum(
+        abs(modes.rotation - q).max(axis=(-1, -2)),
+        np.maximum(abs(modes.position - p).max(axis=-1), abs(modes.internal_point - s).max(axis=-1)) / unit,
+    )
+
+
+def length_errors(g, modes, lengths):
+    found = numpy_model.lengths(numpy_model.robot(g, modes))
+    return abs(found - lengths).max(axis=-1) / lengths.max()
+
+
+@pytest.fixture(params=CASES, ids=lambda c: f"{c['id']}-{'-'.join(c['tags'])}".replace(" ", "_"))
+def case(request):
+    return request.param
+
+
+# --- Reference --------------------------------------------------------------------------------------------------------
+
+
+def test_the_file_is_whole():
+    tags = {t for c in CASES for t in c["tags"]}
+    assert len(CASES) == 21
+    assert {"hexagon", "general", "maximal", "infeasible", "near-double", "self-motion", "multiplicity 8"} <= tags
+
+
+def test_reference_modes(case):
+    g, lengths = of_case(case)
+    modes = nd.forward_position(g, lengths)
+    if case["count"] is None:
+        assert (modes.status, len(modes), modes.certain) == ("self_motion", 0, False)
+        return
+    assert len(modes) == modes.count == case["count"]
+    side = {0: 1, 1: -1}
+    taken = set()
+    for solution in case["solutions"]:
+        error = errors(modes, solution["p"], rotation(solution["quat"]), solution["s"], lengths.max())
+        k = int(np.argmin(error))
+        taken.add(k)
+        assert error[k] <= case["tol"]
+        if modes.base_side[k] != 0:
+            assert modes.base_side[k] == side[solution["branch"][0]]
+        assert modes.platform_side[k] == side[solution["branch"][1]]
+        if solution["sigma_rot"] > 1e-6:
+            assert_allclose(modes.separation[k], solution["sigma_rot"], rtol=1e-6, atol=1e-9)
+    assert len(taken) == case["count"], "one mode stands for two"
+    if case["count"]:
+        assert length_errors(g, modes, lengths).max() < 1e-13
+
+
+STATUS = {"tangent base spheres": "tangent", "multiplicity 8": "tangent", "infeasible": "infeasible"}
+
+
+def test_reference_status(case):
+    expected = next((word for tag, word in STATUS.items() if tag in case["tags"]), "found")
+    if case["count"] is None:
+        expected = "self_motion"
+    g, lengths = of_case(case)
+    modes = nd.forward_position(g, lengths)
+    assert modes.status == expected
+    assert bool(modes.reason) == (expected == "infeasible")
+    if expected == "found":
+        assert modes.certain
+
+
+# --- Every pose comes back --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("hexagonal", [True, False])
+def test_the_generating_pose_is_among_the_modes(hexagonal):
+    rng = np.random.default_rng(11)
+    for _ in range(1500):
+        g, c = any_pose(rng, hexagonal)
+        lengths = nd.leg_lengths(g, c)
+        modes = nd.forward_position(g, lengths)
+        assert modes.count % (4 if hexagonal else 2) == 0
+        assert length_errors(g, modes, lengths).max() < 1e-12
+        error = errors(modes, c.position, c.rotation, c.internal_point, lengths.max())
+        k = int(np.argmin(error))
+        assert error[k] < 1e-13 / min(1.0, modes.separation[k]) ** 2 + 1e-9
+        apart = errors(modes[:, None], modes.position, modes.rotation, modes.internal_point, 1.0)
+        assert (apart + np.eye(len(modes)) > 1e-9).all(), "a mode is listed twice"
+
+
+@given(st.floats(-9.0, 9.0), st.integers(0, 2**32 - 1))
+def test_scale_is_free(exponent, seed):
+    rng = np.random.default_rng(seed)
+    g, c = any_pose(rng, hexagonal=seed % 2 == 0)
+    unit = 10.0**exponent
+    big = nd.Geometry(*(unit * t for t in (g.base_external, g.base_internal, g.platform_external, g.platform_internal)))
+    lengths = nd.leg_lengths(g, c)
+    a, b = nd.forward_position(g, lengths), nd.forward_position(big, unit * lengths)
+    if not (a.certain and b.certain) or min(a.separation.min(), b.separation.min()) < 1e-4:
+        return
+    assert a.count == b.count
+    for k in range(a.count):
+        assert errors(b, unit * a.position[k], a.rotation[k], unit * a.internal_point[k], unit).min() < 1e-7
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_frames_are_free(seed):
+    """Turn and shift the base and the platform frame: the same modes, seen from elsewhere; flat plates stay flat."""
+    rng = np.random.default_rng(seed)
+    g, c = any_pose(rng, hexagonal=seed % 2 == 0)
+    (rb, rp), (tb, tp) = Rotation.random(2, rng=rng).as_matrix(), rng.normal(size=(2, 3))
+    moved = nd.Geometry(
+        g.base_external @ rb.T + tb,
+        g.base_internal @ rb.T + tb,
+        g.platform_external @ rp.T + tp,
+        g.platform_internal @ rp.T + tp,
+    )
+    lengths = nd.leg_lengths(g, c)
+    a, b = nd.forward_position(g, lengths), nd.forward_position(moved, lengths)
+    if not (a.certain and b.certain) or min(a.separation.min(), b.separation.min()) < 1e-4:
+        return
+    assert a.count == b.count
+    for k in range(a.count):
+        q = rb @ a.rotation[k] @ rp.T
+        p = rb @ a.position[k] + tb - q @ tp
+        assert errors(b, p, q, rb @ a.internal_point[k] + tb, 1.0).min() < 1e-7
+
+
+def test_the_octahedron_has_all_32():
+    g = nd.Geometry.hexagonal(**OCTAHEDRON)
+    c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
+    modes = nd.forward_position(g, nd.leg_lengths(g, c))
+    assert (modes.count, modes.status, modes.certain) == (32, "found", True)
+    assert_allclose(modes.separation, 1.0, rtol=1e-12)
+
+
+# --- Degenerate data is named -----------------------------------------------------------------------------------------
+
+
+def test_mirror_images_of_flat_plates(published, neutral):
+    modes = nd.forward_position(published, nd.leg_lengths(published, neutral))
+    mirror = np.diag([1.0, 1.0, -1.0])
+    for k in range(modes.count):
+        image = errors(
+            modes,
+            mirror @ modes.position[k],
+            mirror @ modes.rotation[k] @ mirror,
+            mirror @ modes.internal_point[k],
+            1.0,
+        )
+        assert image.min() < 1e-14
+
+
+@pytest.mark.parametrize("side", ["base", "platform"])
+def test_o_in_a_plane_of_joints_is_tangent(published, side):
+    # Of the two points of O one is left, with a height that rounding may take for 1e-8.
+    q = Rotation.from_rotvec([0.1, -0.2, 0.3]).as_matrix()
+    p = np.array([0.1, 0.2, 3.0])
+    s = np.array([0.3, 0.1, 0.0]) if side == "base" else p + q @ [0.2, 0.1, 0.0]
+    c = nd.Configuration(p, q, s)
+    lengths = nd.leg_lengths(published, c)
+    modes = nd.forward_position(published, lengths)
+    assert errors(modes, p, q, s, 1.0).min() < 1e-6
+    assert length_errors(published, modes, lengths).max() < 1e-13
+    assert modes.status in ("tangent", "found")
+    assert modes.status == "tangent" or abs(modes.internal_point[:, 2]).min() < 1e-6 or side == "platform"
+
+
+def test_exactly_tangent():
+    case = next(c for c in CASES if "tangent base spheres" in c["tags"])
+    modes = nd.forward_position(*of_case(case))
+    assert modes.status == "tangent"
+    assert_array_equal(modes.base_side, 0)
+
+
+@pytest.mark.parametrize("joint", [0, 1, 2])
+def test_o_on_an_external_joint_is_self_motion(joint):
+    rng = np.random.default_rng(3)
+    g = nd.Geometry(*rng.normal(size=(4, 3, 3)))
+    c = nd.Configuration([0.1, 0.2, 3.0], Rotation.random(rng=rng), g.base_external[joint])
+    lengths = nd.leg_lengths(g, c)
+    assert nd.forward_position(g, lengths).status == "self_motion"
+    # The leg that O leaves without direction must fit all the same, and so must the other two.
+    longer = np.eye(9)[joint]
+    without = nd.forward_position(g, lengths + 0.01 * longer)
+    assert without.status != "self_motion"
+    other = np.eye(9)[(joint + 1) % 3]
+    assert nd.forward_position(g, lengths + 20.0 * other).status != "self_motion"
+
+
+@pytest.mark.parametrize("side", ["base_internal", "platform_internal"])
+def test_o_on_an_internal_joint_is_never_infeasible(published, side):
+    rng = np.random.default_rng(4)
+    for k in range(60):
+        q = Rotation.random(rng=rng).as_matrix()
+        p = np.array([0.3, 0.1, 4.0]) + 0.2 * rng.normal(size=3)
+        s = published.base_internal[k % 3] if side == "base_internal" else p + q @ published.platform_internal[k % 3]
+        modes = nd.forward_position(published, nd.leg_lengths(published, nd.Configuration(p, q, s)))
+        assert modes.status in ("tangent", "self_motion", "found")
+
+
+def test_two_legs_on_one_line_through_o_are_self_motion():
+    """d_1 || d_2 and w_1 || w_2: the two equations say the same, the platform turns about a cone."""
+    rng = np.random.default_rng(5)
+    s, o = np.array([0.1, 0.2, 1.5]), np.array([0.05, -0.1, -1.2])
+    d, w = rng.normal(size=(2, 3))
+    base, platform = rng.normal(size=(2, 3, 3))
+    base[:2] = s + d, s + 1.7 * d
+    platform[:2] = o + w, o + 0.6 * w
+    g = nd.Geometry(base, rng.normal(size=(3, 3)), platform, rng.normal(size=(3, 3)))
+    q = Rotation.random(rng=rng).as_matrix()
+    c = nd.Configuration(s - q @ o, q, s)
+    modes = nd.forward_position(g, nd.leg_lengths(g, c))
+    assert (modes.status, len(modes)) == ("self_motion", 0)
+
+
+@pytest.mark.parametrize(
+    ("legs", "factor", "word"),
+    [
+        ((6, 7, 8), 0.3, "lower internal legs"),
+        ((6,), 9.0, "lower internal legs"),
+        ((3, 4, 5), 0.3, "upper internal legs"),
+        ((0,), 5.0, "leg l1"),
+        ((1,), 5.0, "leg l2"),
+        ((2,), 1e-3, "leg l3"),
+    ],
+)
+def test_infeasible_says_which_legs(published, neutral, legs, factor, word):
+    lengths = nd.leg_lengths(published, neutral)
+    lengths[list(legs)] *= factor
+    modes = nd.forward_position(published, lengths)
+    assert (modes.status, modes.shape, modes.count) == ("infeasible", (0,), 0)
+    assert word in modes.reason
+
+
+def test_each_leg_fits_but_not_all():
+    g = nd.Geometry.hexagonal(**OCTAHEDRON)
+    c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
+    lengths = nd.leg_lengths(g, c)
+    # Here all three c_i are the diagonal of a rotation, or minus that: with 0.99 and 0.9 the third is about 0.9.
+    lengths[:3] = np.sqrt(2.0 * (1.0 - np.array([0.99, 0.9, 0.0])))
+    modes = nd.forward_position(g, lengths)
+    assert modes.count == 0
+    assert "no rotation" in modes.reason
+
+
+# --- Stacks and arguments ---------------------------------------------------------------------------------------------
+
+
+def test_a_stack_is_its_rows(published):
+    rng = np.random.default_rng(2)
+    home = nd.Configuration.neutral(3.9828, 2.4)
+    lengths = nd.leg_lengths(published, home.moved(0.3 * rng.normal(size=(2, 3, 9))))
+    lengths[1, 1, 4] = np.nan
+    lengths[0, 2, 6:] *= 0.1
+    stack = nd.forward_position(published, lengths)
+    assert stack.status.shape == stack.count.shape == (2, 3)
+    assert stack.shape == (2, 3, stack.count.max())
+    for k in np.ndindex(2, 3):
+        if k == (1, 1):
+            assert (stack.status[k], stack.count[k], stack.certain[k]) == ("no_data", 0, False)
+            continue
+        alone = nd.forward_position(published, lengths[k])
+        n = alone.count
+        assert (stack.status[k], stack.count[k], stack.reason[k], stack.certain[k]) == (
+            alone.status,
+            n,
+            alone.reason,
+            alone.certain,
+        )
+        assert_array_equal(stack.position[k][:n], alone.position)
+        assert_array_equal(stack.rotation[k][:n], alone.rotation)
+        assert_array_equal(stack.separation[k][:n], alone.separation)
+        assert_array_equal(stack.base_side[k][:n], alone.base_side)
+        assert np.isnan(stack.position[k][n:]).all()
+    assert stack.status[0, 2] == "infeasible"
+
+
+def test_threads_and_chunks_do_not_matter(published):
+    rng = np.random.default_rng(7)
+    lengths = nd.leg_lengths(published, nd.Configuration.neutral(3.9828, 2.4).moved(0.2 * rng.normal(size=(5000, 9))))
+    one, two = (nd.forward_position(published, lengths, threads=n) for n in (1, 2))
+    assert_array_equal(one.position, two.position)
+    assert_array_equal(one.count, two.count)
+    assert_array_equal(one.position[4500, : one.count[4500]], nd.forward_position(published, lengths[4500]).position)
+
+
+def test_no_rows(published):
+    modes = nd.forward_position(published, np.zeros((0, 9)))
+    assert modes.shape == (0, 0)
+    assert modes.count.shape == (0,)
+
+
+def test_what_comes_back_is_a_configuration(published, neutral):
+    lengths = nd.leg_lengths(published, neutral)
+    modes = nd.forward_position(published, lengths)
+    assert isinstance(modes, nd.Configuration)
+    assert type(modes[0]) is nd.Configuration
+    assert_allclose(nd.leg_lengths(published, modes), np.broadcast_to(lengths, (32, 9)), rtol=1e-13)
+    again = pickle.loads(pickle.dumps(modes))
+    assert again == modes
+    assert (again.status, again.count) == (modes.status, modes.count)
+    assert repr(modes) == "<32 assembly modes: found>"
+    assert "lower internal" in repr(nd.forward_position(published, lengths * np.repeat([1.0, 0.1], [6, 3])))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [np.ones(8), -np.ones(9), np.zeros(9), np.full(9, np.inf), np.full(9, np.nan), "abc", None, np.ones(9) * 1j],
+    ids=["eight", "negative", "zeros", "infinite", "nan", "text", "nothing", "complex"],
+)
+def test_wrong_lengths_are_named(published, wrong):
+    with pytest.raises(ValueError, match=r"^leg_lengths: got "):
+        nd.forward_position(published, wrong)
+
+
+def test_wrong_geometry_and_threads_are_named(published):
+    with pytest.raises(ValueError, match=r"^geometry: got "):
+        nd.forward_position("robot", np.ones(9))
+    with pytest.raises(ValueError, match=r"^threads: got "):
+        nd.forward_position(published, np.ones(9), threads=0)

@@ -1,0 +1,219 @@
+"""Tracking: the certified mode against the list of all modes, and the ways to lose it."""
+
+import json
+import pickle
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from reference_cases import REFERENCE, of_case, rotation
+from robots import any_pose
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+SEEDED = [c for c in json.loads((REFERENCE / "forward.json").read_text(encoding="utf-8"))["cases"] if "seed" in c]
+
+
+def angle(a, b):
+    return Rotation.from_matrix(np.swapaxes(a, -1, -2) @ b).magnitude()
+
+
+@pytest.fixture
+def home():
+    return nd.Configuration.neutral(3.9828, 2.4435)
+
+
+@pytest.mark.parametrize("case", SEEDED, ids=lambda c: f"{c['id']}-{c['tags'][0]}")
+def test_reference_seeds_lead_to_their_mode(case):
+    g, lengths = of_case(case)
+    seed, target = case["seed"], case["solutions"][case["seed"]["target"]]
+    start = nd.Configuration(seed["p"], rotation(seed["quat"]), seed["s"])
+    there = nd.track(g, lengths, start)
+    assert there.status == "tracked"
+    assert there.steps == 1
+    assert abs(there.rotation - rotation(target["quat"])).max() <= case["tol"]
+    assert abs(there.position - target["p"]).max() <= case["tol"] * lengths.max()
+    assert_allclose(there.separation, target["sigma_rot"], rtol=1e-6)
+
+
+def test_the_reference_has_seeds():
+    assert len(SEEDED) > 10
+
+
+@pytest.mark.parametrize("hexagonal", [True, False])
+def test_a_certified_mode_is_alone(hexagonal):
+    """What Kantorovich's theorem promises, held against the list of all modes: no other within the radius."""
+    rng = np.random.default_rng(21)
+    certified = 0
+    for _ in range(400):
+        g, c = any_pose(rng, hexagonal)
+        lengths = nd.leg_lengths(g, c.moved(0.02 * rng.normal(size=9)))
+        there = nd.track(g, lengths, c)
+        if there.status != "tracked" or there.steps > 1:
+            continue
+        assert abs(nd.leg_lengths(g, there) - lengths).max() < 1e-12 * lengths.max()
+        modes = nd.forward_position(g, lengths)
+        same_o = abs(modes.internal_point - there.internal_point).max(axis=-1) < 1e-9
+        same_o &= abs((modes.rotation.mT @ (modes.internal_point - modes.position)[..., None])[..., 0]
+                      - there.rotation.T @ (there.internal_point - there.position)).max(axis=-1) < 1e-9  # fmt: skip
+        away = np.sort(angle(c.rotation, modes.rotation[same_o]))
+        reached = angle(c.rotation, there.rotation)
+        assert_allclose(away[0], reached, atol=1e-9)
+        if there.certificate <= 0.5:
+            certified += 1
+            assert reached <= there.alone_within
+            assert len(away) == 1 or away[1] > there.alone_within
+        else:
+            assert reached < 2.0 / (3.0 * np.sqrt(3.0)) * there.separation
+            assert np.isnan(there.alone_within)
+    assert certified > 200
+
+
+def test_certificate_is_kantorovichs_number(published, home):
+    """Sqrt(3) beta eta, from its definition by finite differences on the sphere of rotations."""
+    target = home.moved(0.03 * np.arange(-4.0, 5.0))
+    lengths = nd.leg_lengths(published, target)
+    there = nd.track(published, lengths, home)
+    s, o = there.internal_point, there.rotation.T @ (there.internal_point - there.position)
+    d, w = published.base_external - s, published.platform_external - o
+    dn, wn = np.linalg.norm(d, axis=1), np.linalg.norm(w, axis=1)
+    d, w, c = d / dn[:, None], w / wn[:, None], (dn**2 + wn**2 - lengths[:3] ** 2) / (2.0 * dn * wn)
+
+    def f(x):
+        return np.einsum("ij,jk,ik->i", d, Rotation.from_rotvec(x).as_matrix() @ home.rotation, w) - c
+
+    step = 1e-6
+    j = np.stack([(f(step * e) - f(-step * e)) / (2.0 * step) for e in np.eye(3)], axis=1)
+    beta = 1.0 / np.linalg.svd(j, compute_uv=False)[-1]
+    eta = np.linalg.norm(np.linalg.solve(j, f(np.zeros(3))))
+    assert_allclose(there.certificate, np.sqrt(3.0) * beta * eta, rtol=1e-8)
+    h = there.certificate
+    assert_allclose(there.alone_within, (1.0 + np.sqrt(1.0 - 2.0 * h)) / (np.sqrt(3.0) * beta), rtol=1e-8)
+
+
+def test_a_long_step_is_divided(published, home):
+    far = home.moved([0.3, -0.2, 0.5, 0.6, 0.3, -0.4, 0.2, 0.3, 0.1])
+    there = nd.track(published, nd.leg_lengths(published, far), home)
+    assert there.status == "tracked"
+    assert there.steps > 1
+    assert_allclose(there.rotation, far.rotation, atol=1e-12)
+    assert there.reached == 1.0
+
+
+def test_a_trajectory_is_its_steps(published, home):
+    t = np.linspace(0.0, 2.0 * np.pi, 60)[:, None]
+    a, b, c, ramp = np.sin(t), np.sin(2.0 * t), np.cos(t) - 1.0, t / 6.0
+    moves = (0.2 * a, 0.1 * c, 0.2 * b, 0.4 * a, 0.3 * ramp, 0.2 * b, 0.1 * ramp, 0.2 * a, 0.2 * b)
+    path = home.moved(np.hstack(moves))
+    lengths = nd.leg_lengths(published, path)
+    there = nd.track(published, lengths, home)
+    assert there.shape == (60,)
+    assert set(there.status) == {"tracked"}
+    assert_allclose(there.position, path.position, atol=1e-11)
+    assert_allclose(there.rotation, path.rotation, atol=1e-11)
+    assert there.certificate.max() <= 0.5
+    at = home
+    for k in range(60):
+        at = nd.track(published, lengths[k], at)
+        assert_array_equal(at.rotation, there.rotation[k])
+        assert at.certificate == there.certificate[k]
+
+
+def test_shapes(published, home):
+    lengths = nd.leg_lengths(published, home)
+    stack = home.moved(0.01 * np.random.default_rng(0).normal(size=(4, 9)))
+    assert nd.track(published, lengths, home).shape == ()
+    assert nd.track(published, lengths, stack).shape == (4,)
+    assert nd.track(published, np.tile(lengths, (4, 1)), stack).shape == (4,)
+    assert nd.track(published, np.tile(lengths, (4, 6, 1)), stack).shape == (4, 6)
+    assert nd.track(published, np.tile(lengths, (6, 1)), home).shape == (6,)
+    assert nd.track(published, np.tile(lengths, (1, 6, 1)), stack).shape == (4, 6)
+    one, two = (nd.track(published, lengths, stack, threads=n) for n in (1, 2))
+    assert_array_equal(one.rotation, two.rotation)
+    assert_array_equal(one.rotation[2], nd.track(published, lengths, stack[2]).rotation)
+    with pytest.raises(ValueError, match="leading dimensions"):
+        nd.track(published, np.ones((3, 9)), stack)
+
+
+def test_lost_where_o_would_pass_a_plane(published, home):
+    # Only the lower legs say where O is over the base, and its mirror image has the same lengths there: O stays above.
+    below = nd.Configuration(home.position, home.rotation, home.internal_point * [1.0, 1.0, -1.0])
+    there = nd.track(published, nd.leg_lengths(published, below), home)
+    assert there.status != "tracked" or there.internal_point[2] > 0.0
+
+
+def test_lost_at_a_singularity(published, home):
+    """Turn the platform about z until det M = 0: there the mode meets another and ends."""
+    angles = np.linspace(0.0, np.pi, 200)
+    path = home.moved(np.outer(angles, np.eye(9)[2]))
+    margins = [np.linalg.det(m) for m in rotation_rows(published, path)]
+    first = int(np.argmax(np.sign(margins) != np.sign(margins[0])))
+    assert 10 < first < 199
+    there = nd.track(published, nd.leg_lengths(published, path), home)
+    assert set(there.status[: first - 1]) == {"tracked"}
+    assert_allclose(there.rotation[: first - 1], path.rotation[: first - 1], atol=1e-6)
+    # Past the crossing the lengths turn back: what follows is lost, or the mode that comes back, never the one beyond.
+    after = [k for k in range(first + 1, 200) if there.status[k] == "tracked"]
+    assert all(np.sign(np.linalg.det(rotation_rows(published, there[k])[0])) == np.sign(margins[0]) for k in after)
+    assert np.isnan(there.position[there.status != "tracked"]).all()
+
+
+def rotation_rows(g, c):
+    """Rows (Q w) x d of unit vectors, for a stack."""
+    p, q, s = (np.atleast_2d(c.position), c.rotation.reshape(-1, 3, 3), np.atleast_2d(c.internal_point))
+    d = g.base_external - s[:, None]
+    w = g.platform_external @ q.mT + (p - s)[:, None]
+    unit = [v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (w, d)]
+    return np.cross(*unit)
+
+
+def test_infeasible_and_after(published, home):
+    lengths = np.tile(nd.leg_lengths(published, home), (5, 1))
+    lengths[2, 6:] *= 0.2
+    there = nd.track(published, lengths, home)
+    assert list(there.status) == ["tracked", "tracked", "infeasible", "lost", "lost"]
+    assert np.isnan(there.rotation[2:]).all()
+    assert np.isnan(there.certificate[3:]).all()
+    assert_array_equal(there.steps[3:], 0)
+    assert_array_equal(there.reached[3:], 0.0)
+
+
+def test_missing_rows(published, home):
+    lengths = np.tile(nd.leg_lengths(published, home), (4, 1))
+    lengths[2, 0] = np.nan
+    assert list(nd.track(published, lengths, home).status) == ["tracked", "tracked", "lost", "lost"]
+    stack = nd.Configuration(np.tile(home.position, (4, 1)), home.rotation, home.internal_point)
+    assert list(nd.track(published, lengths, stack).status) == ["tracked", "tracked", "lost", "tracked"]
+
+
+def test_an_end_in_a_plane_is_lost(published, home):
+    end = nd.Configuration(home.position, home.rotation, [0.0, 0.0, 0.0])
+    assert nd.track(published, nd.leg_lengths(published, end), home).status == "lost"
+
+
+def test_a_start_in_a_plane_has_no_side(published):
+    start = nd.Configuration([0.0, 0.0, 3.0], None, [0.1, 0.2, 0.0])
+    there = nd.track(published, nd.leg_lengths(published, start), start)
+    assert (there.status, there.steps) == ("lost", 0)
+
+
+def test_what_comes_back(published, home):
+    there = nd.track(published, nd.leg_lengths(published, home), home)
+    assert isinstance(there, nd.Configuration)
+    assert repr(there).startswith("<tracked: Configuration(position=")
+    assert there.certificate < 1e-12
+    again = pickle.loads(pickle.dumps(there))
+    assert again == there
+    assert (again.status, again.certificate) == (there.status, there.certificate)
+
+
+@pytest.mark.parametrize("wrong", [np.ones(8), -np.ones(9), np.full(9, np.inf), "x"], ids=str)
+def test_wrong_lengths_are_named(published, home, wrong):
+    with pytest.raises(ValueError, match=r"^leg_lengths: got "):
+        nd.track(published, wrong, home)
+
+
+def test_wrong_start_is_named(published):
+    with pytest.raises(ValueError, match=r"^configuration: got "):
+        nd.track(published, np.ones(9), np.ones(15))

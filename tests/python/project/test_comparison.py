@@ -1,0 +1,74 @@
+"""The comparison of bench/python/comparison.py: every method gives the same numbers, and a wrong one is noticed."""
+
+import importlib
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+BENCH = Path(__file__).resolve().parents[3] / "bench" / "python"
+
+
+@pytest.fixture(scope="module")
+def compare():
+    sys.path.insert(0, str(BENCH))
+    yield pytest.importorskip("compare")
+    sys.path.remove(str(BENCH))
+
+
+@pytest.fixture(scope="module")
+def poses(compare, tmp_path_factory):
+    from compare import data
+
+    path = tmp_path_factory.mktemp("poses") / "poses.bin"
+    data.write(path, 40)
+    return data.read(path)
+
+
+@pytest.mark.parametrize("module", ["with_ninedof", "with_numpy", "with_scipy"])
+def test_a_method_agrees_with_extended_precision(poses, module):
+    from compare import exact
+
+    assert exact.worst_error(*poses, importlib.import_module(f"compare.{module}").prepare(*poses)()) < 1e-11
+
+
+def test_extended_precision_knows_a_matrix_of_known_singular_values(compare):
+    from compare import exact
+
+    rng = np.random.default_rng(3)
+    left, right = np.linalg.qr(rng.normal(size=(6, 6)))[0], np.linalg.qr(rng.normal(size=(9, 6)))[0]
+    rows = (left * np.logspace(0, 5, 6)) @ right.T
+    assert np.allclose(np.sort(exact.singular_values(rows.astype(np.longdouble))), np.logspace(0, 5, 6), rtol=1e-10)
+
+
+def test_the_poses_are_general_and_the_rotations_are_rotations(poses):
+    robot, configurations = poses
+    q = configurations.rotation
+    assert np.allclose(q @ q.swapaxes(1, 2), np.eye(3), atol=1e-14)
+    assert np.allclose(np.linalg.det(q), 1.0)
+    assert len({tuple(joint.round(6)) for triple in robot[:4] for joint in triple}) == 12
+
+
+def test_a_wrong_number_ends_the_program(compare):
+    from compare.runner import require_agreement
+
+    ours = np.array([4.0, 5.0])
+    assert require_agreement("same", ours.copy(), ours, 1) == 0.0
+    for wrong in ([4.0, 5.0 + 1e-8], [4.0, np.nan], [4.0]):
+        with pytest.raises(SystemExit, match="wrong one"):
+            require_agreement("wrong one", np.array(wrong), ours, 1)
+
+
+@pytest.mark.slow
+def test_the_script_runs_without_its_cpp_programs(tmp_path):
+    command = [sys.executable, str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    rows = {
+        cells[1].strip(): cells for cells in (line.split("|") for line in done.stdout.splitlines()) if len(cells) > 7
+    }
+    assert float(rows["numpy"][7]) < 1e-9
+    assert rows["plain Eigen, base"][3].strip() == "not built"
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,72 @@
+"""Every file in examples/ runs and ends as its first lines say."""
+
+import json
+import runpy
+from pathlib import Path
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+STATUS = {
+    "01_paper.toml": 0,
+    "02_twist_and_legs.toml": 0,
+    "03_eqs_8_9_alone.toml": 3,
+    "06_twist.toml": 0,
+    "08_machine.toml": 0,
+    "09_near_isotropic.toml": 0,
+    "10_robust.toml": 0,
+}
+SCRIPTS = {  # what each must print
+    "05_indices.py": ["4851 poses"],
+    "07_families.py": ["triangles 3.749827", "hexagons 3.749827", "free triples 2.343092"],
+    "11_front.py": ["base radius", "3.762659"],
+    "12_six_legs.py": ["nine legs 3.762659", "1.414214"],
+    "13_internal_point.py": ["does not notice: 3", "best, smooth"],
+    "16_atlas.py": ["1,000,000 designs", "optimizer, at 2: 3.762659"],
+    "14_assembly_modes.py": ["32 configurations", "6 3.1532 117.5", "tracked 200 of 200"],
+    "17_best_map.py": ["14641 poses", "best 4.0790"],
+    "15_workspace.py": ["converged: volume 7.80", "ball of radius 0.87", "leg_limits 84", "of SO(3)"],
+}
+AT_MOST = {  # of the objective: values of searches that share nothing with ours, or of the theory notes
+    "01_paper.toml": 3.762660,
+    "06_twist.toml": 3.749828,
+    "08_machine.toml": 3.4082,
+    "09_near_isotropic.toml": 1.402043,
+    "10_robust.toml": 1.5819,
+}
+
+
+def test_no_example_is_left_out():
+    assert {p.name for p in EXAMPLES.iterdir() if p.is_file()} == {*STATUS, *SCRIPTS, "04_design.toml"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", STATUS)
+def test_study(name, tmp_path, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["optimize", str(EXAMPLES / name), "--no-figures", "--json", "--out", str(tmp_path / "run")])
+    assert end.value.code == STATUS[name]
+    assert json.loads(capsys.readouterr().out)["optimization"]["candidates"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", AT_MOST)
+def test_values_of_studies(name):
+    assert nd.optimize(nd.Study.load(EXAMPLES / name)).objective <= AT_MOST[name]
+
+
+def test_design(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["evaluate", str(EXAMPLES / "04_design.toml"), "--json"])
+    assert end.value.code == 0
+    assert json.loads(capsys.readouterr().out)["condition_number"] == pytest.approx(3.9070663, abs=5e-7)
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_script(name, capsys):
+    runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+    printed = " ".join(capsys.readouterr().out.split())
+    assert [words for words in SCRIPTS[name] if words not in printed] == []

@@ -1,0 +1,110 @@
+"""Fronts in run folders, written and read back, and the command that makes them."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+
+import ninedof as nd
+from ninedof.pareto import Front, pareto
+from ninedof.runs.front_records import load_front, write_front
+from ninedof.runs.records import Record, describe_result, write_record
+from ninedof.verify import check
+
+PAPER = nd.Study.paper()
+
+
+@pytest.fixture(scope="module")
+def front():
+    return pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+
+
+# --- Records ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_front_is_read_back_as_it_was(front, tmp_path):
+    path = write_front(front, tmp_path, files=("front.png",))
+    for place in (path, tmp_path):
+        read = load_front(place)
+        assert isinstance(read, Front)
+        assert read.table() == front.table()
+        assert (read.study, read.against, read.limits) == (front.study, front.against, front.limits)
+        assert read.prices == front.prices
+        for one, other in zip(read.results, front.results, strict=True):
+            assert one.candidates[0] == other.candidates[0]
+            assert one.study == other.study
+    assert json.loads(path.read_text())["files"] == ["front.png"]
+    assert check(load_front(path).results[1], perturbations=100).passed
+
+
+def test_a_front_with_nothing_in_it_is_read_back(tmp_path):
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
+    write_front(found, tmp_path)
+    assert load_front(tmp_path).limits == (math.inf,)
+    assert load_front(tmp_path).table() == found.table()
+
+
+def test_a_failed_write_leaves_the_old_front(front, tmp_path, monkeypatch):
+    path = write_front(front, tmp_path)
+    before = path.read_bytes()
+
+    def broken(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("pathlib.Path.replace", broken)
+    with pytest.raises(OSError, match="disk full"):
+        write_front(front, tmp_path)
+    assert path.read_bytes() == before
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+
+
+def test_other_records_are_refused(tmp_path):
+    write_record(Record(PAPER, {"optimization": describe_result(nd.optimize(PAPER))}), tmp_path)
+    with pytest.raises(ValueError, match="got a record without a front"):
+        load_front(tmp_path)
+    write_record(Record(PAPER, {"front": {"against": "radius_ratio"}}), tmp_path)
+    with pytest.raises(ValueError, match="got a front without 'rows'"):
+        load_front(tmp_path)
+
+
+# --- The command ------------------------------------------------------------------------------------------------------
+
+
+def command(tmp_path, **options):
+    from ninedof.cli.commands.front import pareto as run
+
+    given = {"study": None, "against": "radius_ratio", "values": [1.5, 2.0], "points": 13, "out": tmp_path / "run"}
+    return run(**(given | {"starts": None, "threads": None, "figures": True, "json": False} | options))
+
+
+def test_the_command_prints_and_records(tmp_path, capsys):
+    assert command(tmp_path) == 0
+    out = capsys.readouterr().out
+    for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
+        assert words in out
+    names = {path.name for path in (tmp_path / "run").iterdir()}
+    assert names == {"record.json", "front.png", "front.svg"}
+    assert load_front(tmp_path / "run").limits == (1.5, 2.0)
+
+
+def test_the_command_speaks_json(tmp_path, capsys):
+    assert command(tmp_path, json=True, figures=False) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
+    assert data["record"].endswith("record.json")
+    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json"}
+
+
+def test_the_command_says_when_nothing_is_possible(tmp_path, capsys):
+    assert command(tmp_path, against="leg_ratio", values=[0.5]) == 3
+    assert "infeasible" in capsys.readouterr().out
+
+
+def test_the_command_keeps_what_an_interruption_leaves(tmp_path, monkeypatch):
+    from ninedof.cli.commands import front as module
+
+    found = replace(pareto(PAPER, "radius_ratio", values=[2.0]), interrupted=True)
+    monkeypatch.setattr(module, "trace_front", lambda *_, **__: found)
+    assert command(tmp_path) == 130
+    assert load_front(tmp_path / "run").interrupted

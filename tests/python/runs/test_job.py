@@ -1,0 +1,48 @@
+"""Run folders: where they are made, and that the figures show the study that was solved."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.runs import job
+
+STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
+
+
+def silent(_):
+    pass
+
+
+def test_curves_pass_through_the_design_at_its_own_characteristic_length():
+    best = nd.optimize(STUDY, starts=8).best
+    curves = job._curves("it", best.geometry, best.configuration, best.condition_number, STUDY.characteristic_length)
+    zs, theta_z, kappa = curves.point
+    assert kappa == best.condition_number
+    assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(kappa, rel=1e-3)
+    assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(kappa, rel=1e-3)
+
+
+def test_no_figures_without_an_optimum(tmp_path):
+    """An interrupted run must end at once, and a study without a least value has no design to draw."""
+    result = nd.optimize(STUDY, starts=4)
+    for k, other in enumerate((replace(result, interrupted=True), replace(result, status=nd.Status.UNBOUNDED))):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        job.record_result(other, folder, True, silent)
+        assert [p.name for p in folder.iterdir()] == ["record.json"]
+
+
+def test_folders_of_one_second_do_not_meet(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert len({job.new_directory(None) for _ in range(5)}) == 5
+
+
+def test_a_folder_that_cannot_be_made_is_refused_before_any_work(tmp_path):
+    (tmp_path / "file").write_text("kept")
+    for out in (tmp_path / "file", tmp_path / "file" / "below"):
+        with pytest.raises(ValueError, match=r"^out: got .+, expected"):
+            job.new_directory(out)
+    assert (tmp_path / "file").read_text() == "kept"

@@ -1,0 +1,229 @@
+"""How far a path is free of singularities.
+
+Oracle: the three determinants by numpy along the path written out with scipy rotations, sampled densely and their first
+change of sign solved by Brent's method; where the answer is known, geometry.
+"""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
+from singular_robots import lost, unit_rows
+
+import ninedof as nd
+
+MOST = 3.0
+KINDS = pytest.mark.parametrize("kind", ["screw", "turn", "shift", "mostly turn"])
+
+
+def direction(rng, kind):
+    t = rng.normal(size=9)
+    if kind == "turn":
+        t[3:] = 0.0
+    if kind == "shift":
+        t[:3] = 0.0
+    if kind == "mostly turn":
+        t[3:] *= 0.05
+    return t
+
+
+def along(m, tangent, t):
+    """The robot at the times t of the path, as a stack."""
+    t = np.atleast_1d(t)[:, None]
+    turn = Rotation.from_rotvec(t * tangent[:3]).as_matrix()
+    return m._replace(p=m.p + t * tangent[3:6], Q=turn @ m.Q, s=m.s + t * tangent[6:])
+
+
+def determinants(m, tangent, t):
+    return np.linalg.det(np.stack(unit_rows(along(m, tangent, t))))
+
+
+def first_crossings(m, tangent, most, samples=4001):
+    times = np.linspace(0.0, most, samples)
+    out = []
+    for k, values in enumerate(determinants(m, tangent, times)):
+        crossing = np.flatnonzero(np.sign(values[1:]) != np.sign(values[:-1]))
+        if not len(crossing):
+            out.append(np.inf)
+            continue
+        bracket = times[crossing[0]], times[crossing[0] + 1]
+        out.append(brentq(lambda t, k=k: determinants(m, tangent, t)[k, 0], *bracket, xtol=1e-15, rtol=1e-14))
+    return np.array(out)
+
+
+@KINDS
+def test_against_dense_sampling_and_root_finding(kind):
+    rng = np.random.default_rng(11)
+    robots = model.random_robots(rng, 30, tilt=1.5)
+    found_some = np.zeros(3, dtype=int)
+    for n in range(30):
+        m, tangent = robots.at(n), direction(rng, kind)
+        expected = first_crossings(m, tangent, MOST)
+        found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent, most=MOST)
+        assert found.resolved
+        assert found.distance == found.each.min()
+        if np.isfinite(found.distance):
+            assert found.mechanism == "mbc"[int(np.argmin(found.each))]
+            assert_allclose(
+                nd.singularity_margins(m.geometry(), m.configuration().moved(found.distance * tangent))[
+                    "mbc".index(found.mechanism)
+                ],
+                0.0,
+                atol=1e-11,
+            )
+        else:
+            assert found.mechanism is nd.Mechanism.NONE
+        for k in range(3):
+            # Sampling may miss a pair of crossings; what it finds must be found, and nothing else but such a pair.
+            assert found.each[k] <= expected[k] + 1e-11
+            if found.each[k] < expected[k] - 1e-11:
+                close = found.each[k] + np.linspace(0.0, MOST / 4000, 2001)
+                values = determinants(m, tangent, close)[k]
+                assert values.min() <= 1e-12
+                assert values.max() >= -1e-12
+            found_some[k] += np.isfinite(found.each[k])
+    # A plane of O's is met in about half of the moves; a turn of the platform is nothing to the lower legs.
+    assert (found_some[[0, 2]] >= 8).all()
+    assert found_some[1] >= 8 or kind in ("turn", "mostly turn")
+    assert kind != "turn" or found_some[1] == 0
+
+
+@pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-5, 1e-7])
+def test_a_short_excursion_through_a_singularity_is_not_stepped_over(gap):
+    """Two external legs point at O at times a gap apart: det M changes sign for no longer than that."""
+    rng = np.random.default_rng(12)
+    seen = 0
+    for _ in range(30):
+        m, tangent = model.random_robots(rng, 1).at(0), direction(rng, "screw")
+        base = m.r.copy()
+        for i, t in enumerate((0.5, 0.5 + gap)):
+            then = along(m, tangent, t)
+            head, o = then.p[0] + then.Q[0] @ m.u[i], then.s[0]
+            base[i] = o - rng.uniform(0.5, 1.5) * (head - o)
+        m = m._replace(r=base)
+        before, between, after = determinants(m, tangent, [0.5 - gap, 0.5 + gap / 2, 0.5 + 2 * gap])[0]
+        if not (before * after > 0.0 > before * between):
+            continue  # a third zero close by
+        found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent).each[0]
+        assert found <= 0.5 + 1e-10
+        if found > 0.5 - gap:
+            assert_allclose(found, 0.5, rtol=0.0, atol=1e-13 / gap)
+            seen += 1
+    assert seen >= 10
+
+
+def test_a_plane_that_O_touches_or_just_misses():
+    """The platform turns about a horizontal axis through O's foot; its highest point meets O at a quarter turn."""
+    triangle = np.array([[1.0, 0.0, 0.0], [-0.5, 0.8, 0.0], [-0.5, -0.8, 0.0]])
+    base = 2.0 * triangle - np.array([0.0, 0.0, 3.0])
+    for gap in (0.0, 1e-3, 1e-6, 1e-9, -1e-3, -1e-6):
+        # Plane x = 1 + gap of the platform frame after a quarter turn about y, O at distance 1 along x.
+        joints = triangle + np.array([0.0, 0.0, 1.0 + gap])
+        g = nd.Geometry(base, base, triangle, joints)
+        c = nd.Configuration([0, 0, 0], internal_point=[1.0, 0.0, 0.0])
+        found = nd.distance_to_singularity(g, c, [0, np.pi, 0, 0, 0, 0, 0, 0, 0]).each[2]
+        if gap > 0.0:
+            assert found == np.inf
+        else:
+            assert_allclose(found, 0.5 - np.arccos(1.0 + gap) / np.pi, rtol=0.0, atol=1e-7 if gap == 0.0 else 1e-10)
+
+
+def test_O_sinks_into_the_base_or_rises_into_the_platform(published):
+    c = nd.Configuration.neutral(4.0, [1.0, 2.0, 3.0])
+    down = nd.distance_to_singularity(published, c, [0, 0, 0, 0, 0, 0, 0, 0, -1.0], most=10.0)
+    up = nd.distance_to_singularity(published, c, [0, 0, 0, 0, 0, 0, 0, 0, 1.0], most=10.0)
+    assert_array_equal(down.mechanism, ["b"] * 3)
+    assert_array_equal(up.mechanism, ["c"] * 3)
+    assert_allclose(down.distance, [1.0, 2.0, 3.0], rtol=1e-15)
+    assert_allclose(up.distance, [3.0, 2.0, 1.0], rtol=1e-15)
+    assert_array_equal(np.isinf(down.each[:, [0, 2]]), True)
+
+
+def test_default_is_the_displacement_itself(published, neutral):
+    exactly = [0, 0, 0, 0, 0, 0, 0, 0, -2.3745]
+    assert abs(nd.distance_to_singularity(published, neutral, exactly).distance - 1.0) <= 2.3e-16
+    short = nd.distance_to_singularity(published, neutral, np.multiply(exactly, 1.0 - 1e-12))
+    assert (short.distance, short.mechanism, short.resolved) == (np.inf, nd.Mechanism.NONE, True)
+
+
+def test_a_twist_of_the_neutral_pose(published):
+    """Coupled triangles are lost at a twist of 120 degrees; the closed form on the axis says so, and not before."""
+    found = nd.distance_to_singularity(
+        published, nd.Configuration.neutral(3.9828, 2.3745), [0, 0, 1.0] + [0] * 6, most=7.0
+    )
+    assert found.mechanism == "m"
+    assert_allclose(found.distance, 2.0 * np.pi / 3.0, rtol=1e-14)
+    twists = found.distance * np.array([0.0, 0.3, 0.6, 0.9, 0.99, 1.0, 1.01])
+    largest = nd.axis_singular_values(published, nd.Configuration.neutral(3.9828, 2.3745, twists))[:, 0]
+    assert largest[5] > 1e12
+    assert np.delete(largest, 5).max() < 1e3
+
+
+@pytest.mark.parametrize("mechanism", "mbc")
+def test_a_singular_start_is_at_distance_zero(mechanism):
+    rng = np.random.default_rng(13)
+    for _ in range(10):
+        m = lost(rng, mechanism)
+        for tangent in (rng.normal(size=9), np.zeros(9)):
+            found = nd.distance_to_singularity(m.geometry(), m.configuration(), tangent)
+            assert (found.distance, found.mechanism, found.resolved) == (0.0, mechanism, True)
+
+
+def test_broadcasting_missing_rows_threads(published, stack):
+    rng = np.random.default_rng(14)
+    tangents = rng.normal(size=(4, 1, 9))
+    tangents[2, 0, 3] = np.nan
+    found = nd.distance_to_singularity(published, stack, tangents, most=2.0, threads=2)
+    assert found.distance.shape == found.mechanism.shape == found.resolved.shape == (4, 5)
+    assert found.each.shape == (4, 5, 3)
+    for i in range(4):
+        for k in range(5):
+            alone = nd.distance_to_singularity(published, stack[k], tangents[i, 0], most=2.0)
+            assert_array_equal(found.each[i, k], alone.each)
+            assert_array_equal(found.distance[i, k], alone.distance)
+            assert found.mechanism[i, k] == alone.mechanism
+            assert found.resolved[i, k] == alone.resolved
+    assert np.isnan(found.distance[2]).all()
+    assert np.isnan(found.each[2]).all()
+    assert not found.resolved[2].any()
+    assert_array_equal(found.mechanism[2], "")
+    assert np.isfinite(np.delete(found.each, 2, axis=0)).any()
+    many = rng.normal(size=(3000, 9))
+    one, two = (nd.distance_to_singularity(published, stack[0], many, threads=k) for k in (1, 2))
+    assert_array_equal(one.each, two.each)
+    assert nd.distance_to_singularity(published, stack[:0], np.zeros(9)).each.shape == (0, 3)
+
+
+def test_what_is_not_settled_is_not_claimed():
+    """A turn that never meets a singularity, looked at for half a million revolutions."""
+    rng = np.random.default_rng(15)
+    while True:
+        m, tangent = model.random_robots(rng, 1).at(0), direction(rng, "turn")
+        g, c = m.geometry(), m.configuration()
+        once = nd.distance_to_singularity(g, c, tangent, most=2 * np.pi / np.linalg.norm(tangent[:3]))
+        if once.distance == np.inf:
+            break
+    found = nd.distance_to_singularity(g, c, tangent, most=3e6)
+    assert not found.resolved
+    assert 1e3 < found.distance < 3e6
+    assert found.mechanism != nd.Mechanism.NONE
+
+
+@pytest.mark.parametrize(
+    "bad", [np.ones(8), np.full(9, np.inf), None, "down", np.ones((3, 9)), 1j * np.ones(9)], ids=str
+)
+def test_bad_direction(published, stack, bad):
+    with pytest.raises(ValueError, match=r"direction"):
+        nd.distance_to_singularity(published, stack, bad)
+
+
+def test_other_bad_arguments(published, neutral):
+    for bad in (0.0, -1.0, np.nan, np.inf, "far", None, [1.0, 2.0]):
+        with pytest.raises((ValueError, TypeError), match=r"most|converted|length"):
+            nd.distance_to_singularity(published, neutral, np.ones(9), most=bad)
+    with pytest.raises(ValueError, match="threads"):
+        nd.distance_to_singularity(published, neutral, np.ones(9), threads=-1)
+    with pytest.raises(ValueError, match="geometry"):
+        nd.distance_to_singularity(neutral, published, np.ones(9))

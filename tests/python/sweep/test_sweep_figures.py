@@ -1,0 +1,367 @@
+"""The paper's Figs. 6 and 7, the drawings of sweeps, and the command line that makes them."""
+
+import json
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from sweep_work import HOME, G
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.cli.app import main
+from ninedof.paper import paper
+from ninedof.sweep.figures import ratio_study
+
+
+@pytest.fixture(scope="module")
+def six():
+    return nd.sweep_figure("6")
+
+
+@pytest.fixture(scope="module")
+def seven():
+    return nd.sweep_figure("7")
+
+
+# --- Fig. 6 -----------------------------------------------------------------------------------------------------------
+
+
+def test_figure_6_is_nine_sweeps_of_one_coordinate(six):
+    home = nd.Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    assert six["coordinate"].tolist() == "x_p y_p z_p theta_x theta_y theta_z x_s y_s z_s".split()
+    for k, name in enumerate(six["coordinate"].tolist()):
+        alone = nd.sweep(paper.published_geometry(), home, {name: (-1.0, 1.0, 201)})["condition_number"]
+        np.testing.assert_allclose(six["condition_number"][k], alone, rtol=1e-12)
+
+
+def test_figure_6_says_what_the_paper_says_and_where_it_is_wrong(six):
+    """On the axis is best: true of x and y of p and O. A turn about z and a higher platform are better than neutral."""
+    curves = dict(zip(six["coordinate"].tolist(), six["condition_number"], strict=True))
+    middle = curves["x_p"][100]
+    assert middle == pytest.approx(3.9070663, abs=5e-7)
+    for name in ("x_p", "y_p", "x_s", "y_s", "z_s"):
+        assert curves[name].argmin() == 100
+    for name in ("theta_z", "z_p"):
+        assert curves[name].min() < middle - 0.05
+    x = six["displacement"]
+    np.testing.assert_allclose(x, -x[::-1], atol=1e-15)
+    assert x[100] == 0.0
+
+
+# --- Fig. 7 -----------------------------------------------------------------------------------------------------------
+
+
+def test_figure_7_is_one_study_a_point(seven):
+    assert seven["sides"].tolist() == ["a1/a2", "b1/b2"]
+    ratio, kappa = seven["ratio"], seven["condition_number"]
+    assert (ratio[0], ratio[16], ratio[-1]) == (1 / 16, 1.0, 16.0)
+    np.testing.assert_allclose(kappa, kappa[:, ::-1], rtol=1e-8)  # mirrored robots
+    assert (np.diff(kappa[:, 16:]) < 0).all()  # what the paper says of Fig. 7
+    assert (kappa > 3.762659).all()
+
+
+def test_designs_of_figure_7_keep_ratio_limit_and_value(seven):
+    """In units of l_c, though each was found with sides of 1 and l_c free."""
+    study = nd.Study.paper()
+    for side in range(2):
+        for k in range(0, 33, 4):
+            a1, a2, b1, b2, zp, zs = seven["design"][side, k].tolist()
+            first, second = ((a1, a2), (b1, b2))[side]
+            assert first / second == pytest.approx(seven["ratio"][k], rel=1e-12)
+            point = study.evaluate({"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs})
+            assert point.condition_number == pytest.approx(seven["condition_number"][side, k], rel=1e-9)
+            assert point.margins["radius_ratio"] >= -1e-7
+
+
+@pytest.mark.parametrize("side", [0, 1])
+@pytest.mark.parametrize("k", [16, 20, 28])
+def test_figure_7_by_another_way(seven, side, k):
+    """l_c = 1 and the size of the held pair scanned, then narrowed: no free length, no scaling argument."""
+    first, second = (("a1", "a2"), ("b1", "b2"))[side]
+    ratio = float(seven["ratio"][k])
+
+    def least(size):
+        study = nd.Study(
+            variables={first: ratio * size, second: size}, constraints={"radius_ratio": (None, 2.0)}, starts=16
+        )
+        return nd.optimize(study).condition_number or np.inf
+
+    low, high = 0.05, 12.0
+    for _ in range(9):
+        sizes = np.linspace(low, high, 7)
+        best = int(np.argmin([least(float(s)) for s in sizes]))
+        low, high = sizes[max(best - 1, 0)], sizes[min(best + 1, 6)]
+    assert least(float(sizes[best])) == pytest.approx(seven["condition_number"][side, k], rel=1e-6)
+
+
+def test_the_free_optimum_is_the_end_of_figure_7():
+    end = nd.optimize(ratio_study("b", 1e9))
+    assert end.condition_number == pytest.approx(3.762659078596, rel=1e-6)
+
+
+def test_figures_are_kept_and_computed_by_executors(tmp_path, seven):
+    with ThreadPoolExecutor(2) as pool:
+        found = nd.sweep_figure("7", 33, executor=pool, out=tmp_path)
+    assert found["condition_number"].tobytes() == seven["condition_number"].tobytes()
+    assert found["design"].tobytes() == seven["design"].tobytes()
+    assert len(list(tmp_path.glob("chunk-*"))) == 66
+    with pytest.raises(ValueError, match="another question"):
+        nd.sweep_figure("6", out=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [(("8",), "figure: got '8', expected one of 6, 7"), ((6,), "figure: got 6"), (("6", 1), "points: got 1")],
+)
+def test_bad_figures_are_named(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        nd.sweep_figure(*arguments)
+
+
+# --- Drawings ---------------------------------------------------------------------------------------------------------
+
+
+def lines(figure):
+    return [line for axes in figure.axes for line in axes.lines]
+
+
+def test_figure_6_draws_its_numbers(six):
+    figure = plot.figure_6(six)
+    drawn = [line.get_ydata() for line in lines(figure)]
+    assert len(drawn) == 9
+    for row, curve in zip(six["condition_number"], drawn, strict=True):
+        np.testing.assert_array_equal(curve, np.where(np.isfinite(row), row, np.nan))
+    labels = [text.get_text() for axes in figure.axes for text in axes.get_legend().get_texts()]
+    assert labels == six["coordinate"].tolist()
+
+
+def test_figure_7_draws_its_numbers(seven):
+    first, second = lines(plot.figure_7(seven))
+    np.testing.assert_array_equal(first.get_ydata(), seven["condition_number"][0])
+    np.testing.assert_array_equal(second.get_ydata(), seven["condition_number"][1])
+
+
+@pytest.mark.parametrize("name", ["condition_number", "leg_lengths"])
+@pytest.mark.parametrize("axes", [1, 2, 3])
+def test_sweeps_are_drawn(axes, name, tmp_path):
+    over = dict(zip(("theta_z", "x_p", "z_s"), ((-1.2, 1.2, 9), (-2.0, 2.0, 11), (-2.5, 0.3, 8)), strict=True))
+    found = nd.sweep(G, HOME, dict(list(over.items())[:axes]), name)
+    figure = plot.sweep(found)
+    assert isinstance(figure, Figure)
+    assert len(plot.save(figure, tmp_path, "sweep")) == 2
+    if axes == 1:
+        assert len(lines(figure)) == (9 if name == "leg_lengths" else 1)
+    else:
+        maps = [c for a in figure.axes for c in a.collections if hasattr(c, "get_array") and c.get_array() is not None]
+        values = found[name] if name == "condition_number" else found[name][..., 0]
+        assert len(maps) == (6 if axes == 3 else 9 if name == "leg_lengths" else 1) + 1  # and the bar's
+        first = values if axes == 2 else values[0]
+        drawn = np.ma.getdata(maps[0].get_array()).reshape(first.T.shape)
+        shown = ~np.ma.getmaskarray(maps[0].get_array()).reshape(first.T.shape)
+        np.testing.assert_array_equal(drawn[shown], first.T[shown])
+        np.testing.assert_array_equal(shown, np.isfinite(first.T))
+
+
+def test_what_is_singular_everywhere_is_drawn_too():
+    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": (-0.5, 0.5, 3)}))
+    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435]}))
+
+
+def test_a_name_that_is_not_there():
+    with pytest.raises(ValueError, match="name: got 'kappa', expected one of condition_number"):
+        plot.sweep(nd.sweep(G, HOME, {"x_p": [0.0]}), "kappa")
+
+
+def test_the_atlas_is_drawn():
+    found = nd.atlas(20_000)
+    figure = plot.atlas(found, (2.0, 3.762659))
+    star = next(line for line in lines(figure) if line.get_marker() == "*")
+    assert (star.get_xdata()[0], star.get_ydata()[0]) == (2.0, 3.762659)
+    assert "20,000 designs" in figure.axes[0].get_title(loc="left")
+
+
+# --- The command ------------------------------------------------------------------------------------------------------
+
+
+def run(capsys, line):
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    captured = capsys.readouterr()
+    return end.value.code, captured.out, captured.err
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+    return tmp_path
+
+
+def test_sweep_over_poses(here, capsys):
+    status, out, _ = run(capsys, "sweep --over x_p=-1:1:5 --over theta_z_deg=-30,0,30 --index leg_ratio --out run")
+    assert status == 0
+    assert "leg ratio" in out
+    names = {p.name for p in (here / "run").iterdir()}
+    assert names == {"chunks", "sweep.npz", "sweep.png", "sweep.svg"}
+    found = nd.SweepResult.load("run/sweep.npz")
+    home = nd.Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    degrees = np.radians([-30.0, 0.0, 30.0])
+    expected = nd.sweep(paper.published_geometry(), home, {"x_p": (-1.0, 1.0, 5), "theta_z": degrees}, "leg_ratio")
+    assert found["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
+
+
+def test_sweep_speaks_json(here, capsys):
+    status, out, err = run(capsys, "sweep --over x_p=-1:1:5 --json --no-figures --out run")
+    assert status == 0
+    data = json.loads(out)
+    summary = data["sweep"]["indices"]["condition_number"]
+    assert summary["least"]["at"] == {"x_p": 0.0}
+    assert summary["points"] == 5
+    assert data["sweep"]["arrays"]["condition_number"][2] == summary["least"]["value"]
+    assert Path(data["record"]).is_file()
+    assert "condition number" in err
+
+
+def test_sweep_of_a_design_file_and_of_designs(here, capsys):
+    Path("design.toml").write_text(
+        "characteristic_length = 2.0\n[geometry]\na1 = 0.0\na2 = 6.0\nb1 = 3.0\nb2 = 0.0\n"
+        "[configuration]\nzp = 4.0\nzs = 2.5\n"
+    )
+    line = "sweep design.toml --over z_s=2.0,2.5 --absolute --internal-point held --no-figures --json --out one"
+    data = json.loads(run(capsys, line)[1])
+    g, c = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0), nd.Configuration.neutral(4.0, [2.0, 2.5])
+    assert data["sweep"]["arrays"]["condition_number"] == nd.condition_number(g, c, 2.0).tolist()
+    line = "sweep --a1 0 --a2 6 --b1 3 --zp 4 --zs 2.5 --over b2=0:1:3 --no-figures --json --out two"
+    data = json.loads(run(capsys, line)[1])
+    assert data["sweep"]["coords"]["b2"] == [0.0, 0.5, 1.0]
+    data = json.loads(run(capsys, "sweep --over a1=0:1:3 --over b2=0:1:3 --no-figures --json --out three")[1])
+    assert data["sweep"]["indices"]["condition_number"]["least"]["at"] == {"a1": 0.0, "b2": 0.0}
+
+
+@pytest.mark.parametrize("figure", ["6", "7"])
+def test_the_named_figures(here, capsys, figure):
+    status, out, _ = run(capsys, f"sweep figure-{figure} --points 9 --out run")
+    assert status == 0
+    assert f"Fig. {figure}" in out
+    assert nd.SweepResult.load("run/sweep.npz").attributes["figure"] == figure
+    assert Path("run/sweep.svg").is_file()
+
+
+def test_the_atlas_command(here, capsys, monkeypatch):
+    marked = []
+    draw = plot.atlas
+    monkeypatch.setattr(plot, "atlas", lambda result, optimum: marked.append(optimum) or draw(result, optimum))
+    status, out, _ = run(capsys, "atlas --designs 50000 --out run")
+    assert status == 0
+    assert "best of all designs" in out
+    assert {p.name for p in (here / "run").iterdir()} == {"chunks", "atlas.npz", "atlas.png", "atlas.svg"}
+    np.testing.assert_allclose(marked, [(2.0, 3.762659078596)], rtol=1e-9)  # docs/values.md
+    data = json.loads(run(capsys, "atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
+    assert data["atlas"]["designs"] == 50000
+    assert {"radius_ratio", "condition_number", "design"} == set(data["atlas"]["best"][0])
+
+
+def test_the_bar_says_how_long_it_takes(capsys):
+    from ninedof.cli.commands.screen import Screen
+
+    with Screen(False).points("over x_p") as bar:
+        bar.show(0, 100, float("nan"))
+        bar.show(50, 100, 3725.2)
+    shown = capsys.readouterr().err
+    assert "over x_p" in shown
+    assert "50 %" in shown
+    assert "1:02:06 to go" in shown
+
+
+BAD = {
+    "sweep": "sweep: got no --over",
+    "sweep figure-6 --over x_p=0:1:3": "--over: got x_p=0:1:3, expected none with figure-6",
+    "sweep figure-6 --a1 3": "--a1: got 3.0, expected none with figure-6",
+    "sweep figure-6 --lc 2": "--lc: got 2, expected none with figure-6",
+    "sweep figure-6 --index leg_ratio": "--index: got leg_ratio, expected none with figure-6",
+    "sweep figure-6 --absolute": "--absolute: got it, expected none with figure-6",
+    "sweep figure-6 --internal-point held": "--internal-point: got held, expected none with figure-6",
+    "sweep figure-7 --chunk 5": "--chunk: got 5, expected none with figure-7",
+    "sweep figure-7 --threads 2": "--threads: got 2, expected none with figure-7",
+    "sweep figure-7 --theta-z-deg 0": "--theta-z-deg: got 0.0, expected none with figure-7",
+    "sweep figure-6 --points 1": "points: got 1",
+    "sweep figure-9": "sweep: got figure-9, expected one of figure-6, figure-7, or a design",
+    "sweep figure-9 --over x_p=0:1:3": "sweep: got figure-9, expected one of",
+    "sweep --over x_p=0:1:3 --points 3": "--points: got 3, expected none with --over",
+    "sweep --over a1=0:1:3 --absolute": "--absolute: got it, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --internal-point best": "--internal-point: got best, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --threads 1": "--threads: got 1, expected none in a sweep over designs",
+    "sweep --over a1=0:1:3 --lc 0": "characteristic_length: got 0.0",
+    "sweep --over a1=-1:1:3": "a1: got -1, expected a side of 0 at least",
+    "sweep --over x_p_deg=0:1:3": "over: got 'x_p_deg'",
+    "sweep --over x_p": "--over: got 'x_p', expected NAME=LOW:HIGH:COUNT",
+    "sweep --over x_p=0:1": "expected NAME=LOW:HIGH:COUNT",
+    "sweep --over x_p=0:1:2.5": "expected NAME=LOW:HIGH:COUNT",
+    "sweep --over x_p=a,b": "expected NAME=LOW:HIGH:COUNT",
+    "sweep --over x_p=0:1:3 --over x_p=0:1:3": "expected different names",
+    "sweep --over q=0:1:3": "over: got 'q'",
+    "sweep --over x_p=0:1:3 --index kappa": "index: got 'kappa'",
+    "sweep --over x_p=0:1:3 --a1 1": "--a2",
+    "sweep --over x_p=0:1:3 --lc none": "--lc: got 'none'",
+    "sweep nothing.toml --over x_p=0:1:3": "nothing.toml",
+    "sweep nothing.toml --over a1=0:1:3": "expected a design by --a1",
+    "sweep --a1 3 --over a1=0:1:3": "--over: got a1, which --a1 holds",
+    "sweep --over x_p=0:1:3 --resume": "--resume: got no --out",
+    "sweep --over x_p=0:1:3 --resume --out nowhere": "which holds no chunks",
+    "sweep --over x_p=0:1:3 --threads 0": "threads: got 0",
+    "atlas --designs 0": "designs: got 0",
+    "atlas --seed -1": "seed: got -1",
+    "workspace --legs 3 2": "l1",
+    "workspace --legs 2 3 --resolution 1": "resolution: got 1",
+}
+
+
+@pytest.mark.parametrize("line", BAD)
+def test_bad_input_ends_in_one_line_and_status_2(here, capsys, line):
+    status, out, err = run(capsys, line)
+    assert status == 2
+    assert out == ""
+    assert BAD[line] in " ".join(err.split())
+    assert "%" not in err or "a1=-1" in line  # no bar before the first point
+    assert not list(here.iterdir())
+    (here / "mine").mkdir()
+    assert run(capsys, f"{line} --out mine")[0] == 2
+    assert not list(here.glob("*/*"))
+    assert (here / "mine").exists()
+
+
+def test_without_dask_it_says_what_to_install(here, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    status, _, err = run(capsys, "sweep --over x_p=0:1:3 --scheduler tcp://127.0.0.1:1 --out run")
+    assert status == 2
+    assert "pip install 'ninedof[cluster]'" in " ".join(err.split())
+
+
+def test_an_interrupted_command_is_taken_up(here, capsys):
+    """Ctrl-C: status 130, what is kept is said, --resume goes on; the other options must be the same."""
+    line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "4001", "--out", "run", "--no-figures"]
+    process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not list(here.glob("run/chunks/chunk-*")) and time.monotonic() < deadline:
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "finished chunks are kept in run" in " ".join(out.split())
+    assert "--resume" in out
+    kept = len(list(here.glob("run/chunks/chunk-*")))
+    assert kept >= 1
+    status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --resume --no-figures")
+    assert status == 2
+    assert "another question" in err
+    status, _, err = run(capsys, "sweep figure-7 --points 4001 --out run --no-figures")
+    assert status == 2
+    assert "not an empty folder" in " ".join(err.split())

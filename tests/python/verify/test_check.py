@@ -1,0 +1,208 @@
+"""The check of a result: right ones pass, every kind of wrong one fails. Its parts are in test_check_parts.py."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+import ninedof as nd
+from ninedof.verify import Check, Finding, check
+
+FEW = [
+    {"position": [0.1, 0, 0], "unit": "zp"},
+    {"position": [-0.1, 0, 0], "unit": "zp"},
+    {"rotation_deg": [0, 10, 0]},
+    {},
+]
+BEST = [pose | {"internal_point": "best"} for pose in FEW[:3]] + [{}]
+RATIO = {"radius_ratio": (None, 2.0)}
+LEGS = RATIO | {"leg_ratio": (None, 3.0)}
+HARDWARE = RATIO | {
+    "stroke": {"max": 0.5, "of": "zp"},
+    "stroke_ratio": (None, 2.0),
+    "base_cone": {"max_deg": 55, "axis": [0, 0, 1]},
+    "platform_cone": {"max_deg": 30},
+    "singularity_free": {"steps": 2},
+}
+PRACTICAL = RATIO | {
+    "leg_ratio": (None, 2.5),
+    "zs_fraction": (0.15, 0.85),
+    "leg_length": {"min": 0.2, "of": "zp"},
+    "joint_height": {"max": 0.3, "of": "radius"},
+    "joint_spacing": {"min": 0.1, "of": "radius"},
+    "leg_clearance": {"min": 0.05, "of": "zp"},
+    "footprint": (None, 5.0),
+    "height": (None, 5.0),
+}
+PLATFORM = [f"platform_{kind}_{i}_{axis}" for kind in ("external", "internal") for i in (1, 2, 3) for axis in "xy"]
+
+STUDIES = {
+    "paper": nd.Study.paper(),
+    "symmetric": nd.Study("symmetric", constraints=LEGS),
+    "practical": nd.Study("symmetric_nonplanar", constraints=PRACTICAL),
+    "displaced": nd.Study(constraints=RATIO, objective={"poses": FEW}),
+    "weighted": nd.Study(constraints=RATIO, objective={"poses": FEW, "aggregate": "weighted", "weight": 0.3}),
+    "mean": nd.Study(constraints=RATIO, objective={"poses": FEW, "aggregate": "mean_inverse"}),
+    "best place of O": nd.Study(constraints=RATIO, objective={"poses": BEST}),
+    "frobenius": nd.Study(constraints=RATIO, objective={"index": "frobenius", "poses": FEW}),
+    "speed": nd.Study(constraints=RATIO, objective={"index": "speed", "condition_limit": 4.5, "poses": FEW}),
+    "hardware": nd.Study(constraints=HARDWARE, objective={"box": {"half": [0.1, 0.1, 0.1], "unit": "zp"}}, starts=8),
+    "mean leg": nd.Study(constraints=RATIO | {"footprint": (None, 3.0)}, characteristic_length="mean_leg"),
+    "general": nd.Study(
+        "general", variables=dict.fromkeys(PLATFORM, (-6.0, 6.0)), constraints=LEGS, objective={"poses": FEW}, starts=16
+    ),
+    "twist": nd.Study(variables={"theta_z": (-1.0, 1.0)}, constraints={"radius_ratio": (None, 2.0)}),
+    "narrow": nd.Study(constraints={"leg_ratio": (2.0, 2.2), "zs_fraction": (0.3, 0.5)}),
+}
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return nd.optimize(nd.Study.paper())
+
+
+def with_best(result, **changed):
+    """The result with its best candidate altered: what a wrong solver would return."""
+    return replace(result, candidates=(replace(result.candidates[0], **changed), *result.candidates[1:]))
+
+
+def moved(result, **shifts):
+    """The result at another design, with every number of that design: wrong in nothing but its place."""
+    study = result.study
+    variables = dict(result.variables)
+    for name, shift in shifts.items():
+        variables[name] += shift
+    point = study.evaluate(variables)
+    names = ("objective", "condition_number", "conditions", "geometry", "configuration", "configurations")
+    return with_best(result, variables=variables, **{name: getattr(point, name) for name in names})
+
+
+# --- Right results ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_an_optimum_passes(name):
+    result = nd.optimize(STUDIES[name])
+    assert result.status == "optimal"
+    found = check(result, perturbations=1000)
+    assert found.passed, found.report()
+    assert found
+    names = [finding.name for finding in found.findings]
+    assert names[:3] == ["design", "condition numbers", "objective"]
+    assert [f"limit: {name}" for name in result.study.constraints] == [n for n in names if n.startswith("limit")]
+    assert {"stationarity", "perturbations", "bound: isotropy"} <= set(names)
+    assert ("bound: hexagonal" in names) == (result.study.family == "hexagonal")
+    rho = (result.variables["zp"] - result.variables["zs"]) / result.best.characteristic_length
+    assert ("bound: distance of O" in names) == (result.study.family != "general" and rho >= 0.51)
+    assert found["perturbations"].figure <= 1e-8
+
+
+def test_report_says_what_was_tested(paper):
+    text = check(paper, perturbations=60).report()
+    assert text.startswith("check of a design of the hexagonal family: 10 tests, all passed")
+    for words in ("general path", "60 steps of 0.1 to 1e-06", "no design with", "(proved)", "(searched)", "balance to"):
+        assert words in text
+
+
+def test_same_seed_same_check(paper):
+    first, second = (check(paper, perturbations=300, seed=5).to_dict() for _ in range(2))
+    assert first == second
+    assert first != check(paper, perturbations=300, seed=6).to_dict()
+
+
+def test_a_result_that_claims_no_optimum_is_not_held_to_it(paper):
+    stopped = replace(moved(paper, zp=0.1), status=nd.Status.STOPPED)
+    found = check(stopped)
+    assert found.passed, found.report()
+    assert "stationarity" not in [finding.name for finding in found.findings]
+
+
+def test_nothing_free_is_stationary():
+    fixed = {"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.2}
+    found = check(nd.optimize(nd.Study(variables=fixed)))
+    assert found.passed, found.report()
+    assert found["perturbations"].sentence.startswith("of 0 steps")
+
+
+# --- Wrong results ----------------------------------------------------------------------------------------------------
+
+
+def failed(result, **options):
+    return {finding.name for finding in check(result, **options).findings if not finding.passed}
+
+
+def test_a_wrong_number_fails(paper):
+    kappa = paper.condition_number
+    assert failed(with_best(paper, condition_number=kappa * (1 + 1e-7)), perturbations=0) == {"condition numbers"}
+    assert failed(with_best(paper, objective=kappa * (1 - 1e-7)), perturbations=0) == {"objective"}
+    assert failed(with_best(paper, conditions=(kappa, kappa)), perturbations=0) == {"condition numbers"}
+    assert failed(with_best(paper, condition_number=math.nan), perturbations=0) == {"condition numbers"}
+
+
+def test_another_geometry_fails(paper):
+    other = nd.Geometry.hexagonal(0.0, 6.0, 3.0, 0.0)
+    assert failed(with_best(paper, geometry=other), perturbations=0) >= {"design"}
+
+
+@pytest.mark.parametrize("shift", [0.3, 1e-3, 1e-5])
+def test_a_design_beside_the_optimum_is_not_stationary(paper, shift):
+    assert failed(moved(paper, zp=shift), perturbations=0) == {"stationarity"}
+
+
+@pytest.mark.parametrize("shift", [0.3, 0.01])
+def test_perturbations_find_something_better_beside_the_optimum(paper, shift):
+    wrong = check(moved(paper, zp=shift))
+    assert not wrong["perturbations"].passed
+    assert wrong["perturbations"].figure > 1e-6
+    assert "FAILED  perturbations" in wrong.report()
+    assert "failed" in wrong.report().splitlines()[0]
+
+
+def test_a_broken_limit_fails(paper):
+    wrong = check(moved(paper, a2=1e-3), perturbations=0)
+    assert not wrong["limit: radius_ratio"].passed
+    assert wrong["limit: radius_ratio"].figure == pytest.approx(-1e-3 / paper.variables["a2"], rel=1e-3)
+
+
+def test_a_broken_bound_fails(paper):
+    assert "design" in failed(moved(paper, zp=100.0), perturbations=0)  # 80 at most
+
+
+def test_too_good_to_be_true_fails(paper):
+    """A design of the general path cannot beat a bound; a bound set too high must show."""
+    from ninedof.verify import verdict
+
+    bound = verdict.applicable_bounds(paper)[0]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(verdict, "applicable_bounds", lambda _: [replace(bound, value=paper.condition_number * 1.001)])
+        assert failed(paper, perturbations=0) == {"bound: leg ratio"}
+
+
+def test_a_margin_that_the_study_sees_otherwise_fails(paper, monkeypatch):
+    from ninedof.verify import verdict
+
+    core = verdict._core_margins
+    monkeypatch.setattr(verdict, "_core_margins", lambda places: {n: m + 1e-6 for n, m in core(places).items()})
+    assert failed(paper, perturbations=0) == {"limit: radius_ratio"}
+
+
+def test_bad_input_is_named(paper):
+    with pytest.raises(ValueError, match=r"^result: got one without a design \(status 'infeasible'\)"):
+        check(nd.optimize(nd.Study(constraints={"leg_ratio": (None, 0.5)})))
+    with pytest.raises(ValueError, match=r"^result: got dict, expected a Result"):
+        check({})
+    with pytest.raises(ValueError, match=r"^perturbations: got -1, expected a whole number"):
+        check(paper, perturbations=-1)
+    with pytest.raises(ValueError, match=r"^seed: got 0.5, expected a whole number"):
+        check(paper, seed=0.5)
+    with pytest.raises(KeyError, match="there are design, "):
+        check(paper, perturbations=0)["no such test"]
+    assert not Check((Finding("one", False, 0.0, "wrong"),))
+
+
+@pytest.mark.parametrize("name", ["displaced", "best place of O", "frobenius", "speed", "hardware", "general"])
+def test_beside_the_optimum_every_kind_of_study_fails(name):
+    result = nd.optimize(STUDIES[name])
+    wrong = check(moved(result, zs=1e-3), perturbations=0)
+    assert not wrong["stationarity"].passed
+    assert wrong["stationarity"].figure > 1e-5

@@ -1,0 +1,203 @@
+"""The parts of the check, each held against numbers done by hand or against SciPy.
+
+The formulas of the check and those of the core were written apart and agree; here each stands for itself, so that an
+agreement of the two is not an agreement in error.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize, nnls
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.verify.directions import cone, determinants, rotation_vector
+from ninedof.verify.nonsmooth import differences, ends_of
+from ninedof.verify.robot import Robot
+from ninedof.verify.rules import Limit, margins, measured
+from ninedof.verify.spacing import between_segments
+from ninedof.verify.stationarity import least_combination, nonnegative_least_squares
+
+# --- Ties -------------------------------------------------------------------------------------------------------------
+
+
+class Spectrum:
+    """The largest singular value of a matrix that depends on x linearly: a cone at a tie."""
+
+    def __init__(self, matrix, slopes):
+        self.ends = ends_of(np.asarray(matrix, float), np.asarray(slopes, float))
+
+    def steepest(self, direction):
+        vectors = np.linalg.eigh(np.einsum("j,jab->ab", direction, self.ends.top))[1]
+        return np.einsum("a,jab,b->j", vectors[:, 0], self.ends.top, vectors[:, 0])
+
+    def held(self, direction):
+        return []
+
+
+def test_a_double_singular_value_at_its_least_is_stationary():
+    """sigma_max of 1 + [[x, y], [y, -x]] is 1 + |(x, y)|: least at 0, where no single gradient vanishes."""
+    slopes = [[[1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [1.0, 0.0]]]
+    cone_of_none = np.empty((0, 2))
+    tie = Spectrum(np.eye(2), slopes)
+    assert np.linalg.norm(tie.steepest(np.array([1.0, 0.0]))) == pytest.approx(1.0)
+    assert least_combination(tie, cone_of_none)[0] < 1e-6
+    tilted = [[[1.5, 0.0], [0.0, -0.5]], [[0.0, 1.0], [1.0, 0.0]]]  # 1 + x / 2 + |(x, y)|: still least at 0
+    assert least_combination(Spectrum(np.eye(2), tilted), cone_of_none)[0] < 1e-6
+    steep = [[[3.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]]  # 1 + 2 x + |(x, y)| falls with x
+    assert least_combination(Spectrum(np.eye(2), steep), cone_of_none)[0] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_limit_balances_what_is_left():
+    steep = [[[3.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]]
+    wall = np.array([[-5.0, 0.0]])  # minus the gradient of a margin 5 x
+    assert least_combination(Spectrum(np.eye(2), steep), wall)[0] < 1e-6
+    assert least_combination(Spectrum(np.eye(2), steep), -wall)[0] == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_least_squares_agrees_with_scipy(seed):
+    rng = np.random.default_rng(seed)
+    a, b = rng.normal(size=(rng.integers(3, 12), rng.integers(2, 15))), rng.normal(size=3)
+    b = np.resize(b, len(a))
+    x = nonnegative_least_squares(a, b)
+    assert np.all(x >= 0.0)
+    assert np.linalg.norm(a @ x - b) == pytest.approx(nnls(a, b)[1], abs=1e-10)
+
+
+def test_differences_are_exact_at_bounds_as_inside():
+    def f(x):
+        return np.array([math.exp(x[0]) * x[2], x[2] ** 3])
+
+    x, low, high = np.array([0.0, 5.0, 2.0]), np.array([0.0, 5.0, -1.0]), np.array([1.0, 5.0, 2.0])
+    found = differences(f, x, np.array([1.0, 1.0, 2.0]), low, high)  # at its low end, fixed, at its high end
+    assert found == pytest.approx(np.array([[2.0, 0.0], [2.0, 24.0]]), rel=1e-10, abs=1e-10)
+
+
+# --- Rules, by hand ---------------------------------------------------------------------------------------------------
+
+PAIRS = np.array([(0, 1), (0, 2), (1, 2), (0, 4), (0, 7)])
+
+
+def robot(poses=None, heights=(0.0, 0.0)):
+    g = nd.Geometry.symmetric(
+        base_external=(4.0, 0.0, heights[0]),
+        base_internal=(2.0, 1.0, 0.0),
+        platform_external=(2.0, 0.4, 0.0),
+        platform_internal=(1.0, -0.5, heights[1]),
+    )
+    neutral = nd.Configuration.neutral(5.0, 3.0)
+    return Robot(g, neutral, neutral.moved(np.zeros((1, 9))) if poses is None else poses, 1.0, PAIRS)
+
+
+def least(robot, name, **limit):
+    return float(margins(Limit(name, **limit), robot).min())
+
+
+def test_ratios_and_lengths_by_hand():
+    r = robot()
+    legs = nd.leg_lengths(r.geometry, r.neutral)
+    assert least(r, "radius_ratio", high=3.0) == pytest.approx(math.log(3.0 / 2.0))
+    assert least(r, "radius_ratio", low=1.5) == pytest.approx(math.log(2.0 / 1.5))
+    assert least(r, "leg_ratio", high=3.0) == pytest.approx(math.log(3.0 * legs.min() / legs.max()))
+    assert least(r, "leg_ratio", low=1.2) == pytest.approx(math.log(legs.max() / legs.min() / 1.2))
+    assert least(r, "zs_fraction", high=0.5) == pytest.approx(math.log(0.5 / 0.6))
+    assert least(r, "height", low=4.0, high=6.0) == pytest.approx(math.log(6.0 / 5.0))
+    assert least(r, "footprint", high=3.0) == pytest.approx(math.log(0.75))
+    assert least(r, "lower_length", high=1.0, of="zp") == pytest.approx(-math.log(math.sqrt(13.0) / 5.0))
+    assert least(r, "upper_length", low=2.0) == pytest.approx(math.log(math.sqrt(5.0) / 2.0))
+    assert least(r, "external_length", high=9.0) == pytest.approx(math.log(9.0 / legs[0]))
+    assert least(r, "leg_length", low=1.0) == pytest.approx(math.log(legs.min()))
+
+
+def test_joints_by_hand():
+    r = robot(heights=(0.8, -0.6))
+    assert least(r, "joint_height", high=1.0) == pytest.approx(0.2)
+    assert least(r, "joint_height", high=0.25, of="radius") == pytest.approx(1.0 - 0.8 / 4.0 / 0.25)
+    flat = robot()
+    apart = abs(4.0 - 2.0 * np.exp(1j * (1.0 + 0.0)))  # nearest joints of the base: 0 and 1 radian
+    on_platform = abs(2.0 * np.exp(0.4j) - np.exp(-0.5j))
+    assert least(flat, "joint_spacing", low=1.0) == pytest.approx(min(apart, on_platform) - 1.0)
+    scaled = min(apart / 4.0, on_platform / 2.0)
+    assert least(flat, "joint_spacing", low=0.1, of="radius") == pytest.approx(scaled / 0.1 - 1.0)
+
+
+def test_strokes_by_hand():
+    up = np.zeros((3, 9))
+    up[1, 5], up[2, 5] = 0.5, -0.25  # the platform 0.5 up, 0.25 down; O stays
+    r = robot(robot().neutral.moved(up))
+    upper = np.sqrt(1.0 + np.array([2.0, 2.5, 1.75]) ** 2)
+    legs = nd.leg_lengths(r.geometry, r.poses)
+    assert legs[:, 3] == pytest.approx(upper)
+    stroke = np.ptp(legs, axis=0).max()
+    assert least(r, "stroke", high=1.0) == pytest.approx(1.0 - stroke)
+    assert least(r, "stroke", high=0.2, of="zp") == pytest.approx(1.0 - stroke / 5.0 / 0.2)
+    assert least(r, "stroke_ratio", high=2.0) == pytest.approx(math.log(2.0 * upper.min() / upper.max()))
+
+
+def test_cones_by_hand():
+    r = robot()
+    tilt = math.atan2(2.0, 3.0)  # of a lower internal leg from the vertical
+    external = math.acos(5.0 / nd.leg_lengths(r.geometry, r.neutral)[0])
+    found = cone(r, "base", (0.0, 0.0, 1.0)).reshape(2, 3)
+    assert found[0] == pytest.approx([external] * 3)
+    assert found[1] == pytest.approx([tilt] * 3)
+    down = cone(r, "platform", (0.0, 0.0, -1.0)).reshape(2, 3)
+    assert down[1] == pytest.approx([math.atan2(1.0, 2.0)] * 3)
+    turned = robot().neutral.moved(np.array([[0.3, 0.0, 0.0, 0, 0, 0, 0, 0, 0]]))
+    about_itself = cone(robot(turned), "platform", ())
+    assert about_itself[3:].max() > 0.05  # O's direction turns in the platform's frame
+    assert cone(robot(), "platform", ()) == pytest.approx(np.zeros(6))
+    widest = max(tilt, external)
+    assert least(r, "base_cone", high=0.5 * widest, axis=(0.0, 0.0, 1.0)) == pytest.approx(-1.0)
+    assert least(r, "base_cone", high=0.5) == 1.0  # about the legs themselves
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_distance_of_segments_agrees_with_a_search(seed):
+    rng = np.random.default_rng(seed)
+    a, b, c, d = rng.normal(size=(4, 3))
+    if seed % 3 == 0:
+        d = c + (b - a) * rng.uniform(0.2, 2.0)  # parallel
+
+    def apart(x):
+        return float(np.sum((a + x[0] * (b - a) - c - x[1] * (d - c)) ** 2))
+
+    best = min(
+        minimize(apart, start, bounds=[(0, 1), (0, 1)], options={"ftol": 1e-15, "gtol": 1e-12}).fun
+        for start in ([0, 0], [1, 0], [0, 1], [1, 1], [0.5, 0.5])
+    )
+    found = float(between_segments(a, b, c, d))
+    assert found == pytest.approx(math.sqrt(best), abs=2e-6)
+
+
+def test_determinants_change_sign_through_a_singularity():
+    """O carried through the plane of the base: det B goes through zero, det C does not."""
+    down = np.zeros((1, 9))
+    down[0, 8] = -4.0
+    r = robot(robot().neutral.moved(down))
+    b, c, _ = determinants(r, 4)[3:].reshape(4, 3).T
+    start = determinants(r, 4)[:3]
+    assert np.all(start > 0.0)
+    assert np.all(b[:2] > 0.0)
+    assert abs(b[2]) < 1e-12  # three quarters of the way: O lies in the plane
+    assert b[3] < 0.0
+    assert np.all(c > 0.0)
+    assert least(r, "singularity_free", low=1e-3) < -0.01
+    assert least(robot(), "singularity_free", low=1e-3) == pytest.approx(start.min() - 1e-3)
+
+
+def test_rotation_vectors_agree_with_scipy():
+    vectors = np.random.default_rng(1).uniform(-1.8, 1.8, size=(50, 3))  # shorter than pi
+    vectors[0] = 0.0
+    assert rotation_vector(Rotation.from_rotvec(vectors).as_matrix()) == pytest.approx(vectors, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["radius_ratio", "leg_ratio", "height", "footprint", "stroke_ratio", "stroke"])
+def test_the_value_taken_is_the_limit_that_just_holds(name):
+    up = np.zeros((2, 9))
+    up[1, 5] = 0.5
+    r = robot(robot().neutral.moved(up))
+    value = measured(Limit(name, high=1.0), r)
+    assert least(r, name, high=value) == pytest.approx(0.0, abs=1e-12)
