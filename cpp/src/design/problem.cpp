@@ -1,3 +1,5 @@
+/// Declared in ninedof/optimize/optimize.hpp.
+
 #include <algorithm>
 #include <cmath>
 

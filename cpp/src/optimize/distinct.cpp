@@ -1,3 +1,5 @@
+/// Declared in optimize/rounds.hpp.
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,5 @@
+/// Declared in ninedof/optimize/optimize.hpp.
+
 #include <cmath>
 
 #include "ninedof/math/rotation.hpp"

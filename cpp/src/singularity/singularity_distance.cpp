@@ -3,6 +3,7 @@
 ///   B  height of O over the plane of the lower joints, linear in t;
 ///   C  height of O over the plane of the upper joints, linear in t times trigonometric in |omega| t;
 ///   M  det[d_i x w_i], d_i linear, w_i linear plus trigonometric.
+/// Declared in ninedof/singularity/singularity.hpp.
 
 #include <Eigen/Geometry>
 #include <algorithm>

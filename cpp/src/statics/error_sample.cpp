@@ -1,3 +1,5 @@
+/// Declared in ninedof/statics/accuracy.hpp.
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,5 @@
+/// Declared in ninedof/workspace/workspace.hpp.
+
 #include <cmath>
 #include <numbers>
 

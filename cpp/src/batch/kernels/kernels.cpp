@@ -1,4 +1,5 @@
 /// The kernels, compiled once for each instruction set.
+/// Declared in batch/kernels/table.hpp.
 
 #include "batch/kernels/all_roots.hpp"
 #include "batch/kernels/conditioning_matrix.hpp"

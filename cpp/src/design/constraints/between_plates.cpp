@@ -1,5 +1,6 @@
 /// O between the plates (eq. 9b) where the optimizer places it: above the base frame's plane and below the platform frame's, in
 /// every such pose, whatever the tilt. Beyond either lies another machine, on the far side of a singularity.
+/// Declared in design/constraints/constraint.hpp.
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,5 @@
 /// footprint: largest distance of a base joint from z.
+/// Declared in design/constraints/constraint.hpp.
 
 #include "design/constraints/constraint.hpp"
 

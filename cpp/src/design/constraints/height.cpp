@@ -1,4 +1,5 @@
 /// height: zp, the height of the platform frame over the base frame at the neutral configuration.
+/// Declared in design/constraints/constraint.hpp.
 
 #include "design/constraints/constraint.hpp"
 

@@ -1,5 +1,6 @@
 /// base_cone, platform_cone: angle between each leg at its joint of that body, pointing away from it, and an axis of that
 /// body: one that is given, or the direction of that leg at the neutral configuration.
+/// Declared in design/constraints/constraint.hpp.
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,6 +1,7 @@
 /// leg_clearance: distance of the axes of every two legs that share no joint, at every pose looked at. The internal legs all
 /// end in O, so that one of every two is external. Legs share a joint if theirs coincide in every design the study allows;
 /// in one design alone, that is a collision.
+/// Declared in design/constraints/constraint.hpp.
 
 #include <algorithm>
 

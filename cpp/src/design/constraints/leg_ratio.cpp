@@ -1,4 +1,5 @@
 /// leg_ratio: longest over shortest leg, of all legs at all poses looked at.
+/// Declared in design/constraints/constraint.hpp.
 
 #include "design/constraints/spread.hpp"
 

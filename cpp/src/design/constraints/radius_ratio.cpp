@@ -1,4 +1,5 @@
 /// radius_ratio: largest distance of a base joint from z over the same of the platform, each in its own frame.
+/// Declared in design/constraints/constraint.hpp.
 
 #include "design/constraints/constraint.hpp"
 

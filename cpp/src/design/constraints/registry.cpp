@@ -1,4 +1,5 @@
 /// What constraints there are, and which limits and options each takes.
+/// Declared in design/constraints/constraint.hpp.
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 /// singularity_free: the determinants of unit rows behind det B, det C and det M (theory of the direct kinematics: the three
 /// ways to lose the platform or O) keep their neutral sign, and at least a given size, at every pose looked at and at a few
 /// places on the way to it.
+/// Declared in design/constraints/constraint.hpp.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

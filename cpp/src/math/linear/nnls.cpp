@@ -1,3 +1,5 @@
+/// Declared in optimize/polish/active_set.hpp.
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>

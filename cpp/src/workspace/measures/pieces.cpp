@@ -1,3 +1,5 @@
+/// Declared in workspace/cells/octree.hpp.
+
 #include <algorithm>
 #include <numeric>
 

@@ -1,3 +1,5 @@
+/// Declared in workspace/measures/surface.hpp.
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
