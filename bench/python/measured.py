@@ -18,6 +18,7 @@ from compare.machine import processor
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "bench" / "README.md"
 HEADING = "## Measured\n"
+WRITTEN = "Written by `python bench/python/measured.py build/release/bench/cpp/ninedof_bench --write`."
 
 
 def commit():
@@ -45,7 +46,7 @@ def section(program):
     table, words = summary(program)
     machine = f"{processor()}, {os.cpu_count()} processors, Linux" if sys.platform == "linux" else processor()
     where = f"Commit {commit()}. {machine}. Release build for plain x86-64, one thread unless said."
-    return f"{HEADING}\nWritten by `python bench/python/measured.py build/release/bench/cpp/ninedof_bench --write`.\n\n{where} {words.replace(chr(10), ' ')}\n\n{table}\n\n"
+    return f"{HEADING}\n{WRITTEN}\n\n{where} {words.replace(chr(10), ' ')}\n\n{table}\n\n"
 
 
 def main():
