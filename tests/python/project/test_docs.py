@@ -1,4 +1,4 @@
-"""Links of the documents lead somewhere, and the README runs as written. The tables are checked in test_equations.py."""
+"""Links of the documents lead somewhere; the README runs as written. test_equations.py checks the tables."""
 
 import re
 from pathlib import Path

@@ -83,7 +83,7 @@ def test_the_files_of_a_row_contain_its_names(row):
     package = [text for path, text in files.items() if path.startswith(("python/ninedof/", "cpp/bindings/"))]
     assert len(core) + len(package) == len(files)
     parts: set[str] = set()
-    for column, separator, texts in (("C++", "::", core), ("Python", ".", package)):
+    for column, separator, texts in (("symbol", "::", core), ("C++", "::", core), ("Python", ".", package)):
         for name in names(row[column]):
             own = name.split(separator)
             parts.update(own)
