@@ -1,9 +1,10 @@
-"""docs/equations.md and docs/architecture.md name what exists: files, symbols in them, public names, tests."""
+"""docs/equations.md and docs/architecture.md name what exists: files, symbols in them, public names, tests, rooms."""
 
 import re
 from pathlib import Path
 
 import pytest
+from layering import CPP_ROOMS, PYTHON_ROOMS
 
 import ninedof as nd
 
@@ -104,3 +105,8 @@ def test_paths_of_the_architecture_page_exist():
     paths = re.findall(r"`((?:cpp|python|tests|bench|docs)/[\w./-]+)`", ARCHITECTURE.read_text(encoding="utf-8"))
     assert len(paths) > 20
     assert not [path for path in paths if not (ROOT / path).exists()]
+
+
+def test_the_architecture_page_lists_the_rooms_in_their_order():
+    rooms = [name for row in table_rows(ARCHITECTURE, "room") for name in names(row["room"])]
+    assert rooms == [*CPP_ROOMS, *(room for room in PYTHON_ROOMS if not room.startswith("__"))]
