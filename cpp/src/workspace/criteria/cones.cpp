@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "ninedof/robot/points.hpp"
+
 namespace ninedof {
 
 Cones::Cones(const Geometry& g, const ConeLimit& limit, bool platform, const Configuration& home)
@@ -15,12 +17,12 @@ Cones::Cones(const Geometry& g, const ConeLimit& limit, bool platform, const Con
 }
 
 std::array<Vec3, 6> Cones::directions(const Configuration& c) const {
+  const Points at = points(g_, c);
   std::array<Vec3, 6> out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 external = c.position + c.rotation * g_.platform_external()[i] - g_.base_external()[i];
+    const Vec3 external = at[point_u + i] - at[point_r + i];
     out[i] = platform_ ? Vec3(-external) : external;
-    out[i + 3] = c.internal_point -
-                 (platform_ ? Vec3(c.position + c.rotation * g_.platform_internal()[i]) : g_.base_internal()[i]);
+    out[i + 3] = at[point_s] - at[(platform_ ? point_u_tilde : point_r_hat) + i];
   }
   if (platform_)
     for (Vec3& d : out) d = c.rotation.transpose() * d;

@@ -1,6 +1,7 @@
 #include "workspace/criteria/pairs.hpp"
 
 #include "math/numbers.hpp"
+#include "ninedof/robot/points.hpp"
 
 namespace ninedof {
 
@@ -21,20 +22,14 @@ std::array<bool, leg_pairs> pairs_sharing_a_joint(const Geometry& g) {
 }
 
 Closest closest_legs(const Geometry& g, const Configuration& c, const std::array<bool, leg_pairs>& exempt) {
-  std::array<Vec3, 9> from, to;
-  for (std::size_t i = 0; i < 3; ++i) {
-    from[i] = g.base_external()[i];
-    to[i] = c.position + c.rotation * g.platform_external()[i];
-    from[i + 3] = c.position + c.rotation * g.platform_internal()[i];
-    from[i + 6] = g.base_internal()[i];
-    to[i + 3] = to[i + 6] = c.internal_point;
-  }
+  const Points at = points(g, c);
+  const auto from = [&](int leg) { return at[static_cast<std::size_t>(leg_ends(leg).from)]; };
+  const auto to = [&](int leg) { return at[static_cast<std::size_t>(leg_ends(leg).to)]; };
   Closest out{infinity, -1};
   for (int item = 0; item < leg_pairs; ++item) {
     if (exempt[static_cast<std::size_t>(item)]) continue;
     const auto [one, two] = leg_pair(item);
-    const auto a = static_cast<std::size_t>(one), b = static_cast<std::size_t>(two);
-    const double distance = nearest(from[a], to[a], from[b], to[b]).apart.norm();
+    const double distance = nearest(from(one), to(one), from(two), to(two)).apart.norm();
     if (distance < out.distance) out = {distance, item};
   }
   return out;
