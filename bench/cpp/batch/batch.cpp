@@ -14,10 +14,10 @@ namespace {
 
 constexpr double length = 1.3;  // characteristic
 
-/// Stacks are long: what a short call costs to get going is not the question here.
+/// Long stacks: the overhead of a call is not measured.
 constexpr std::size_t pieces = 4, stack_size = 4096;
 
-/// A stack of poses of one robot, as a caller of the batch functions has it.
+/// A stack of poses of one robot, in the memory layout of the batch functions.
 struct Stack {
   ninedof::Geometry geometry;
   std::vector<ninedof::Configuration> poses;
@@ -30,7 +30,7 @@ struct Stack {
 };
 using Stacks = std::shared_ptr<const std::vector<Stack>>;
 
-/// One a piece: hexagonal robots and general ones in turn.
+/// Hexagonal and general robots in turn.
 Stacks stacks() {
   Random random(4);
   auto all = std::make_shared<std::vector<Stack>>();
@@ -92,7 +92,7 @@ Figures batch() {
     }
   }
 
-  // Rows a1 a2 b1 b2 zp zs, in the closed form's units.
+  // Rows a1 a2 b1 b2 zp zs, in units of the characteristic length.
   const auto designs = std::make_shared<std::vector<double>>();
   const auto robots = std::make_shared<std::vector<Pose>>();
   for (const Variables& x : random_designs()) {

@@ -22,7 +22,7 @@ Flat flat(const ninedof::Points& at, double lc) {
   return x;
 }
 
-/// What the solver asks of a pose: the singular values of M and the gradient of each logarithm.
+/// What the optimizer needs at a pose: the singular values of M and the gradient of each logarithm.
 struct SpectrumAndGradients {
   ninedof::Vec6 sigma;
   std::array<ninedof::PointGradient, 6> gradient;
@@ -41,7 +41,7 @@ SpectrumAndGradients with_gradients(const Pose& p) {
   return out;
 }
 
-/// Singular values of J' from the points, by plain Eigen; the platform frame turned into the base axes.
+/// Singular values of J' from the points, by plain Eigen; the platform frame rotated to the base axes.
 ninedof::Vec6 by_plain(const Flat& x) {
   const auto point = [&](std::size_t k) { return ninedof::Vec3(x[3 * k], x[3 * k + 1], x[3 * k + 2]); };
   const ninedof::Vec3 p = point(ninedof::point_p), zero = ninedof::Vec3::Zero();
@@ -53,7 +53,7 @@ ninedof::Vec6 by_plain(const Flat& x) {
   return plain::singular_values(g, {p, ninedof::Mat3::Identity(), point(ninedof::point_s)}, x.back());
 }
 
-/// Gradients of log sigma of M, one a row, by central differences.
+/// Gradients of log sigma of M, one per row, by central differences.
 Eigen::Matrix<double, 6, coordinates> differences(const Pose& p) {
   Flat x = flat(ninedof::points(p.geometry, p.configuration), length);
   Eigen::Matrix<double, 6, coordinates> out;
@@ -70,7 +70,7 @@ Eigen::Matrix<double, 6, coordinates> differences(const Pose& p) {
   return out;
 }
 
-/// Where two singular values are about to meet, and next to a singularity, differences over a finite step mean little.
+/// Close to equal singular values and close to a singularity, finite differences are inaccurate.
 bool differences_hold(const ninedof::Vec6& sigma) {
   if (sigma[0] > 50.0 * sigma[5]) return false;
   for (Eigen::Index k = 0; k < 5; ++k)

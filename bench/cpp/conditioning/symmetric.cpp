@@ -13,20 +13,20 @@ using Dual = ninedof::Dual<7>;
 
 const ninedof::HexagonalFamily family;
 
-/// The family's first joints, those of the platform turned into the base axes.
+/// The first joints of the family, those of the platform rotated to the base axes.
 template <class T>
 ninedof::AxisDesign<T> axis_design(const std::array<T, 7>& x) {
   using std::cos;
   using std::sin;
   const ninedof::Orbits<T> o = family.orbits<T>(x);
   const T c = cos(o.theta_z), s = sin(o.theta_z);
-  const auto turned = [&](const ninedof::Point<T>& u) {
-    return ninedof::Point<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z};
+  const auto turned = [&](const ninedof::Xyz<T>& u) {
+    return ninedof::Xyz<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z};
   };
   return {o.base_external, o.base_internal, turned(o.platform_external), turned(o.platform_internal), o.zp, o.zs};
 }
 
-/// Variables of the hexagonal family -> condition number, for either number type.
+/// Variables of the hexagonal family -> condition number, for both number types.
 template <class T>
 T condition_number(const std::array<T, 7>& x) {
   const ninedof::AxisSpectrum<T> s = ninedof::axis_spectrum(axis_design(x), 1.0);
@@ -38,7 +38,8 @@ Dual value_and_gradient(const Variables& at) {
   return condition_number(Dual::variables(at));
 }
 
-/// Central differences mean nothing across a kink, where two singular values change places, and little beside a singularity.
+/// Central differences are invalid across a kink, where two singular values change their order, and inaccurate near a
+/// singularity.
 bool differences_hold(const Variables& x) {
   const auto s = ninedof::axis_spectrum(axis_design(x), 1.0);
   const auto close = [](double a, double b) { return std::abs(a - b) < 1e-4 * (a + b); };

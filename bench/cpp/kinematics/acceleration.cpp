@@ -14,7 +14,7 @@ ninedof::Vec9 stacked(const ninedof::Acceleration& a) {
   return out;
 }
 
-/// Any velocity will do for the derivative of J': nine numbers of the size of one.
+/// A velocity for the derivative of J': nine numbers of the order of 1.
 ninedof::Velocity some_velocity(const MovingPose& m) {
   return {m.rates.head<3>(), m.rates.segment<3>(3), m.rates.tail<3>()};
 }
@@ -40,7 +40,7 @@ Figures acceleration() {
   const auto plain_rate = on_velocity(&plain::jacobian_rate);
 
   for (const MovingPose& m : *shared_moving_poses()) {
-    // Velocities with an error of that conditioning are squared and solved with once more.
+    // Velocities have an error proportional to the condition number; they are squared and used in another solve.
     const double kappa = plain::conditioning(m.pose.geometry, m.pose.configuration);
     const ninedof::Vec9 expected = stacked(one_system(m));
     const double bound = 1e-14 * kappa * kappa * (1.0 + expected.norm());

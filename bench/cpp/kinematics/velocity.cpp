@@ -7,7 +7,7 @@
 namespace bench {
 namespace {
 
-constexpr double length = 1.3;  // characteristic; not 1, so that leaving it out would show
+constexpr double length = 1.3;  // characteristic; not 1, so that an omission is detected
 
 ninedof::Vec9 stacked(const ninedof::Velocity& v) {
   ninedof::Vec9 out;
@@ -23,7 +23,7 @@ Figures velocity() {
   const auto plain_jacobian = [](const auto& g, const auto& c) { return plain::jacobian(g, c, length); };
   for (const Pose& p : *poses) {
     const ninedof::Mat69 expected = plain_jacobian(p.geometry, p.configuration);
-    // Both invert F: each carries a rounding error magnified by its condition number.
+    // Both invert F: rounding errors are multiplied by its condition number.
     const double bound = 1e-14 * plain::condition_number(p.geometry, p.configuration, length) * expected.norm();
     require_close("J'", (jacobian(p.geometry, p.configuration) - expected).norm(), 0.0, bound);
   }

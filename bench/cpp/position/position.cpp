@@ -16,7 +16,7 @@ using ninedof::RotationMethod;
 using ninedof::Vec3;
 using ninedof::Vec9;
 
-/// A robot with flat plates or without, its platform anywhere and in any orientation, and the lengths it has.
+/// A robot, planar or not, with a random pose of the platform, and its leg lengths.
 struct Lengths {
   Geometry geometry;
   Configuration configuration;
@@ -65,7 +65,7 @@ Figure all_modes(bool hexagonal, double target) {
   return f;
 }
 
-/// What is usually written: Newton's method on all nine coordinates at once.
+/// The usual method: Newton's method on all nine coordinates.
 Configuration plain_newton(const Geometry& g, const Vec9& lengths, Configuration c) {
   for (int k = 0; k < 20; ++k) {
     const Vec9 error = lengths - plain::leg_lengths(g, c);
@@ -103,7 +103,7 @@ Figure tracking() {
     move << random.point(0.002), random.point(0.002), random.point(0.002);
     const Configuration to = ninedof::plus(from, move);
     const Vec9 lengths = ninedof::leg_lengths(g, to);
-    // Where a singularity is nearer than the step it is divided: that is not what a controller does all day.
+    // Close to a singularity the step is divided, which is not typical of a controller: such cases are skipped.
     const ninedof::Tracked t = ninedof::track(g, lengths, from);
     if (t.status != ninedof::TrackStatus::tracked || t.steps > 1) continue;
     require_close("tracking", (t.configuration.position - to.position).norm(), 0.0, 1e-6);

@@ -1,9 +1,9 @@
-/// Direct position analysis put to the test: random poses in any orientation, their nine lengths, and all modes back.
+/// Round trip of direct position analysis: random poses in any orientation, their nine lengths, and all assembly modes.
 ///
 ///     ninedof_round_trip [cases of each kind] [seed]
 ///
-/// Counts poses that did not come back, modes that miss a length by more than 1e-11 of the largest, and cases where the fast elimination
-/// and the null-space method, both certain, count differently. Exit status 1 if there is any.
+/// Counts poses that were not found again, modes that miss a length by more than 1e-11 of the largest, and cases where
+/// elimination and the null-space method are both certain and find different numbers. Exit status 1 if there is any.
 
 #include <algorithm>
 #include <cstdio>

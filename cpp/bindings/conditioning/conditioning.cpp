@@ -17,7 +17,7 @@ namespace {
 
 constexpr long block = 1024;
 
-/// Binds one index of a configuration, a number, over a stack: fill(geometry, configurations, lengths, out).
+/// Binds an index over a stack of configurations: fill(geometry, configurations, lengths, out) writes one number each.
 template <class Fill>
 void bind_index(py::module_& m, const char* name, Fill fill) {
   m.def(name, [fill](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length,
@@ -29,7 +29,7 @@ void bind_index(py::module_& m, const char* name, Fill fill) {
   });
 }
 
-/// Fills with an index that is a function of the singular values.
+/// A `fill` for an index that is a function of the singular values.
 template <class OfSigma>
 auto by_singular_values(OfSigma index) {
   return [index](const Geometry& g, const batch::Configurations& c, const batch::Lengths& lc, double* out) {

@@ -6,7 +6,7 @@
 namespace ninedof::python {
 namespace {
 
-/// A..G of every configuration, one after the other: 18 + 9 + 9 + 9 + 18 + 36 + 54 doubles.
+/// A to G of one configuration: 18 + 9 + 9 + 9 + 18 + 36 + 54 doubles.
 constexpr py::ssize_t matrices_size = 153;
 
 }  // namespace

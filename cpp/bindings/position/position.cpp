@@ -9,12 +9,12 @@
 namespace ninedof::python {
 namespace {
 
-/// Rows of nine lengths.
+/// Leg lengths, nine per row.
 class LengthStack {
  public:
   explicit LengthStack(Array lengths) : lengths_(std::move(lengths)), data_(lengths_.data()) {
     if (lengths_.size() % 9 != 0)
-      throw InvalidArgument("leg_lengths", std::to_string(lengths_.size()) + " numbers", "nine a row");
+      throw InvalidArgument("leg_lengths", std::to_string(lengths_.size()) + " numbers", "nine per row");
   }
   long count() const { return static_cast<long>(lengths_.size() / 9); }
   Vec9 operator[](long i) const { return Eigen::Map<const Vec9>(data_ + 9 * i); }
@@ -38,8 +38,8 @@ void write(const Configuration& c, double* to) {
   Eigen::Map<Vec3>{to + 12} = c.internal_point;
 }
 
-/// Modes of all rows one after the other, and for each row how many there are and what is said about them. Rows with NaN have none
-/// and the status "".
+/// The modes of all rows one after the other; number of modes, status and certainty for each row. Rows with NaN have no
+/// mode and the status "".
 py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, int threads) {
   const LengthStack lengths(leg_lengths);
   const auto rows = static_cast<std::size_t>(lengths.count());
@@ -74,7 +74,7 @@ py::tuple forward_position_stack(const Geometry& g, const Array& leg_lengths, in
                         array_of(separations), array_of(sides));
 }
 
-/// Numbers of a tracked step: its configuration, certificate, alone_within, separation, steps, reached.
+/// Number of doubles of a tracked step: configuration, certificate, alone_within, separation, steps, reached.
 constexpr py::ssize_t tracked_size = configuration_size + 5;
 
 void write(const Tracked& t, double* to) {
@@ -85,7 +85,7 @@ void write(const Tracked& t, double* to) {
   std::copy(rest.begin(), rest.end(), to);
 }
 
-/// `path` lengths in a row for each start: (n, path, 9) lengths and n starts.
+/// A sequence of `path` rows of lengths for each start: (n, path, 9) lengths and n starts.
 py::tuple track_stack(const Geometry& g, const Array& leg_lengths, long path, const Array& p, const Array& q,
                       const Array& s, int threads) {
   const ConfigurationStack starts(p, q, s);

@@ -14,7 +14,8 @@ Orbit orbit_from(const std::string& name, const py::object& value) {
   return {a.at(0), a.at(1), a.at(2)};
 }
 
-/// Every rotation proper and every number finite; in a stack NaN marks a pose without data and passes.
+/// Throws unless every rotation is proper and every number finite. In a stack NaN marks a pose without data and is
+/// allowed.
 void check_configurations(const Array& position, const Array& rotation, const Array& internal_point, bool is_stack) {
   const ConfigurationStack stack(position, rotation, internal_point);
   const py::gil_scoped_release nogil;
@@ -25,9 +26,9 @@ void check_configurations(const Array& position, const Array& rotation, const Ar
   }
 }
 
-/// Three arrays being filled with configurations.
-struct Filling {
-  explicit Filling(py::ssize_t n)
+/// Three arrays to fill with configurations.
+struct ConfigurationArrays {
+  explicit ConfigurationArrays(py::ssize_t n)
       : position(std::vector<py::ssize_t>{n, 3}),
         rotation(std::vector<py::ssize_t>{n, 3, 3}),
         internal_point(std::vector<py::ssize_t>{n, 3}) {}
@@ -49,7 +50,7 @@ void require_size(const std::string& name, const Array& a, py::ssize_t size) {
 py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, bool is_stack) {
   require_size("zs", zs, zp.size());
   require_size("theta_z", theta_z, zp.size());
-  Filling out(zp.size());
+  ConfigurationArrays out(zp.size());
   for (py::ssize_t i = 0; i < zp.size(); ++i) {
     const double p = zp.data()[i], s = zs.data()[i], angle = theta_z.data()[i];
     const bool missing = is_stack && (std::isnan(p) || std::isnan(s) || std::isnan(angle));
@@ -62,7 +63,7 @@ py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, 
 py::tuple moved_stack(const Array& position, const Array& rotation, const Array& internal_point, const Array& tangent) {
   const ConfigurationStack stack(position, rotation, internal_point);
   require_size("tangent", tangent, 9 * stack.count());
-  Filling out(stack.count());
+  ConfigurationArrays out(stack.count());
   for (long i = 0; i < stack.count(); ++i) out.set(i, plus(stack[i], Eigen::Map<const Vec9>(tangent.data() + 9 * i)));
   return out.result();
 }
@@ -91,10 +92,10 @@ Geometry from_arrays(const py::object& base_external, const py::object& base_int
 }  // namespace
 
 void bind_geometry(py::module_& m) {
-  py::class_<Geometry>(m, "Geometry", R"(The twelve joint centres: what is fixed once the robot is built.
+  py::class_<Geometry>(m, "Geometry", R"(The twelve joint centres, fixed once the robot is built.
 
-Four arrays of shape (3, 3), one joint a row, in one length unit. Base joints in the base frame, platform joints in the
-platform frame. Immutable, hashable by value, picklable.
+Four arrays of shape (3, 3), one row per joint, all in the same length unit. Base joints are in the base frame, platform
+joints in the platform frame. Immutable, hashable by value, picklable.
 
 Parameters
 ----------
@@ -110,8 +111,8 @@ platform_internal : array_like, shape (3, 3)
 Raises
 ------
 ValueError
-    If an array has another shape, a coordinate is not finite, or three joints of a kind coincide or lie on a line: the
-    platform or the internal point could then move whatever the legs do. The message names the argument.
+    If an array has another shape, a coordinate is not finite, or the joints of an array coincide or are collinear: the
+    platform or the internal point could then move while all legs are locked. The message names the argument.
 
 Examples
 --------
@@ -122,19 +123,19 @@ Examples
       .def(py::init(&from_arrays), py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"),
            py::arg("platform_internal"))
       .def_static("hexagonal", &hexagonal_from, py::arg("a1"), py::arg("a2"), py::arg("b1"), py::arg("b2"),
-                  R"(The semi-regular hexagons of eqs. (37)-(38).
+                  R"(Return the semi-regular hexagons of eqs. (37)-(38).
 
 Parameters
 ----------
 a1, a2 : float
-    Alternating sides of the base, length, >= 0 and not both zero. a1 = 0 is a triangle with coupled joints.
+    Alternating sides of the base, length, >= 0 and not both zero. a1 = 0 gives a triangle with coupled joints.
 b1, b2 : float
-    Alternating sides of the platform, likewise.
+    Alternating sides of the platform, with the same conditions.
 
 Raises
 ------
 ValueError
-    If a side is negative or not finite, or a plate has no size.
+    If a side is negative or not finite, or both sides of the base or of the platform are zero.
 )")
       .def_static(
           "symmetric",
@@ -146,9 +147,9 @@ ValueError
           },
           py::arg("base_external"), py::arg("base_internal"), py::arg("platform_external"),
           py::arg("platform_internal"),
-          R"(Four C3 orbits about z, each given by its first joint as (radius, angle, height).
+          R"(Return four C3 orbits about z, each given by its first joint as (radius, angle, height).
 
-Radius (> 0) and height in length units, angle in radians; joints 2 and 3 follow at -120 and -240 degrees, the numbering
+Radius (> 0) and height in length units, angle in radians. Joints 2 and 3 follow at -120 and -240 degrees, the numbering
 of eqs. (37)-(38).
 
 Raises
@@ -171,7 +172,7 @@ ValueError
       .def("__eq__", &equal, py::is_operator())
       .def("__hash__",
            [](const Geometry& g) {
-             // Numbers, not bytes: 0.0 and -0.0 are equal and must hash alike.
+             // The numbers and not their bytes: 0.0 and -0.0 are equal and must have the same hash.
              py::list rows;
              for (const Triple* t : {&g.base_external(), &g.platform_external()})
                for (const Vec3& joint : *t) rows.append(py::make_tuple(joint.x(), joint.y(), joint.z()));

@@ -7,7 +7,7 @@
 namespace ninedof::python {
 namespace {
 
-/// Directions row-major, then semi-axes.
+/// Writes the directions, row-major, then the semi-axes.
 template <int N>
 void write(const Ellipsoid<N>& e, double* out) {
   Eigen::Map<Eigen::Matrix<double, N, N, Eigen::RowMajor>>{out} = e.directions;

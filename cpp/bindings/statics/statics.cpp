@@ -6,7 +6,7 @@
 namespace ninedof::python {
 namespace {
 
-/// Nine numbers for each configuration.
+/// The data of an array with nine numbers for each configuration.
 const double* nine_for_each(const std::string& name, const Array& a, long count) {
   if (a.size() != 9 * count)
     throw InvalidArgument(name, std::to_string(a.size()) + " numbers", std::to_string(9 * count));

@@ -1,14 +1,13 @@
 #include "ninedof/batch/batch.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "batch/kernels/dispatch.hpp"
 #include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
-#include "ninedof/design/families/hexagonal_family.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/robot/hexagon.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "ninedof/singularity/singularity.hpp"
 
@@ -49,9 +48,9 @@ void require_lengths(const Lengths& lc, long count) {
     require_positive("characteristic_length", lc.value[k * lc.step]);
 }
 
-/// Calls accurate(k, row) for the rows of which a kernel was not sure.
+/// Calls accurate(k, row) for the rows that a kernel has marked as unsure.
 template <class Accurate>
-void settle(long count, long width, double* out, const Accurate& accurate) {
+void recompute_unsure(long count, long width, double* out, const Accurate& accurate) {
   for (long k = 0; k < count; ++k)
     if (out[k * width] == kernels::unsure) accurate(k, out + k * width);
 }
@@ -66,21 +65,21 @@ void condition_numbers(const Geometry& g, const Configurations& c, const Lengths
   require_lengths(lc, c.count);
   const kernels::Table& table = kernels::table();
   (norm == Norm::two ? table.condition_numbers : table.frobenius_condition_numbers)(block(g, c, lc), out);
-  settle(c.count, 1, out,
-         [&](long k, double* to) { *to = condition_number(g, at(c, k), lc.value[k * lc.step], norm); });
+  recompute_unsure(c.count, 1, out,
+                   [&](long k, double* to) { *to = condition_number(g, at(c, k), lc.value[k * lc.step], norm); });
 }
 
 void singular_values(const Geometry& g, const Configurations& c, const Lengths& lc, double* out) {
   require_lengths(lc, c.count);
   kernels::table().singular_values(block(g, c, lc), out);
-  settle(c.count, 6, out, [&](long k, double* to) {
+  recompute_unsure(c.count, 6, out, [&](long k, double* to) {
     Eigen::Map<Vec6>{to} = ninedof::singular_values(g, at(c, k), lc.value[k * lc.step]);
   });
 }
 
 void singularity_margins(const Geometry& g, const Configurations& c, double* out) {
   kernels::table().singularity_margins(block(g, c), out);
-  settle(c.count, 3, out, [&](long k, double* to) {
+  recompute_unsure(c.count, 3, out, [&](long k, double* to) {
     const PerMechanism margins = ninedof::singularity_margins(g, at(c, k));
     to[0] = margins.m;
     to[1] = margins.b;
@@ -90,13 +89,11 @@ void singularity_margins(const Geometry& g, const Configurations& c, double* out
 
 void hexagonal_condition_numbers(const double* designs, long count, double* out) {
   kernels::table().hexagonal_condition_numbers(designs, count, out);
-  settle(count, 1, out, [&](long k, double* to) {
+  recompute_unsure(count, 1, out, [&](long k, double* to) {
     const double* x = designs + 6 * k;
-    const std::array<double, 7> variables{x[0], x[1], x[2], x[3], x[4], x[5], 0.0};
-    const Orbits<double> o = HexagonalFamily().orbits<double>(variables);
-    const AxisSpectrum<double> s = axis_spectrum(
-        AxisDesign<double>{o.base_external, o.base_internal, o.platform_external, o.platform_internal, o.zp, o.zs},
-        1.0);
+    const Xyz<double> base = hexagon_joint_1(x[0], x[1]), platform = hexagon_joint_1(x[2], x[3]);
+    const AxisSpectrum<double> s =
+        axis_spectrum(AxisDesign<double>{base, mirrored(base), platform, mirrored(platform), x[4], x[5]}, 1.0);
     const double high = std::max(s.axial_max, s.transverse_max), low = std::min(s.axial_min, s.transverse_min);
     *to = low <= negligible * high ? infinity : high / low;
   });

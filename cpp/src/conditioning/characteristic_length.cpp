@@ -18,8 +18,8 @@ double platform_radius(const Geometry& g) {
   return radius;
 }
 
-/// d log kappa / d log(l_c) with the angular columns of `m` divided by exp(log_length): each singular value moves by
-/// minus the angular share of its right vector.
+/// d log kappa / d log(l_c), with the angular columns of `m` divided by exp(log_length). The derivative of log(sigma)
+/// is minus the squared norm of the angular half of its right singular vector.
 double slope(const Mat6& m, double log_length) {
   Mat6 scaled = m;
   scaled.leftCols<3>() *= std::exp(-log_length);
@@ -27,8 +27,9 @@ double slope(const Mat6& m, double log_length) {
   return svd.matrixV().col(5).head<3>().squaredNorm() - svd.matrixV().col(0).head<3>().squaredNorm();
 }
 
-/// Where f changes its sign between a and b, f(a) <= 0 <= f(b): the ITP method of Oliveira and Takahashi (ACM Trans. Math. Softw. 47,
-/// 2020). As few steps as the secants allow, and hardly more than bisection takes where f jumps.
+/// The sign change of f between a and b, f(a) <= 0 <= f(b), by the ITP method of Oliveira and Takahashi (ACM Trans.
+/// Math. Softw. 47, 2020). It converges as fast as the secant method, and where f jumps it needs hardly more steps than
+/// bisection.
 template <class F>
 double sign_change(const F& f, double a, double at_a, double b, double at_b, double width) {
   const double most = std::ceil(std::log2(std::max(1.0, (b - a) / width))) + 1.0, start = b - a;
@@ -37,8 +38,8 @@ double sign_change(const F& f, double a, double at_a, double b, double at_b, dou
     const double away = middle - secant, nudge = 0.2 / start * (b - a) * (b - a), room = left - 0.5 * (b - a);
     double x = nudge <= std::abs(away) ? secant + std::copysign(nudge, away) : middle;
     if (!(std::abs(x - middle) <= room)) x = middle - std::copysign(room, away);
-    if (!(x > a && x < b)) x = middle;  // a secant rounded to an end
-    if (!(x > a && x < b)) break;       // neighbours
+    if (!(x > a && x < b)) x = middle;  // the secant was rounded to an end
+    if (!(x > a && x < b)) break;       // a and b are neighbouring doubles
     const double y = f(x);
     if (y == 0.0) return x;
     (y < 0.0 ? a : b) = x;
@@ -47,8 +48,9 @@ double sign_change(const F& f, double a, double at_a, double b, double at_b, dou
   return 0.5 * (a + b);
 }
 
-/// kappa is quasi-convex in the length: kappa <= K says M^T M lies between P and K^2 P for some P = diag(x, x, x, y, y, y),
-/// a convex set of (x, y). So the sign of the slope brackets the minimum, even at a kink.
+/// kappa is quasi-convex in the length: kappa <= K holds if and only if M^T M lies between P and K^2 P for some
+/// P = diag(x, x, x, y, y, y), a convex set of (x, y). So the sign of the slope brackets the minimum, even at a kink
+/// (docs/theory/conditioning.md).
 double optimal(const Mat6& m, double natural) {
   const auto at = [&m](double log_length) { return slope(m, log_length); };
   double low = std::log(natural), high = low, at_low = at(low), at_high = at_low;
@@ -80,7 +82,7 @@ LengthKind length_kind(const std::string& word) {
 double characteristic_length(const Geometry& g, const Configuration& c, LengthKind kind) {
   if (kind == LengthKind::mean_leg) return leg_lengths(g, c).mean();
   if (kind == LengthKind::platform_radius) return platform_radius(g);
-  const double unit = platform_radius(g);  // keeps M of order one whatever the length unit
+  const double unit = platform_radius(g);  // keeps M of order one in any length unit
   const double kappa = condition_number(g, c, unit);
   if (!std::isfinite(kappa)) return not_a_number;
   const Mat6 m = conditioning_matrix(g, c, unit);

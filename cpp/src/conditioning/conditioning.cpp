@@ -8,11 +8,10 @@
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {
-namespace {}  // namespace
 
 Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double characteristic_length) {
   require_positive("characteristic_length", characteristic_length);

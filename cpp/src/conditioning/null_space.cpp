@@ -13,7 +13,7 @@ Mat3 null_space_part(const Mat3& c, const Mat3& b) {
     Vec6 v = a.col(k);
     v.head(k).setZero();
     const double squared = v.squaredNorm();
-    if (squared < 1e-290) continue;  // nothing left to reflect, and the square of a trace of it would underflow
+    if (squared < 1e-290) continue;  // zero to rounding; smaller squares would underflow
     v[k] += std::copysign(std::sqrt(squared), v[k]);
     const double scale = 2.0 / v.squaredNorm();
     for (Eigen::Index j = k + 1; j < 3; ++j) a.col(j) -= (scale * v.dot(a.col(j))) * v;

@@ -5,7 +5,7 @@
 
 #include "conditioning/null_space.hpp"
 #include "ninedof/math/error.hpp"
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 
 namespace ninedof {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::size_t at_index(int k) {
   return static_cast<std::size_t>(k);
 }
 
-/// Velocity of the two ends of leg k relative to each other, for a twist and the velocity of O.
+/// Velocity of the upper end of leg k relative to its lower end.
 Vec3 relative_velocity(const Points& at, int k, const Vec3& omega, const Vec3& pdot, const Vec3& sdot) {
   const LegEnds ends = leg_ends(k);
   if (k < 3) return pdot + omega.cross(at[at_index(ends.to)] - at[point_p]);
@@ -22,7 +22,7 @@ Vec3 relative_velocity(const Points& at, int k, const Vec3& omega, const Vec3& p
   return sdot;
 }
 
-/// Adds weight * d(rate of leg k), twist and sdot held fixed.
+/// Adds weight * d(rate of leg k), with twist and sdot held fixed.
 void add_rate_gradient(const Points& at, const NineLegs& legs, int k, const Vec6& twist, const Vec3& sdot, double rate,
                        double weight, double lc, PointGradient& out) {
   const LegEnds ends = leg_ends(k);
@@ -35,7 +35,7 @@ void add_rate_gradient(const Points& at, const NineLegs& legs, int k, const Vec6
   out.point[at_index(ends.to)] += turning;
   out.point[at_index(ends.from)] -= turning;
   if (k >= 6) return;
-  // The lever of the platform joint, seen from p.
+  // The lever of the platform joint about p.
   const double sign = k < 3 ? weight : -weight;
   const int joint = k < 3 ? ends.to : ends.from;
   const Vec3 lever = sign * e.cross(omega);

@@ -28,10 +28,6 @@ void require_on_axis(const std::string& name, const Vec3& point, double size) {
     throw InvalidArgument(name, "a point " + format_number(offset) + " off the z axis", "a point on the symmetry axis");
 }
 
-Point<double> point(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 }  // namespace
 
 AxisDesign<double> axis_design(const Geometry& g, const Configuration& c) {
@@ -45,10 +41,10 @@ AxisDesign<double> axis_design(const Geometry& g, const Configuration& c) {
   require_on_axis("internal_point", c.internal_point, size);
   if (!((c.rotation.col(2) - Vec3::UnitZ()).norm() <= tolerance))
     throw InvalidArgument("rotation", "a tilted platform", "a rotation about z");
-  return {point(g.base_external()[0]),
-          point(g.base_internal()[0]),
-          point(c.rotation * g.platform_external()[0]),
-          point(c.rotation * g.platform_internal()[0]),
+  return {xyz(g.base_external()[0]),
+          xyz(g.base_internal()[0]),
+          xyz(c.rotation * g.platform_external()[0]),
+          xyz(c.rotation * g.platform_internal()[0]),
           c.position.z(),
           c.internal_point.z()};
 }

@@ -14,8 +14,8 @@ namespace {
 
 using Solution = ClosureSolver::Solution;
 
-/// Right sides of z_i.sddot and y_i.k from the second derivatives of z_i.z_i = r_i^2 and y_i.y_i = q_i^2. With
-/// ydot_i = h + omega x y_i the terms in omega x y_i alone cancel against the centripetal part of yddot_i, and
+/// Right sides for z_i.sddot and y_i.k from the second derivatives of z_i.z_i = r_i^2 and y_i.y_i = q_i^2. With
+/// ydot_i = h + omega x y_i the terms quadratic in omega x y_i cancel against the centripetal part of yddot_i, and
 ///     z_i.sddot = r rddot + rdot^2 - sdot.sdot,    y_i.k = q qddot + qdot^2 - h.h - 2 h.(omega x y_i).
 EIGEN_ALWAYS_INLINE Lanes internal_side(const Closure& legs, const Solution& v, const Lanes& rates,
                                         const Lanes& accelerations, std::size_t i) {
@@ -25,7 +25,8 @@ EIGEN_ALWAYS_INLINE Lanes internal_side(const Closure& legs, const Solution& v, 
   return legs.internal_length[i] * accelerations + rates * rates - speed_squared;
 }
 
-/// Right side of n_i.alpha + x_i.a_O from that of x_i.x_i = l_i^2: l lddot + ldot^2 - xdot.xdot - x_i.(omega x (omega x w_i))
+/// Right side for n_i.alpha + x_i.a_O from the second derivative of x_i.x_i = l_i^2:
+/// l lddot + ldot^2 - xdot.xdot - x_i.(omega x (omega x w_i))
 /// with xdot_i = v_O + omega x w_i.
 EIGEN_ALWAYS_INLINE double external_side(const Closure& legs, const Solution& v, double rate, double acceleration,
                                          std::size_t i) {
@@ -57,7 +58,8 @@ Acceleration forward_acceleration(const Geometry& g, const Configuration& c, con
 
 Vec9 inverse_acceleration(const Geometry& g, const Configuration& c, const Velocity& v, const Acceleration& a) {
   const Legs k = legs(g, c);
-  // A leg x = l e has lddot = e.xddot + |e x xdot|^2 / l: what its own turning adds. 0/0 for a leg of zero length.
+  // A leg x = l e has lddot = e.xddot + |e x xdot|^2 / l, the last term due to its rotation. 0/0 for a leg of zero
+  // length.
   const auto stretch = [](const Vec3& e, double length, const Vec3& rate, const Vec3& acceleration) {
     return e.dot(acceleration) + e.cross(rate).squaredNorm() / length;
   };
@@ -84,7 +86,7 @@ Mat69 jacobian_rate(const Geometry& g, const Configuration& c, const Velocity& v
   const JacobianBlocks j = jacobian_blocks(legs, m);
   const Vec3 y = vec3(legs.y), h = v.sdot - v.pdot - v.omega.cross(y);
 
-  Mat3 X_dot, Y_dot, N_dot;
+  Mat3 X_dot, Y_dot, N0_dot;
   Vec3 ldot, qdot, rdot;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -93,18 +95,18 @@ Mat69 jacobian_rate(const Geometry& g, const Configuration& c, const Velocity& v
     const Vec3 wdot = v.omega.cross(w) - h, xdot = wdot + v.sdot, ydot = h + v.omega.cross(y_i);
     X_dot.row(row) = xdot;
     Y_dot.row(row) = ydot;
-    N_dot.row(row) = wdot.cross(x) + w.cross(xdot);
+    N0_dot.row(row) = wdot.cross(x) + w.cross(xdot);
     ldot[row] = x.dot(xdot) / legs.length[i];
     qdot[row] = y_i.dot(ydot) / legs.internal_length[i][1];
     rdot[row] = z.dot(v.sdot) / legs.internal_length[i][0];
   }
-  // Differentiate Z S = R, Y T = Q and N W = [L, X T, -X S]. All rows of Zdot are sdot.
+  // Derivatives of Z S = diag(r), Y V = diag(q) and N0 W = [diag(l), X V, -X S]. All rows of Zdot are sdot.
   JacobianBlocks d;
   d.S = m.Z_inverse * (Mat3(rdot.asDiagonal()) - v.sdot.transpose().replicate<3, 1>() * j.S);
-  d.T = m.Y_inverse * (Mat3(qdot.asDiagonal()) - Y_dot * j.T);
+  d.V = m.Y_inverse * (Mat3(qdot.asDiagonal()) - Y_dot * j.V);
   Mat39 right;
-  right << Mat3(ldot.asDiagonal()), X_dot * j.T + m.X * d.T, -(X_dot * j.S) - m.X * d.S;
-  d.W = m.N_inverse * (right - N_dot * j.W);
+  right << Mat3(ldot.asDiagonal()), X_dot * j.V + m.X * d.V, -(X_dot * j.S) - m.X * d.S;
+  d.W = m.N0_inverse * (right - N0_dot * j.W);
 
   Mat69 rate = assembled(d, y, characteristic_length);
   rate.bottomRows<3>() += skew(v.sdot - v.pdot) * j.W;

@@ -1,26 +1,29 @@
 #pragma once
-/// The three 3x3 systems that lead from leg rates to velocities, and once more from leg accelerations to accelerations.
+/// The three 3x3 systems from leg rates to velocities, and from leg accelerations to accelerations
+/// (docs/theory/velocity.md).
 ///
-/// They come from the squares of the nine lengths. Half the derivative of x_i.x_i = l_i^2, y_i.y_i = q_i^2, z_i.z_i = r_i^2
-/// has the leg vectors themselves in it, so that no direction is formed and a leg of zero length needs no guard: it makes
-/// a row of zeros and a singular system.
+/// They are the derivatives of the squared lengths x_i.x_i = l_i^2, y_i.y_i = q_i^2, z_i.z_i = r_i^2. These contain the
+/// leg vectors themselves and no unit vectors, so that a leg of zero length is no special case: it gives a row of zeros
+/// and a singular system.
 ///
 ///     z_i.sdot = r_i rdot_i
-///     y_i.h    = q_i qdot_i              h = sdot - v_O,  v_O = pdot + omega x y the velocity of the platform's point at O
-///     n_i.omega = l_i ldot_i - x_i.v_O   n_i = w_i x x_i,  w_i from O to the platform joint
+///     y_i.h    = q_i qdot_i              h = sdot - v_O,  v_O = pdot + omega x y: the platform point at O
+///     n_i.omega = l_i ldot_i - x_i.v_O   n_i = w_i x x_i,  w_i from O to platform joint i
 ///
-/// The second derivative puts sddot, k = sddot - a_O and alpha in place of sdot, h and omega, and other right sides.
+/// The second derivatives have the same matrices, with sddot, k = sddot - a_O and alpha in place of sdot, h and omega,
+/// and other right sides.
 
 #include <array>
 
 #include "math/linear/cramer.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
+#include "robot/leg_vectors.hpp"
 
 namespace ninedof {
 
-/// Leg vectors and lengths. Lane 0 belongs to a lower internal leg, lane 1 to the upper one of the same number: their systems
-/// are alike and solved at once.
+/// Leg vectors and lengths. Lane 0 holds a lower internal leg, lane 1 the upper one with the same number: their two
+/// systems are solved together.
 struct Closure {
   Xyz<double> y;                         ///< O seen from p
   std::array<Xyz<double>, 3> x, w;       ///< external legs; platform joints seen from O
@@ -32,16 +35,13 @@ struct Closure {
 
 EIGEN_ALWAYS_INLINE Closure closure(const Geometry& g, const Configuration& c) {
   Closure k;
-  const Vec3& s = c.internal_point;
-  const Vec3 y = s - c.position;
-  k.y = xyz(y);
+  const LegVectors v = leg_vectors(g, c);
+  k.y = xyz(v.y);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 u = c.rotation * g.platform_external()[i], u_tilde = c.rotation * g.platform_internal()[i];
-    const Vec3& r_hat = g.base_internal()[i];
-    k.x[i] = xyz(c.position + u - g.base_external()[i]);
-    k.w[i] = xyz(u - y);
-    k.internal[i] = {Lanes(s[0], y[0]) - Lanes(r_hat[0], u_tilde[0]), Lanes(s[1], y[1]) - Lanes(r_hat[1], u_tilde[1]),
-                     Lanes(s[2], y[2]) - Lanes(r_hat[2], u_tilde[2])};
+    k.x[i] = xyz(v.external[i]);
+    k.w[i] = xyz(v.u[i] - v.y);
+    const Vec3 &lower = v.lower[i], &upper = v.upper[i];
+    k.internal[i] = {Lanes(lower[0], upper[0]), Lanes(lower[1], upper[1]), Lanes(lower[2], upper[2])};
     k.internal_length[i] = dot(k.internal[i], k.internal[i]).sqrt();
   }
   const Lanes two(dot(k.x[0], k.x[0]), dot(k.x[1], k.x[1]));
@@ -70,7 +70,8 @@ class ClosureSolver {
     Xyz<double> angular;  ///< omega, or alpha
   };
 
-  /// `internal` holds the right sides of the rows z and y, `external` those of the rows n before x_i.v_O is taken off.
+  /// `internal` holds the right sides of the rows z_i and y_i, `external` those of the rows n_i before x_i.v_O is
+  /// subtracted.
   EIGEN_ALWAYS_INLINE Solution solve(const std::array<Lanes, 3>& internal,
                                      const std::array<double, 3>& external) const {
     const Xyz<Lanes> both = internal_.solve(internal[0], internal[1], internal[2]);
@@ -83,20 +84,20 @@ class ClosureSolver {
     return v;
   }
 
-  /// The velocities that leg rates produce.
+  /// The velocities for given leg rates.
   EIGEN_ALWAYS_INLINE Solution velocity(const Vec9& rates) const {
     const auto internal = [&](std::size_t i) { return Lanes(legs.internal_length[i] * lower_upper(rates, i)); };
     const auto external = [&](std::size_t i) { return legs.length[i] * rates[static_cast<Eigen::Index>(i)]; };
     return solve({internal(0), internal(1), internal(2)}, {external(0), external(1), external(2)});
   }
 
-  /// What nine legs have, for the pair of internal legs i.
+  /// The values of internal legs i, from those of nine legs.
   EIGEN_ALWAYS_INLINE static Lanes lower_upper(const Vec9& of_legs, std::size_t i) {
     const auto k = static_cast<Eigen::Index>(i);
     return {of_legs[k + 6], of_legs[k + 3]};
   }
 
-  /// Inverses of the matrices Z, Y and N with rows z_i, y_i and n_i.
+  /// Inverses of the matrices Z, Y and N0 with rows z_i, y_i and n_i.
   Mat3 z_inverse() const { return internal_inverse(0); }
   Mat3 y_inverse() const { return internal_inverse(1); }
   Mat3 n_inverse() const {

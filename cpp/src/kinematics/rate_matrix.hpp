@@ -1,5 +1,5 @@
 #pragma once
-/// All nine leg rates in one matrix.
+/// The 9x9 matrix from the velocities of platform and O to all nine leg rates.
 
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"

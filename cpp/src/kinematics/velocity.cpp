@@ -21,7 +21,7 @@ Mat3 row_cross(const Triple& a, const Triple& b) {
   return rows_of({a[0].cross(b[0]), a[1].cross(b[1]), a[2].cross(b[2])});
 }
 
-/// NaN throughout where m is exactly singular, never a plausible matrix.
+/// All NaN where the matrix is exactly singular.
 Mat3 inverse_or_nan(const Mat3& m) {
   const Mat3 inverse = m.inverse();
   return inverse.allFinite() ? inverse : Mat3::Constant(not_a_number);
@@ -82,8 +82,8 @@ Vec3 internal_velocity(const Geometry& g, const Configuration& c, const Vec3& om
                        const Vec9& weights) {
   for (const double weight : weights) require_positive("weights", weight);
   const Legs k = legs(g, c);
-  // Least squares: the six internal rates [C; B] sdot - [E t; 0], times the roots of their weights. Heavy rows go first, which
-  // keeps each row accurate in its own size however different the weights are.
+  // Least squares: the six internal rates [C; B] sdot - [E t; 0], each times the root of its weight. Rows are sorted by
+  // weight, the largest first: then every row stays accurate relative to its size, however different the weights are.
   std::array<Eigen::Index, 6> order{3, 4, 5, 6, 7, 8};
   std::sort(order.begin(), order.end(),
             [&](auto a, auto b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });

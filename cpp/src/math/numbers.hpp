@@ -1,5 +1,5 @@
 #pragma once
-/// Three numbers every room needs.
+/// Rounding, infinity and NaN of double.
 
 #include <limits>
 

@@ -1,11 +1,11 @@
 #pragma once
-/// Repeatable numbers without a generator's state.
+/// Repeatable random numbers without the state of a generator.
 
 #include <cstdint>
 
 namespace ninedof {
 
-/// Uniform in [0, 1) from any 64 bits: the last mixing of splitmix64.
+/// A number uniform in [0, 1) from any 64 bits: the last mixing step of splitmix64.
 inline double uniform_from(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;

@@ -13,18 +13,18 @@
 namespace ninedof {
 namespace {
 
-constexpr double void_leg = 1e-9;  // of the largest length: O this near an external joint leaves the leg no direction
-constexpr double between = 1e-14;  // residual halfway between two copies of a double solution
-constexpr double double_rotation = 1e-4;  // rad: such copies are no farther apart
-constexpr double same_rotation = 1e-7;  // rad
-constexpr double double_solution = 1e-6;  // separation below which the number of modes is not sworn to
+constexpr double void_leg = 1e-9;         // of the largest length: O this close to an external joint counts as on it
+constexpr double between = 1e-14;         // residual halfway between two copies of a double solution
+constexpr double double_rotation = 1e-4;  // rad: largest distance of two copies of a double solution
+constexpr double same_rotation = 1e-7;    // rad
+constexpr double double_solution = 1e-6;  // separation below which the number of modes is uncertain
 
-/// Rotations found so far, polished, none twice.
-class Collected {
+/// Adds candidates to a branch, polished and without duplicates.
+class Collector {
  public:
-  explicit Collected(const RotationProblem& problem) : problem_(problem) {}
+  explicit Collector(const RotationProblem& problem) : problem_(problem) {}
 
-  /// Whether the candidate led to a rotation of its own.
+  /// Returns whether the candidate converged to a new rotation.
   bool add(const Mat3& candidate, Branch& out) const {
     const PolishedRotation polished = polish_rotation(problem_, candidate, RotationResidual(problem_, candidate));
     if (!polished.converged()) return false;
@@ -36,7 +36,8 @@ class Collected {
   }
 
  private:
-  /// Two copies of one mode. At a double solution they may be 1e-6 apart, but then what lies between them is as good as they are.
+  /// Whether two rotations are copies of one mode. At a double solution they may be 1e-6 apart, but then the rotation
+  /// halfway between them solves the equations as well.
   bool same(const Mat3& a, const Mat3& b) const {
     const double squared = 0.5 * (a - b).squaredNorm();  // of the angle, where it is small
     if (squared < same_rotation * same_rotation) return true;
@@ -48,8 +49,8 @@ class Collected {
   const RotationProblem& problem_;
 };
 
-/// The 24 rotations of a cube, none farther than a radian or so from any rotation.
-std::array<Mat3, 24> all_around() {
+/// The 24 rotations of a cube: every rotation is within about one radian of one of them.
+std::array<Mat3, 24> cube_rotations() {
   std::array<Mat3, 24> out;
   std::size_t count = 0;
   for (int i = 0; i < 3; ++i)
@@ -63,22 +64,22 @@ std::array<Mat3, 24> all_around() {
   return out;
 }
 
-/// The leg with c_i next to zero: its two frames stand most across each other.
+/// The leg with the smallest |c_i|: the axes of its two frames are closest to perpendicular.
 int best_pivot(const Vec3& c) {
   Eigen::Index k;
   c.cwiseAbs().minCoeff(&k);
   return static_cast<int>(k);
 }
 
-/// How many modes there must be; nothing where the elimination does not know.
-std::optional<int> eliminate(const RotationProblem& problem, const Collected& collected, Branch& out) {
+/// Adds the modes found by elimination and returns their expected number, if elimination is reliable.
+std::optional<int> eliminate(const RotationProblem& problem, const Collector& collector, Branch& out) {
   const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
-  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[static_cast<std::size_t>(k)], out);
   return found.reliable ? std::optional(found.count) : std::nullopt;
 }
 
-/// Legs that O on an external joint leaves without direction fit or do not, whatever the rotation; the others can only be too long or
-/// too short. True where that, or a family of rotations, settles the branch.
+/// If O is on an external joint, the leg has no direction and its length does not depend on the rotation. The other
+/// legs may be too long or too short. Returns whether this decides the branch: no mode, or a family of rotations.
 bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
   std::array<bool, 3> is_void{};
   bool any_void = false, any_misfit = false;
@@ -107,27 +108,28 @@ Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& ext
   Branch out;
   const ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
   if (settled_by_single_legs(p, external_lengths, unit, out)) return out;
-  const Collected collected(p.unit);
+  const Collector collector(p.unit);
   std::optional<int> expected;
   if (method != RotationMethod::null_space) {
-    expected = eliminate(p.unit, collected, out);
+    expected = eliminate(p.unit, collector, out);
     out.certain = expected == out.count;
     if (out.certain || method == RotationMethod::elimination) return out;
   }
   out.null_space = true;
   const RotationCandidates found = null_space_rotations(p.unit);
   if (found.self_motion) {
-    // A family, perhaps of complex rotations only, or beside isolated ones. A real one is met from all sides, and singular all along.
-    for (const Mat3& start : all_around()) collected.add(start, out);
+    // A family of solutions, possibly complex, possibly with isolated ones beside it. A real family is found from start
+    // values all around, and its members are singular.
+    for (const Mat3& start : cube_rotations()) collector.add(start, out);
     for (int k = 0; k < out.count; ++k)
       out.self_motion |= !(out.mode[static_cast<std::size_t>(k)].separation > double_solution);
     if (out.self_motion) out.count = 0;
     out.certain = false;
     return out;
   }
-  // What elimination found stays: every mode solves the equations, so none can be wrong. The count is sworn to where every near-real
-  // solution has become a mode of its own, and elimination, if it could count, says the same.
-  for (int k = 0; k < found.count; ++k) collected.add(found.rotation[static_cast<std::size_t>(k)], out);
+  // Modes found by elimination are kept: they solve the equations. The number is confirmed if every nearly real
+  // solution has become a separate mode, and elimination, if reliable, found the same number.
+  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[static_cast<std::size_t>(k)], out);
   out.certain =
       found.reliable && out.count % 2 == 0 && out.count >= found.count && expected.value_or(out.count) == out.count;
   for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;

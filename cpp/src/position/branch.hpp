@@ -1,12 +1,12 @@
 #pragma once
-/// One branch of the direct position problem: O fixed in both plates, all rotations that fit the external legs.
+/// One branch of the direct position problem: O fixed in both frames, all rotations that fit the external legs.
 
 #include "ninedof/position/assembly_modes.hpp"
 #include "position/internal_point.hpp"
 
 namespace ninedof {
 
-/// A solution of the rotation problem and how far it is from meeting another.
+/// A solution of the rotation problem and its separation from the nearest other one.
 struct BranchMode {
   Mat3 rotation;
   double separation;
@@ -15,10 +15,10 @@ struct BranchMode {
 struct Branch {
   int count = 0;
   std::array<BranchMode, 8> mode;
-  std::array<bool, 3> misfit{};  ///< external legs too long or too short for O where it is: each alone leaves no mode
+  std::array<bool, 3> misfit{};  ///< external legs too long or too short for the position of O: one excludes all modes
   bool self_motion = false;
   bool certain = true;
-  bool null_space = false;  ///< the fast elimination was not enough
+  bool null_space = false;  ///< whether the null-space method was used
 };
 
 /// `unit` is the largest of all leg lengths.

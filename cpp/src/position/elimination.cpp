@@ -48,7 +48,7 @@ Mat3 frame(const Vec3& n, const Vec3& towards) {
   return m;
 }
 
-/// A, B, C of one leg: d and w seen from the frames of the pivot.
+/// A, B, C of one leg, with d and w in the frames of the pivot.
 struct PsiEquation {
   Quadratic a, b, c;
 };
@@ -61,9 +61,10 @@ PsiEquation psi_equation(const Vec3& d, const Vec3& w, double c, double cosine, 
           first_order(cosine * d[2] * w[2] - c, sine * d[0] * w[2], sine * d[1] * w[2])};
 }
 
-// Cosine and sine of psi come from N / D: below this fraction of their possible size the two solutions of a double phi are near.
+// |(n1, n2)| relative to the size of the coefficients. Below it cosine and sine of psi are inaccurate, because two
+// solutions nearly share phi.
 constexpr double separated = 1e-6;
-// Error of the squares' sum and difference, of the size of what is squared: unit vectors are good to 1e-16.
+// Error of the coefficients of the octic, relative to the squares they are summed from.
 constexpr double rounding = 1e-14;
 
 }  // namespace

@@ -10,25 +10,25 @@
 namespace ninedof {
 namespace {
 
-constexpr double planar = 1e-14;    // of a plate's size: joints this near a plane are in it, to rounding
-constexpr double meeting = 1e-7;    // separation below which a mode is a double one
+constexpr double planar = 1e-14;  // distance from a plane, relative to the triangle of joints, that is rounding
+constexpr double meeting = 1e-7;  // separation below which a mode counts as a double one
 
 bool in_plane(const SphereCentres& plate, const Triple& joints) {
   return std::ranges::all_of(joints, [&](const Vec3& j) { return std::abs(plate.height(j)) <= planar * plate.length; });
 }
 
-/// A point O may be at, on a side of its plate's plane.
-struct Place {
+/// A possible position of O and its side of the plane of internal joints.
+struct SidedPoint {
   Vec3 point;
   int side;
 };
 
-struct Places {
-  std::array<Place, 2> place;
+struct SidedPoints {
+  std::array<SidedPoint, 2> point;
   std::size_t count;
 };
 
-Places places(const SphereCentres& plate, const Meeting& m) {
+SidedPoints sided_points(const SphereCentres& plate, const Meeting& m) {
   if (m.kind == Meeting::touching) return {{{{m.above, 0}}}, 1};
   return {{{{m.above, 1}, {plate.mirrored(m.above), -1}}}, 2};
 }
@@ -37,12 +37,12 @@ Mat3 mirror(const Vec3& normal) {
   return Mat3::Identity() - 2.0 * normal * normal.transpose();
 }
 
-void append(AssemblyModes& out, const Place& s, const Place& o, const Mat3& rotation, double separation) {
+void append(AssemblyModes& out, const SidedPoint& s, const SidedPoint& o, const Mat3& rotation, double separation) {
   const Configuration c{s.point - rotation * o.point, rotation, s.point};
   out.mode[static_cast<std::size_t>(out.count++)] = {c, s.side, o.side, separation};
 }
 
-/// The external leg that fits in no branch, or all of them together.
+/// The external leg that fits in no branch, or else all three together.
 PositionObstacle external_obstacle(const std::array<bool, 3>& misfit) {
   for (std::size_t i = 0; i < 3; ++i)
     if (misfit[i])
@@ -64,18 +64,19 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
     return out;
   }
 
-  // With flat plates the mirror image in the base plane of a mode, its platform reflected in itself, is a mode.
+  // If base and platform are planar, the mirror image of a mode in the base plane, with the platform reflected in its
+  // own plane, is a mode.
   const bool mirrored = in_plane(base, g.base_external()) && in_plane(platform, g.platform_external());
   const Mat3 base_mirror = mirror(base.e3), platform_mirror = mirror(platform.e3);
-  const auto image = [](const SphereCentres& plate, const Place& p) -> Place {
-    return p.side == 0 ? p : Place{plate.mirrored(p.point), -p.side};
+  const auto image = [](const SphereCentres& plate, const SidedPoint& p) -> SidedPoint {
+    return p.side == 0 ? p : SidedPoint{plate.mirrored(p.point), -p.side};
   };
-  const Places on_base = places(base, lower), on_platform = places(platform, upper);
+  const SidedPoints on_base = sided_points(base, lower), on_platform = sided_points(platform, upper);
   std::array<bool, 3> misfit{true, true, true};  // in every branch so far
   bool self_motion = false, double_mode = lower.kind == Meeting::touching || upper.kind == Meeting::touching;
   for (std::size_t i = 0; i < on_base.count; ++i)
     for (std::size_t j = 0; j < on_platform.count; ++j) {
-      const Place &s = on_base.place[i], &o = on_platform.place[j];
+      const SidedPoint &s = on_base.point[i], &o = on_platform.point[j];
       if (mirrored && (s.side < 0 || (s.side == 0 && o.side < 0))) continue;
       const Branch branch = solve_branch(g, {s.point, o.point}, l, unit, method);
       const bool has_image = mirrored && (s.side != 0 || o.side != 0);

@@ -6,7 +6,7 @@
 namespace ninedof {
 namespace {
 
-constexpr double cosine_slack = 1e-9;  // beyond 1: rounding, for a leg stretched or folded through O
+constexpr double cosine_slack = 1e-9;  // |c| above 1 by this much is rounding: O on the line of the leg
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& 
     const double dn = p.base_distance[k] = std::sqrt(d2), wn = p.platform_distance[k] = std::sqrt(w2);
     p.unit.d[i] = d / dn;
     p.unit.w[i] = w / wn;
-    // (dn - wn)^2 - l^2 in factors: near a stretched or folded leg nothing cancels.
+    // (dn - wn)^2 - l^2 as a product: no cancellation if O is close to the line of the leg.
     const double difference = dn - wn;
     const double c = 1.0 + 0.5 * (difference - l) * (difference + l) / (dn * wn);
     p.unit.c[k] = std::abs(c) <= 1.0 + cosine_slack ? std::clamp(c, -1.0, 1.0) : c;

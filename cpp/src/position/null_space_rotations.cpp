@@ -23,13 +23,13 @@ constexpr auto linear_by_linear = monomials::products<1, 1>();
 constexpr auto linear_by_cubic = monomials::products<1, 3>();
 constexpr auto quadratic_by_quadratic = monomials::products<2, 2>();
 
-constexpr int rank = 27;                   // three of the thirty products follow from the others: K_i K_j = K_j K_i
-constexpr double rank_gap = 1e-10;         // of pivots: 1e-16 where solutions form a curve, 1e-2 far from that
-constexpr double smallest_divisor = 1e-9;  // singular value of SG; below it a solution lies almost on g = 0
-constexpr double nearly_real = 0.05;       // |Im z| / |z|; generous on purpose, the polished residual decides
+constexpr int rank = 27;                   // three of the thirty products depend on the others: K_i K_j = K_j K_i
+constexpr double rank_gap = 1e-10;  // smallest relative pivot: 1e-16 if solutions form a curve, typically 1e-2
+constexpr double smallest_divisor = 1e-9;  // singular value of SG; below it a solution nearly satisfies g = 0
+constexpr double nearly_real = 0.05;  // |Im z| / |z|: a loose bound, the polished residual decides
 
-/// Linear forms in general position; Mx has the eigenvalue f(z) / g(z) at the solution z. The rows of g are orthogonal:
-/// no z lies on g = 0 for all four.
+/// Linear forms in general position; the multiplication matrix has the eigenvalue f(z) / g(z) at the solution z. The
+/// rows of g are orthogonal, so that no z satisfies g = 0 for all four.
 struct Forms {
   Vec4 f;
   Mat4 g;
@@ -69,13 +69,13 @@ Macaulay macaulay(const RotationProblem& p) {
   return out;
 }
 
-/// Orthonormal basis of all that is orthogonal to the columns, by QR with column pivoting; nothing if their rank is
+/// Orthonormal basis of the orthogonal complement of the columns, by QR with column pivoting; none if their rank is
 /// below 27.
 std::optional<NullSpace> null_space(Macaulay a) {
   std::array<Reflection<36>, rank> reflections;
   double first = 0.0;
   for (int k = 0; k < rank; ++k) {
-    // Computed anew for every pivot: norms kept up to date by subtraction are noise before they are 1e-10.
+    // Computed again for every pivot: norms updated by subtraction lose all digits before they reach 1e-10.
     Eigen::Index pivot = 0;
     const double norm = a.bottomRightCorner(36 - k, 30 - k).colwise().squaredNorm().maxCoeff(&pivot);
     if (k == 0) first = norm;
@@ -91,8 +91,8 @@ std::optional<NullSpace> null_space(Macaulay a) {
   return n;
 }
 
-/// Mx of SG Mx = SF, least squares: SF and SG are the rows of f m and g m in N for the twenty cubic monomials m. Nothing
-/// where SG is nearly singular.
+/// The multiplication matrix X of SG X = SF, by least squares: SF and SG are the rows of f m and g m in the null space
+/// for the twenty cubic monomials m. None if SG is nearly singular.
 std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4& g) {
   Eigen::Matrix<double, 20, 16> s = Eigen::Matrix<double, 20, 16>::Zero();  // [SG SF]
   for (int j = 0; j < 8; ++j)
@@ -107,14 +107,14 @@ std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4
     s(k, k) = r.image;
     reflect(r, s, k + 1);
   }
-  // |R^-1| (Frobenius) is the reciprocal of the smallest singular value, up to a factor between 1 and sqrt 8.
+  // The Frobenius norm of R^-1 is the reciprocal of the smallest singular value times a factor between 1 and sqrt 8.
   const Mat8 inverse = s.topLeftCorner<8, 8>().triangularView<Eigen::Upper>().solve(Mat8::Identity());
   if (!(inverse.norm() * smallest_divisor < 1.0)) return {};
   return inverse.triangularView<Eigen::Upper>() * s.topRightCorner<8, 8>();
 }
 
-/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made 1,
-/// which makes it real where it can be.
+/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made
+/// 1, which makes it real where it can be.
 Eigen::Vector4cd quaternion(const Eigen::Matrix<std::complex<double>, 16, 1>& v) {
   Eigen::Index k = 0;
   Vec4(std::norm(v[0]), std::norm(v[5]), std::norm(v[10]), std::norm(v[15])).maxCoeff(&k);
@@ -126,10 +126,10 @@ void add(const Vec4& z, RotationCandidates& out) {
       Eigen::Quaterniond(z[0], z[1], z[2], z[3]).normalized().toRotationMatrix();
 }
 
-/// For each eigenvector x of Mx, N x holds the values of all monomials at a solution, up to a factor. False if the
-/// eigenvalues did not converge.
-bool add_real_solutions(const NullSpace& n, const Mat8& mx, RotationCandidates& out) {
-  const Eigen::EigenSolver<Mat8> eigen(mx);
+/// For each eigenvector x of the multiplication matrix, n x holds the values of all monomials at a solution, up to a
+/// factor. Returns false if the eigenvalues did not converge.
+bool add_real_solutions(const NullSpace& n, const Mat8& multiplied, RotationCandidates& out) {
+  const Eigen::EigenSolver<Mat8> eigen(multiplied);
   if (eigen.info() != Eigen::Success) return false;
   Eigen::Matrix<double, 16, 8> rows;  // of z_k^3 z_j
   for (int k = 0; k < 4; ++k)
@@ -143,9 +143,10 @@ bool add_real_solutions(const NullSpace& n, const Mat8& mx, RotationCandidates& 
     if (pair) v.imag() = values.col(++j);
     const Eigen::Vector4cd z = quaternion(v);
     if (!z.real().allFinite() || !z.imag().allFinite())
-      return false;  // no component to scale by: nothing is known of it
+      return false;  // the solution is unknown: no component to scale by
     if (!(z.imag().norm() < nearly_real * z.norm())) continue;
-    // Two real solutions close together may come out as a pair: they then lie on the two sides of its real part.
+    // Two real solutions close together may be computed as a conjugate pair: they then lie on both sides of its real
+    // part.
     add(z.real() + z.imag(), out);
     if (pair) add(z.real() - z.imag(), out);
   }
@@ -164,8 +165,8 @@ RotationCandidates null_space_rotations(const RotationProblem& problem) {
   out.self_motion = !n;
   if (out.self_motion) return out;
   for (int k = 0; k < 4; ++k) {
-    const std::optional<Mat8> mx = multiplication(*n, forms.f, forms.g.row(k));
-    if (mx && add_real_solutions(*n, *mx, out)) return out;
+    const std::optional<Mat8> multiplied = multiplication(*n, forms.f, forms.g.row(k));
+    if (multiplied && add_real_solutions(*n, *multiplied, out)) return out;
   }
   out.reliable = false;
   return out;

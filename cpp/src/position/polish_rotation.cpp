@@ -12,20 +12,20 @@
 namespace ninedof {
 namespace {
 
-constexpr double residual_rounding = 4.0 * eps;    // of d . Q w - c: no step lowers this but by chance
-constexpr double settled = 16.0 * eps;    // below it Newton's steps alone are tried
-constexpr double longest_step = 0.5;      // rad
-constexpr double last_step = 1e-8;        // rad: the square of such a step is below rounding
-constexpr double natural = 0.75;          // of |J^-1 f|, where that must fall in place of |f|
-constexpr double least_progress = 0.999;  // of |f|^2
-constexpr int patience = 5;               // steps without progress
+constexpr double residual_rounding = 4.0 * eps;  // of d . Q w - c: no step reduces it further
+constexpr double settled = 16.0 * eps;           // below it only Newton's steps are tried
+constexpr double longest_step = 0.5;             // rad
+constexpr double last_step = 1e-8;               // rad: the square of such a step is below rounding
+constexpr double natural = 0.75;                 // required reduction of |J^-1 f| where |f| does not fall
+constexpr double least_progress = 0.999;         // of |f|^2
+constexpr int most_stalled = 5;                  // steps without progress
 
-/// A quaternion of any length but zero: turning it needs no square root.
+/// A quaternion that need not have unit length: rotating it needs no square root.
 struct FreeQuaternion {
   double w;
   Vec3 v;
 
-  /// Turned by the rotation vector `step` from the left, to second order in it.
+  /// Rotated from the left by the rotation vector `step`, to second order in it.
   FreeQuaternion turned(const Vec3& step) const {
     const Vec3 half = 0.5 * step;
     return {w - half.dot(v), v + w * half + half.cross(v)};
@@ -53,14 +53,14 @@ Vec3 shortened(const Vec3& step) {
   return squared > longest_step * longest_step ? Vec3(step * (longest_step / std::sqrt(squared))) : step;
 }
 
-/// -(J^T J + mu)^-1 J^T f: downhill, and the shorter the larger mu.
+/// -(J^T J + mu)^-1 J^T f: a descent direction, shorter for larger mu.
 Vec3 levenberg_step(const RotationResidual& at, double mu) {
   const Mat3 j = rows_of(at.row);
   const Mat3 normal = j.transpose() * j + mu * Mat3::Identity();
   return -(normal.inverse() * (j.transpose() * at.value));
 }
 
-/// Where the iteration stands, and how it came there.
+/// The current iterate.
 struct State {
   FreeQuaternion quaternion;
   PolishedRotation here;
@@ -81,7 +81,8 @@ State moved(const RotationProblem& problem, const State& s, const Vec3& step) {
   return {problem, s.quaternion.turned(allowed), allowed.squaredNorm()};
 }
 
-/// Newton's step where it lowers |f| or, in a curved valley, |J^-1 f|; else the longest of Levenberg's that lowers |f|. The best so far is kept where a step leaves it for something worse.
+/// Newton's step if it reduces |f| or, in a curved valley, |J^-1 f|; else the longest Levenberg step that reduces |f|.
+/// `best` keeps the best iterate where a step increases |f|. Returns whether a step was made.
 bool improve(const RotationProblem& problem, State& s, double least, std::optional<State>& best) {
   const Vec3 newton = s.here.at.newton_step();
   if (newton.allFinite()) {
@@ -118,7 +119,7 @@ RotationResidual::RotationResidual(const RotationProblem& problem, const Mat3& r
 
 double RotationResidual::inverse_norm() const {
   if (determinant == 0.0) return infinity;
-  // The largest eigenvalue of the Gram matrix of the adjugate: in closed form nothing is lost in the largest.
+  // The largest eigenvalue of the Gram matrix of the adjugate. The closed form is accurate for the largest eigenvalue.
   const auto& [a, b, c] = adjugate;
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
   const double ab = a.dot(b), bc = b.dot(c), ca = c.dot(a);
@@ -138,11 +139,11 @@ PolishedRotation polish_rotation(const RotationProblem& problem, const Mat3& sta
                                  int most_steps) {
   const FreeQuaternion q = quaternion(start);
   State s(q, {start, at_start});
-  if (!(s.here.residual() > settled)) return State(problem, q, 0.0).here;  // orthogonal now, if it was not
-  std::optional<State> best;  // only where a natural step has left it
+  if (!(s.here.residual() > settled)) return State(problem, q, 0.0).here;  // the rotation made orthogonal
+  std::optional<State> best;  // set only if a step has increased |f|
   double least = s.squared;
   int stalled = 0;
-  for (int k = 0; k < most_steps && stalled < patience && s.here.residual() > residual_rounding; ++k) {
+  for (int k = 0; k < most_steps && stalled < most_stalled && s.here.residual() > residual_rounding; ++k) {
     if (!improve(problem, s, least, best)) break;
     stalled = s.squared < least_progress * least ? 0 : stalled + 1;
     least = std::min(least, s.squared);

@@ -1,12 +1,12 @@
 #pragma once
-/// The last digits of a rotation, by Newton's method on SO(3).
+/// Polishes a rotation to full accuracy by Newton's method on SO(3) (docs/theory/position.md).
 
 #include "position/rotation_problem.hpp"
 
 namespace ninedof {
 
-/// How the equations stand at a rotation: residuals d_i . Q w_i - c_i and their derivative J by a small rotation from the left, rows
-/// (Q w_i) x d_i.
+/// The equations at a rotation: residuals d_i . Q w_i - c_i and their derivative J with respect to a small rotation
+/// from the left, rows (Q w_i) x d_i.
 struct RotationResidual {
   RotationResidual(const RotationProblem& problem, const Mat3& rotation);
 
@@ -21,11 +21,11 @@ struct RotationResidual {
     return (-1.0 / determinant) * (f[0] * adjugate[0] + f[1] * adjugate[1] + f[2] * adjugate[2]);
   }
   Vec3 newton_step() const { return newton_step(value); }
-  /// Largest singular value of J^-1: one over the distance of J from the singular matrices. Infinite at one.
+  /// Largest singular value of J^-1: the reciprocal of the distance of J from the nearest singular matrix.
   double inverse_norm() const;
 };
 
-/// A rotation, orthogonal to rounding, and how the equations stand there.
+/// A rotation, orthogonal to rounding, and the equations there.
 struct PolishedRotation {
   Mat3 rotation;
   RotationResidual at;
@@ -33,10 +33,12 @@ struct PolishedRotation {
   bool converged() const { return residual() <= 1e-13; }
 };
 
-/// Newton's method on SO(3); Levenberg's step where Newton's improves nothing, none longer than half a radian.
+/// Newton's method on SO(3), with Levenberg steps where Newton's does not improve; no step is longer than half a
+/// radian.
 ///
-/// Four steps are usual. At a double solution a step halves the error, until the residual is at rounding and the rotation within some
-/// 1e-8 of the solution (1e-6 at a flat one): more is not in the data. Hence so many steps. `at_start` is the residual there.
+/// Usually four steps. At a double solution each step halves the error, until the residual is rounding and the rotation
+/// within about 1e-8 of the solution (1e-6 at a flat one), the accuracy that the data allow; hence the large limit on
+/// the steps. `at_start` is the residual at `start`.
 PolishedRotation polish_rotation(const RotationProblem& problem, const Mat3& start, const RotationResidual& at_start,
                                  int most_steps = 60);
 inline PolishedRotation polish_rotation(const RotationProblem& problem, const Mat3& start, int most_steps = 60) {

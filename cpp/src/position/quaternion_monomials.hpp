@@ -1,5 +1,5 @@
 #pragma once
-/// Monomials in the four components of a quaternion, numbered, and which number a product has. All known to the compiler.
+/// Numbered monomials in the four components of a quaternion, and the numbers of their products. All at compile time.
 
 #include <array>
 #include <cstddef>
@@ -33,7 +33,7 @@ constexpr int index_of(const Exponents& e) {
   return n;
 }
 
-/// Entry [a][b]: which monomial of degree A + B is the product of monomial a of degree A and b of degree B.
+/// Entry [a][b]: the number of the product, of degree A + B, of monomial a of degree A and monomial b of degree B.
 template <int A, int B>
 constexpr auto products() {
   std::array<std::array<int, count(B)>, count(A)> out{};

@@ -1,5 +1,5 @@
 #pragma once
-/// What is left of the direct position problem once O is known from both plates: a rotation.
+/// The rest of the direct position problem once O is known in both frames: a rotation.
 
 #include <array>
 
@@ -13,12 +13,12 @@ struct RotationProblem {
   Vec3 c;
 };
 
-/// Rotations near the real solutions, unpolished; at most eight.
+/// Approximations of the real solutions, at most eight; polish_rotation refines them.
 struct RotationCandidates {
   std::array<Mat3, 8> rotation;
   int count = 0;
-  bool self_motion = false;  ///< the equations leave a family of rotations: there is no list
-  bool reliable = true;      ///< false: the method saw its own limits, a solution may be missing
+  bool self_motion = false;  ///< the solutions form a family, and none is listed
+  bool reliable = true;      ///< false if a solution may be missing
 };
 
 }  // namespace ninedof

@@ -13,16 +13,16 @@
 namespace ninedof {
 namespace {
 
-constexpr double least_height = 1e-7;         // height of O over a plane, of the leg: the side is not known below
-constexpr double certified = 0.5;         // Kantorovich
-constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation: Newton from nearer comes to the mode
-constexpr double shortest = 0x1p-18;  // fraction of the way
-constexpr double aim = 0.4;  // the certificate a step is meant to have; it grows with the length of the step
+constexpr double least_height = 1e-7;  // of O over a plane, relative to the longest leg: below it the side is unknown
+constexpr double certified = 0.5;  // Kantorovich's theorem
+constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation: Newton converges from nearer starts
+constexpr double shortest = 0x1p-18;  // step, as a fraction of the path
+constexpr double aim = 0.4;  // desired certificate of a step; it grows with the length of the step
 constexpr int most_attempts = 1000;
-constexpr double angle_rounding = 1e-7;  // rad: half the digits, since angles come from cosines
-constexpr int hopeful_steps = 12;  // of Newton without a certificate
+constexpr double angle_rounding = 1e-7;  // rad: half the digits, since the angle comes from a cosine
+constexpr int uncertified_steps = 12;  // of Newton's method without a certificate
 
-/// The robot and the sides of O to keep to, as heights of the start.
+/// The robot, and the heights of O at the start, whose signs are the sides on which O stays.
 struct Robot {
   const Geometry& geometry;
   const SphereCentres &base, &platform;
@@ -38,8 +38,8 @@ struct Step {
   double certificate = not_a_number, alone_within = not_a_number, separation = not_a_number;
 };
 
-/// O on the side of the start, where there are two sides.
-Meeting::Kind place(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
+/// Sets `point` to the position of O on the side of the start.
+Meeting::Kind locate(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
   const Meeting m = meet(plate, radii);
   if (m.kind == Meeting::two_points) point = side < 0.0 ? plate.mirrored(m.above) : m.above;
   return m.kind;
@@ -48,11 +48,11 @@ Meeting::Kind place(const SphereCentres& plate, const Vec3& radii, double side, 
 Step step_to(const Robot& robot, const Vec9& lengths, const Mat3& rotation) {
   Step out;
   InternalPoints at;
-  const Meeting::Kind lower = place(robot.base, lengths.tail<3>(), robot.base_height, at.s),
-                      upper = place(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
+  const Meeting::Kind lower = locate(robot.base, lengths.tail<3>(), robot.base_height, at.s),
+                      upper = locate(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
   if (lower == Meeting::none || upper == Meeting::none) return out;
   if (lower == Meeting::touching || upper == Meeting::touching) {
-    out.reach = Reach::not_certified;  // a singularity: from here there are two ways on
+    out.reach = Reach::not_certified;  // a singularity: the mode can continue in two ways
     return out;
   }
   const ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
@@ -63,7 +63,7 @@ Step step_to(const Robot& robot, const Vec9& lengths, const Mat3& rotation) {
   const double beta = seed.inverse_norm();
   out.certificate = std::numbers::sqrt3 * beta * seed.newton_step().norm();
   const PolishedRotation polished =
-      polish_rotation(p.unit, rotation, seed, out.certificate <= certified ? 60 : hopeful_steps);
+      polish_rotation(p.unit, rotation, seed, out.certificate <= certified ? 60 : uncertified_steps);
   if (!polished.converged()) return out;
   out.separation = 1.0 / polished.at.inverse_norm();
   const double sine =

@@ -9,10 +9,10 @@
 namespace ninedof {
 namespace {
 
-constexpr double touching = 1e-14;  // of the first radius squared, at least
-constexpr double refinable = 1e-6;  // of the radius: below it the 3x3 system is too near singular to improve anything
+constexpr double touching = 1e-14;  // least squared height, relative to the first radius squared
+constexpr double refinable = 1e-6;  // height relative to the radius: below it the 3x3 system is too close to singular
 
-/// One Newton step on |x - c_i|^2 = R_i^2, linear in the step to rounding.
+/// One step of Newton's method on |x - c_i|^2 = R_i^2.
 void refine(const SphereCentres& at, const Vec3& radii, Vec3& x) {
   const Vec3 a = x - at.centre[0], b = x - at.centre[1], c = x - at.centre[2];
   const Vec3 bc = b.cross(c);
@@ -42,7 +42,8 @@ Meeting meet(const SphereCentres& at, const Vec3& radii) {
   const double rho = std::sqrt(x * x + y * y);
   Meeting m;
   m.height2 = (r1 - rho) * (r1 + rho);
-  // What rounding may have done to x and y, and so to the squared height: much where the first sphere is small beside the others.
+  // Bounds for the rounding errors of x and y, and so of the squared height: large if the first sphere is much smaller
+  // than the others.
   const double dx = eps * (r1 * r1 + r2 * r2 + at.length * at.length) / at.length;
   const double dy = (eps * (r1 * r1 + r3 * r3 + at.i * at.i + at.j * at.j) + 2.0 * std::abs(at.i) * dx) / at.j;
   const double error = 2.0 * (std::abs(x) * dx + std::abs(y) * dy) + dx * dx + dy * dy;

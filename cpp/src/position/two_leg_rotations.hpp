@@ -5,7 +5,8 @@
 
 namespace ninedof {
 
-/// Whether some Q has d_i . Q w_i = c_i for both i of a pair. With the third leg void this decides between self-motion and none.
+/// Whether some Q satisfies the equations of legs i and j. If the third leg has no direction, this decides between
+/// self-motion and no mode.
 bool two_legs_fit(const RotationProblem& problem, std::size_t i, std::size_t j);
 
 }  // namespace ninedof

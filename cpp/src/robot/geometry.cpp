@@ -8,6 +8,7 @@
 
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
+#include "ninedof/robot/hexagon.hpp"
 
 namespace ninedof {
 namespace {
@@ -21,7 +22,7 @@ void require_triangle(const std::string& name, const Triple& t) {
   const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[2] - t[1];
   const double longest = std::max({a.norm(), b.norm(), c.norm()});
   if (longest == 0.0) throw InvalidArgument(name, "three coincident joints", "joints that span a triangle");
-  // Divide first: the cross product of tiny or huge sides would under- or overflow.
+  // Divided first: the cross product of very short or very long sides would underflow or overflow.
   const double height = (a / longest).cross(b / longest).norm();
   if (!(height > collinear_tolerance))
     throw InvalidArgument(name, "collinear joints (height / longest side = " + format_number(height) + ")",
@@ -38,16 +39,13 @@ Triple orbit_of(const Vec3& first) {
   return {first, rotation_about_z(-angle) * first, rotation_about_z(-2.0 * angle) * first};
 }
 
-/// The two interleaved triples of a semi-regular hexagon with sides s1, s2, as printed in eqs. (37)-(38).
+/// The two interleaved triples of a semi-regular hexagon with sides s1, s2.
 struct Hexagon {
   Triple external, internal;
 };
 Hexagon hexagon(double s1, double s2) {
-  const double k = std::numbers::sqrt3 / 6.0;
-  const double low = -k * (s1 + 2.0 * s2), middle = -k * (s1 - s2), high = k * (2.0 * s1 + s2);
-  const double half = 0.5 * (s1 + s2);
-  return {{Vec3(0.5 * s1, low, 0.0), Vec3(-half, middle, 0.0), Vec3(0.5 * s2, high, 0.0)},
-          {Vec3(-0.5 * s1, low, 0.0), Vec3(-0.5 * s2, high, 0.0), Vec3(half, middle, 0.0)}};
+  const Xyz<double> one = hexagon_joint_1(s1, s2), two = hexagon_joint_2(s1, s2), three = hexagon_joint_3(s1, s2);
+  return {{vec3(one), vec3(two), vec3(three)}, {vec3(mirrored(one)), vec3(mirrored(three)), vec3(mirrored(two))}};
 }
 
 Triple orbit_of(const std::string& name, const Orbit& o) {

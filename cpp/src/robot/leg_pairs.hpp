@@ -1,5 +1,5 @@
 #pragma once
-/// The axes of two legs as segments, and which two legs can meet at all.
+/// Pairs of legs that could collide, and the distance of two legs as segments.
 
 #include <algorithm>
 #include <utility>
@@ -8,8 +8,8 @@
 
 namespace ninedof {
 
-/// The pairs of legs (order of leg_lengths) that need not meet: the internal ones all end in O, so that one of every two is
-/// external. Three pairs of external legs, eighteen of an external and an internal one.
+/// The pairs of legs (in the order of leg_lengths) that do not share a joint. All internal legs end in O, so at least
+/// one leg of a pair is external: three pairs of external legs, eighteen of an external and an internal leg.
 constexpr int leg_pairs = 21;
 
 inline std::pair<int, int> leg_pair(int item) {
@@ -17,19 +17,20 @@ inline std::pair<int, int> leg_pair(int item) {
   return {(item - 3) / 6, 3 + (item - 3) % 6};
 }
 
-/// Whether two joints are one.
+/// Whether two joints coincide, to rounding.
 inline bool joints_coincide(const Vec3& x, const Vec3& y) {
   return (x - y).squaredNorm() <= 1e-24 * (x.squaredNorm() + y.squaredNorm());
 }
 
-/// Where two segments come nearest: `s` and `t` of the way along each, and the vector from the second to the first.
+/// The nearest points of two segments: their positions along each, from 0 to 1, and the vector from the second to the
+/// first.
 struct Nearest {
   double s, t;
   Vec3 apart;
 };
 
-/// Of the segments from a to b and from c to d. The square of the distance is convex in (s, t): its least is inside the unit
-/// square or on one of four sides.
+/// For the segments from a to b and from c to d. The squared distance is convex in (s, t): its minimum lies inside the
+/// unit square or on one of its four sides.
 inline Nearest nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);

@@ -1,27 +1,11 @@
 #include "ninedof/robot/legs.hpp"
 
+#include "robot/leg_vectors.hpp"
+
 namespace ninedof {
 namespace {
 
-/// The nine legs as vectors, base frame.
-struct LegVectors {
-  Triple external, upper, lower;
-  Triple u, u_tilde;  // Q u_i and Q u~_i
-};
-
-LegVectors leg_vectors(const Geometry& g, const Configuration& c) {
-  LegVectors v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v.u[i] = c.rotation * g.platform_external()[i];
-    v.u_tilde[i] = c.rotation * g.platform_internal()[i];
-    v.external[i] = c.position + v.u[i] - g.base_external()[i];            // (11)
-    v.upper[i] = c.internal_point - c.position - v.u_tilde[i];             // (13)
-    v.lower[i] = c.internal_point - g.base_internal()[i];                  // (12)
-  }
-  return v;
-}
-
-/// Length of `leg`, and its direction (zero for a leg of zero length).
+/// Returns the length of `leg` and sets its direction (zero for a leg of zero length).
 double split(const Vec3& leg, Vec3& direction) {
   const double length = leg.norm();
   if (length == 0.0) {

@@ -15,7 +15,7 @@ void require_tolerance(const char* name, double value) {
   if (value < 0.0 || std::isinf(value)) throw InvalidArgument(name, format_number(value), "finite lengths >= 0");
 }
 
-/// The joint at the lower end of leg k, and at its upper end: places in Tolerances::joints, -1 for O.
+/// The joints at the lower and the upper end of leg k: indices into Tolerances::joints, -1 for O.
 constexpr std::array<std::array<int, 2>, 9> joints_of_leg{
     {{0, 6}, {1, 7}, {2, 8}, {9, -1}, {10, -1}, {11, -1}, {3, -1}, {4, -1}, {5, -1}}};
 
@@ -27,7 +27,7 @@ void for_each_joint(const Tolerances& t, const Visit& visit) {
       if (joint >= 0) visit(static_cast<Eigen::Index>(k), t.joints[static_cast<std::size_t>(joint)]);
 }
 
-/// Largest |rows * d| over the corners d of the box: half of them, since d and -d are as far.
+/// Largest |columns * d| over the corners d of the box [-1, 1]^9: half of them, since d and -d give the same norm.
 double farthest_corner(const Eigen::Matrix<double, 3, 9>& columns) {
   double largest = 0.0;
   for (unsigned corner = 0; corner < 256; ++corner) {
@@ -60,8 +60,8 @@ ErrorBounds error_bounds(const Geometry& g, const Configuration& c, const Tolera
   const Mat9 map = error_map(g, c);
   Vec9 box = t.legs, variance = t.legs.cwiseAbs2() / 3.0;
   for_each_joint(t, [&](Eigen::Index leg, double radius) {
-    box[leg] += radius;                       // reached by a joint that is off along its leg
-    variance[leg] += radius * radius / 5.0;   // one coordinate of a point in a ball
+    box[leg] += radius;                       // a joint error along its leg
+    variance[leg] += radius * radius / 5.0;   // variance of one coordinate in a ball
   });
   if (map.hasNaN() || box.hasNaN()) {
     const Mat9 nothing = Mat9::Constant(not_a_number);
@@ -69,7 +69,7 @@ ErrorBounds error_bounds(const Geometry& g, const Configuration& c, const Tolera
   }
   ErrorBounds out{Vec9::Constant(infinity), infinity, infinity, infinity, Mat9::Constant(not_a_number)};
   out.covariance.diagonal().setConstant(infinity);
-  // What is determined: nothing, O alone, or everything.
+  // The lengths determine nothing, O alone, or everything.
   const Eigen::Index first = std::isinf(map(8, 8)) ? 9 : std::isinf(map(0, 0)) ? 6 : 0, known = 9 - first;
   const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::ColMajor, 9, 9> rows = map.bottomRows(known);
   out.components.tail(known) = (rows * box.asDiagonal()).rowwise().lpNorm<1>();

@@ -7,7 +7,7 @@
 #include "math/linear/eliminate.hpp"
 #include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 
 namespace ninedof {
 namespace {
@@ -15,9 +15,8 @@ namespace {
 using Mat96 = Eigen::Matrix<double, 9, 6>;
 using Mat93 = Eigen::Matrix<double, 9, 3>;
 
-/// X with |X t| the least norm of leg rates at which the platform has the twist t: O moves as suits the legs. M of
-/// conditioning.hpp has X^T X = M^T M, but for configurations with all of the internal legs in a plane, where M lacks a
-/// row.
+/// X with |X t| the least norm of leg rates over all motions of O at the twist t. The conditioning matrix M has
+/// X^T X = M^T M, except if all internal legs lie in a plane: there M lacks a row.
 Mat96 least_rates(const Geometry& g, const Configuration& c, double characteristic_length) {
   const Mat9 h = rate_matrix(g, c, characteristic_length);
   if (!h.allFinite()) return Mat96::Constant(not_a_number);
@@ -66,11 +65,11 @@ Ellipsoid<3> velocity_ellipsoid(const Geometry& g, const Configuration& c, Twist
   const Mat96 x = least_rates(g, c, characteristic_length);
   if (x.hasNaN()) return no_ellipsoid<3>();
   const bool rotation = part == TwistPart::rotation;
-  const Mat93 looked_at = rotation ? x.leftCols<3>() : x.rightCols<3>();
+  const Mat93 part_columns = rotation ? x.leftCols<3>() : x.rightCols<3>();
   const Mat93 other = rotation ? x.rightCols<3>() : x.leftCols<3>();
-  // The other part settles where the legs need least.
-  const Eigen::JacobiSVD<Mat93> svd(eliminate<9, 3>(other, looked_at), Eigen::ComputeFullV);
-  return unit_ball_of<3>(svd.singularValues(), svd.matrixV(), negligible * looked_at.norm());
+  // The other part takes the value that minimizes the leg rates.
+  const Eigen::JacobiSVD<Mat93> svd(eliminate<9, 3>(other, part_columns), Eigen::ComputeFullV);
+  return unit_ball_of<3>(svd.singularValues(), svd.matrixV(), negligible * part_columns.norm());
 }
 
 Ellipsoid<6> force_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {

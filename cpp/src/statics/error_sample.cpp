@@ -17,7 +17,7 @@
 namespace ninedof {
 namespace {
 
-/// The random numbers of one sample, one after the other: each a hash of (seed, sample, place).
+/// The sequence of random numbers of one sample: each is a hash of (seed, sample, position in the sequence).
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint64_t sample)
@@ -44,7 +44,7 @@ Triple displaced(Triple joints, const double* radius, Draws& draws) {
   return joints;
 }
 
-/// Joint errors so great that three joints line up leave no robot.
+/// None if the errors make three joints collinear.
 std::optional<Geometry> built(const Geometry& g, const Tolerances& t, Draws& draws) {
   const double* radius = t.joints.data();
   const Triple r = displaced(g.base_external(), radius, draws), r_hat = displaced(g.base_internal(), radius + 3, draws);
@@ -63,7 +63,7 @@ Vec9 error_sample(const Geometry& g, const Configuration& c, const Tolerances& t
                   std::uint64_t index) {
   validate(t);
   const std::array<int, 3> intended = sides(three_blocks(g, c));
-  if (std::ranges::count(intended, 0) > 0) return Vec9::Constant(not_a_number);  // two ways to go, or none
+  if (std::ranges::count(intended, 0) > 0) return Vec9::Constant(not_a_number);  // singular: the side is not defined
   Draws draws(seed, index);
   Vec9 lengths = leg_lengths(g, c);
   for (Eigen::Index k = 0; k < 9; ++k) lengths[k] += t.legs[k] * draws.interval();
@@ -71,7 +71,7 @@ Vec9 error_sample(const Geometry& g, const Configuration& c, const Tolerances& t
   if (!made || !(lengths.minCoeff() >= 0.0)) return Vec9::Constant(not_a_number);
   const Tracked found = track(*made, lengths, c);
   if (found.status != TrackStatus::tracked) return Vec9::Constant(not_a_number);
-  // Great errors of joints may put the intended configuration itself on the other side of the robot that was made.
+  // Large joint errors may put the intended configuration on another side of a singularity of the robot with errors.
   if (sides(three_blocks(*made, found.configuration)) != intended) return Vec9::Constant(not_a_number);
   return minus(found.configuration, c);
 }

@@ -14,14 +14,14 @@
 namespace ninedof {
 namespace {
 
-/// Where the pivots of a QR factorization stay above this fraction of the first, the singular values of a 9x9 matrix
-/// stay above a 600th of it, far from what counts as singular, and need not be computed.
+/// If all pivots of a QR factorization of a 9x9 matrix exceed this fraction of the first, all singular values exceed
+/// 1/600 of this fraction of the largest: the matrix is far from singular, and its singular values are not needed.
 constexpr double surely_regular = 1e-9;
 
-/// A balanced load works on the free motions by rounding alone, up to this fraction of itself.
+/// The work of a balanced load on the free motions is rounding, up to this fraction of the load.
 constexpr double rounding = 64.0 * eps;
 
-/// H with moments and rotations made lengths by a length of the platform, so that no rank depends on the length unit.
+/// H with rotations and moments scaled by the platform radius, so that no rank depends on the length unit.
 struct Scaled {
   double length;
   Mat9 h;
@@ -67,7 +67,7 @@ LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load
   if (std::abs(qr.matrixQR()(8, 8)) > surely_regular * qr.maxPivot()) return {qr.solve(wanted), {}};
 
   const auto [svd, rank] = RankedSvd(transposed);
-  Vec9 along = svd.matrixU().transpose() * wanted;  // each motion's share of the load
+  Vec9 along = svd.matrixU().transpose() * wanted;  // components of the load along the motions
   Vec9 lost = Vec9::Zero();
   for (Eigen::Index k = rank; k < 9; ++k) {
     if (std::abs(along[k]) > rounding * wanted.norm()) lost -= along[k] * svd.matrixU().col(k);
@@ -76,7 +76,7 @@ LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load
   along.head(rank).array() /= svd.singularValues().head(rank).array();
   Vec9 forces = svd.matrixV() * along;
   for (Eigen::Index k = 0; k < 9; ++k)
-    if (h.row(k).isZero(0.0)) forces[k] = 0.0;  // a leg of zero length, but for rounding
+    if (h.row(k).isZero(0.0)) forces[k] = 0.0;  // a leg of zero length: exactly zero
   return {forces, load_from(lost, length)};
 }
 

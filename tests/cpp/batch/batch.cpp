@@ -1,4 +1,4 @@
-/// Batches against the functions of one configuration: another algorithm, one at a time.
+/// Batches against the functions of one configuration, which use other algorithms.
 
 #include "ninedof/batch/batch.hpp"
 
@@ -67,7 +67,8 @@ std::vector<double> conditions(const Geometry& g, const batch::Configurations& c
   return out;
 }
 
-/// The largest error of the condition numbers of a stack, beside the function for one configuration, over max(1, kappa / 1000).
+/// The largest error of the condition numbers of a stack, relative to the function for one configuration, over max(1,
+/// kappa / 1000).
 double furthest(const Geometry& g, const Stack& s) {
   const std::vector<double> kappa = conditions(g, s.view(), 1.0);
   double most = 0.0;
@@ -78,7 +79,7 @@ double furthest(const Geometry& g, const Stack& s) {
   return most;
 }
 
-/// The error that is allowed of a condition number.
+/// The error allowed for a condition number.
 double allowed(double kappa) {
   return 1e-11 * std::max(1.0, kappa / 1e3);
 }
@@ -109,7 +110,7 @@ TEST_SUITE("batch") {
   }
 
   TEST_CASE("down to the singularity") {
-    // O sinks to the plane of the lower joints, and the platform turns to where its legs meet.
+    // O approaches the plane of the lower joints, and the platform rotates towards a singularity.
     const Geometry g = Geometry::hexagonal(1.0, 4.0, 2.0, 0.5);
     Stack s;
     for (int k = 0; k <= 160; ++k) {
@@ -124,7 +125,7 @@ TEST_SUITE("batch") {
       else if (std::isinf(expected)) CHECK(kappa[k] == infinity);
       else CHECK(std::abs(kappa[k] - expected) <= allowed(expected) * expected);
     }
-    CHECK(kappa[180] > 1e8);  // and so they did come near
+    CHECK(kappa[180] > 1e8);  // the stack does come close to a singularity
   }
 
   TEST_CASE("on the axis, where singular values come in pairs") {
@@ -144,7 +145,7 @@ TEST_SUITE("batch") {
     }
   }
 
-  TEST_CASE("spectra with one great singular value, where the first bound is nearly a root") {
+  TEST_CASE("spectra with one dominant singular value, where the first bound is nearly a root") {
     Random random(110);
     double most = 0.0;
     for (int robot = 0; robot < 60; ++robot) {
@@ -165,7 +166,8 @@ TEST_SUITE("batch") {
   }
 
   TEST_CASE("extreme singular values that nearly coincide with others") {
-    // On the axis of a threefold symmetric robot they come in pairs; a step aside parts them by about as much, relatively.
+    // On the axis of a threefold symmetric robot they come in pairs; a displacement of O splits them by about
+    // the same relative amount.
     Random random(111);
     double most = 0.0;
     int close = 0;
@@ -189,7 +191,7 @@ TEST_SUITE("batch") {
     CHECK(most < 2e-13);
   }
 
-  TEST_CASE("the condition number is the ratio of the singular values, which are found otherwise") {
+  TEST_CASE("the condition number is the ratio of the singular values, found by another algorithm") {
     Random random(112);
     double most = 0.0;
     int seen = 0;
@@ -226,7 +228,7 @@ TEST_SUITE("batch") {
     }
   }
 
-  TEST_CASE("NaN stays where it came from") {
+  TEST_CASE("NaN affects its own configuration only") {
     Random random(103);
     const Geometry g = random_robot(random).geometry;
     const Stack s = random_stack(random, 40);
@@ -268,7 +270,7 @@ TEST_SUITE("batch") {
         Configuration c = some_pose(random);
         c.position *= size;
         c.internal_point *= size;
-        if (k % 50 == 0) c.internal_point = g.base_internal()[1];  // a leg of no length
+        if (k % 50 == 0) c.internal_point = g.base_internal()[1];  // a leg of zero length
         if (k % 50 == 1) c.internal_point = c.position + c.rotation * g.platform_external()[2];  // O in a joint
         if (k % 50 == 2) c.internal_point = g.base_external()[0] * (1.0 + 1e-15);
         s.add(c);
@@ -306,7 +308,7 @@ TEST_SUITE("batch") {
     }
   }
 
-  TEST_CASE("a characteristic length for each, and what is refused") {
+  TEST_CASE("one characteristic length per configuration, and invalid lengths") {
     Random random(106);
     const Geometry g = random_robot(random).geometry;
     const Stack s = random_stack(random, 70);
@@ -318,7 +320,7 @@ TEST_SUITE("batch") {
       lc[50] = bad;
       CHECK_THROWS_AS(batch::condition_numbers(g, s.view(), {lc.data(), 1}, Norm::two, kappa.data()), InvalidArgument);
     }
-    // Far-off lengths: the same numbers again.
+    // Very different lengths: the same numbers again.
     for (const double far : {1e-6, 1e-3, 1e3, 1e6}) {
       const std::vector<double> found = conditions(g, s.view(), far);
       for (std::size_t k = 0; k < 70; ++k) {
@@ -429,13 +431,13 @@ TEST_SUITE("batch") {
         ++levels;
       }
     CHECK(kernels::table_of("v9") == nullptr);
-    // Few of the numbers were left to the accurate path: the kernels did compute.
+    // Few rows were recomputed by the accurate path: the kernels did compute.
     CHECK(std::count(expected[1].begin(), expected[1].end(), kernels::unsure) < 20);
     CHECK(std::count(expected[3].begin(), expected[3].end(), kernels::unsure) < 20);
     MESSAGE("levels here: ", levels);
   }
 
-  TEST_CASE("the level that was asked for is the one in use") {
+  TEST_CASE("the requested level is in use") {
     const char* forced = std::getenv("NINEDOF_SIMD");
     if (forced != nullptr && *forced != '\0') CHECK(std::string(batch::simd_level()) == forced);
     CHECK(std::string("base v3 v4").find(batch::simd_level()) != std::string::npos);

@@ -1,5 +1,5 @@
-/// characteristic_length.hpp: the optimal length against a scan of the condition number over lengths, which knows nothing
-/// of slopes or bisection; the other lengths by their definitions.
+/// characteristic_length.hpp: the optimal length against a scan of the condition number over lengths, without
+/// slopes or bisection; the other lengths by their definitions.
 
 #include "ninedof/conditioning/characteristic_length.hpp"
 
@@ -17,7 +17,7 @@ using namespace support;
 
 namespace {
 
-/// How much lower than at `length` the condition number gets on a scan: coarse over eight decades, fine close by.
+/// How much lower than at `length` the condition number is on a scan: coarse over eight decades, fine nearby.
 double best_gain(const Robot& r, double length) {
   const double here = condition_number(r.geometry, r.configuration, length);
   double least = here;
@@ -35,7 +35,7 @@ double best_gain(const Robot& r, double length) {
 }  // namespace
 
 TEST_SUITE("characteristic_length") {
-  TEST_CASE("no length on a scan beats the optimal one: 1000 random robots, half of them symmetric") {
+  TEST_CASE("no length on a scan is better than the optimal one: 1000 random robots, half of them symmetric") {
     // Symmetric robots have double singular values, where the slope jumps.
     Random random(121);
     double worst = 0.0;
@@ -49,7 +49,7 @@ TEST_SUITE("characteristic_length") {
     CHECK(worst <= 1.0);
   }
 
-  TEST_CASE("nor for plane plates at the neutral configuration, where maxima and minima tie") {
+  TEST_CASE("nor for planar designs at the neutral configuration, with multiple extreme singular values") {
     Random random(122);
     double worst = 0.0;
     for (int n = 0; n < 300; ++n) {
@@ -91,7 +91,7 @@ TEST_SUITE("characteristic_length") {
     }
   }
 
-  TEST_CASE("every length grows with the robot") {
+  TEST_CASE("every length scales with the robot") {
     Random random(125);
     for (int n = 0; n < 50; ++n) {
       const Robot robot = random_robot(random);
@@ -106,7 +106,7 @@ TEST_SUITE("characteristic_length") {
     }
   }
 
-  TEST_CASE("singular: natural and optimal are NaN, the others need no Jacobian") {
+  TEST_CASE("singular configurations: natural and optimal are NaN, the others finite") {
     const Geometry g = Geometry::hexagonal(0, 3, 2, 0);
     for (const Configuration& c : {neutral(2, 0), neutral(2, 2)}) {
       CHECK(std::isnan(characteristic_length(g, c, LengthKind::natural)));
@@ -120,7 +120,7 @@ TEST_SUITE("characteristic_length") {
       CHECK(std::isnan(characteristic_length(g, c, kind)));
   }
 
-  TEST_CASE("kinds by their words") {
+  TEST_CASE("kinds by name") {
     CHECK(length_kind("mean_leg") == LengthKind::mean_leg);
     CHECK(length_kind("platform_radius") == LengthKind::platform_radius);
     CHECK(length_kind("natural") == LengthKind::natural);

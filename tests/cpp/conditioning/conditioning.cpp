@@ -46,7 +46,7 @@ Robot mirrored(const Robot& r) {
       {mirror * c.position, mirror * c.rotation * mirror, mirror * c.internal_point}};
 }
 
-/// Legs renumbered: external, lower internal and upper internal ones each in their own way.
+/// Legs renumbered: external, lower internal and upper internal legs by different permutations.
 Robot renumbered(const Robot& r, Random& random) {
   const auto turn = [&] { return static_cast<std::size_t>(random.uniform(0.0, 2.999)); };
   const std::size_t i = turn(), j = turn(), k = turn();
@@ -71,7 +71,8 @@ TEST_SUITE("conditioning") {
       const double ratio = static_cast<double>(expected[0] / expected[5]);
       const Vec6 sigma = singular_values(g, c, lc);
       CAPTURE(ratio);
-      // Values of M have an error of eps sigma_max(M) = eps / sigma_min(J'): relative to value k of J', eps sigma_k / sigma_min.
+      // Values of M have an error of eps sigma_max(M) = eps / sigma_min(J'): relative to value k of J', eps sigma_k /
+      // sigma_min.
       for (Eigen::Index k = 0; k < 6; ++k) {
         const double tolerance = 16.0 * eps * static_cast<double>(expected[k] / expected[5]);
         CHECK(relative_error(sigma[k], static_cast<double>(expected[k])) <= tolerance);
@@ -80,7 +81,7 @@ TEST_SUITE("conditioning") {
     }
   }
 
-  TEST_CASE("M times J' has orthonormal rows, and M's singular values are those of J' upside down") {
+  TEST_CASE("M J' has orthonormal rows, and the singular values of M are the reciprocals of those of J'") {
     Random random(92);
     for (int n = 0; n < 300; ++n) {
       const auto [g, c] = random_robot(random);
@@ -128,13 +129,13 @@ TEST_SUITE("conditioning") {
           doctest::Approx(std::sqrt(3.0 * (4.0 + 2.0 / 9.0) * 3.0 * (0.25 + 4.5))).epsilon(64.0 * eps));
   }
 
-  TEST_CASE("the published condition number, in the reading that reproduces it") {
+  TEST_CASE("the published condition number, with the definition that reproduces it") {
     const Geometry g = Geometry::hexagonal(0, 5.8124, 2.9062, 0);
     CHECK(condition_number(g, neutral(3.9828, 2.3745)) == doctest::Approx(3.9110).epsilon(5e-6));
     CHECK(condition_number(g, neutral(3.9828, 2.5110)) == doctest::Approx(3.9110).epsilon(5e-6));
   }
 
-  TEST_CASE("closer and closer to a singularity: right to the digits that conditioning leaves") {
+  TEST_CASE("approaching a singularity: accurate to the digits that the condition number allows") {
     const Geometry g = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     for (double gap = 0.1; gap > 1e-12; gap *= 0.1) {
       CAPTURE(gap);
@@ -149,7 +150,7 @@ TEST_SUITE("conditioning") {
     }
   }
 
-  TEST_CASE("singular configurations of all three kinds: infinity, on and off the planes of the axes") {
+  TEST_CASE("singular configurations of all three kinds: infinite, in and outside the coordinate planes") {
     Random random(95);
     int finite = 0;
     for (int n = 0; n < 900; ++n) {
@@ -169,7 +170,7 @@ TEST_SUITE("conditioning") {
     CHECK(finite == 0);
   }
 
-  TEST_CASE("similar hexagons at the neutral configuration are singular, O between the plates or not") {
+  TEST_CASE("similar hexagons at the neutral configuration are singular, O between base and platform or not") {
     Random random(96);
     for (int n = 0; n < 500; ++n) {
       const double a1 = random.uniform(0.1, 3.0), a2 = random.uniform(0.1, 3.0), ratio = random.uniform(0.2, 2.0);
@@ -179,7 +180,7 @@ TEST_SUITE("conditioning") {
     }
   }
 
-  TEST_CASE("every index says what it is worth at a singularity: O in a plate, leg of no length, all flat") {
+  TEST_CASE("values of every index at a singularity: O in a plane of joints, leg of zero length, all in one plane") {
     const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5);
     for (const Configuration& c : {neutral(2, 0), neutral(2, 2), neutral(0, 0),
                                    Configuration{Vec3(0, 0, 2), Mat3::Identity(), g.base_internal()[0]}}) {
@@ -193,7 +194,7 @@ TEST_SUITE("conditioning") {
     }
   }
 
-  TEST_CASE("all legs but for a trace in one plane: infinity even where squares of the trace underflow") {
+  TEST_CASE("all legs nearly in one plane: infinite even where squares of the deviation underflow") {
     const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5);
     for (const double trace : {1e-300, 1e-170, 1e-160, 1e-155, 1e-150, 1e-100, 1e-20}) {
       CAPTURE(trace);
@@ -201,7 +202,7 @@ TEST_SUITE("conditioning") {
     }
   }
 
-  TEST_CASE("NaN in, NaN out, from every coordinate") {
+  TEST_CASE("NaN in any coordinate gives NaN") {
     Random random(97);
     const auto [g, good] = random_robot(random);
     for (Eigen::Index k = 0; k < 15; ++k) {

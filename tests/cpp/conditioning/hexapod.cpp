@@ -1,5 +1,5 @@
-/// hexapod.hpp against singular values of the six rows assembled leg by leg; gradients against differences; designs whose
-/// singular values coincide or vanish.
+/// hexapod.hpp against singular values of the six rows assembled leg by leg; gradients against differences; designs
+/// whose singular values coincide or vanish.
 
 #include "ninedof/conditioning/hexapod.hpp"
 
@@ -81,8 +81,8 @@ Exact exact(const Eigen::VectorXd& x) {
   return out;
 }
 
-/// Internal legs that mirror the external ones in the plane x = 0, with an axial pair of equal singular values: their axial
-/// block is [[m, e], [-m, e]] / l_c, and the length makes m / l_c = e.
+/// Internal legs that are mirror images of the external ones in the plane x = 0, with two equal axial singular values:
+/// the axial block is [[m / l_c, e], [-m / l_c, e]], and the length is chosen so that m / l_c = e.
 struct Tied {
   Robot robot;
   double lc;
@@ -110,8 +110,9 @@ TEST_SUITE("hexapod") {
     }
   }
 
-  TEST_CASE("next to a singularity the product of all is the determinant, as far as the rows' own rounding lets it") {
-    // Plates alike are the classic one: the determinant falls with the difference to them.
+  TEST_CASE("near a singularity the product of all is the determinant, to the rounding errors of the rows") {
+    // Similar base and platform are the classical singularity: the determinant is proportional to the deviation from
+    // it.
     Random random(212);
     for (int n = 0; n < 100; ++n) {
       const double off = random.log_uniform(1e-6, 1e-2);
@@ -123,7 +124,7 @@ TEST_SUITE("hexapod") {
     }
   }
 
-  TEST_CASE("a family's axis gives their logarithms") {
+  TEST_CASE("the axis point of a family holds their logarithms") {
     Random random(213);
     for (const std::string& name : axis_families)
       for (int n = 0; n < 100; ++n) {
@@ -137,7 +138,7 @@ TEST_SUITE("hexapod") {
         got << p.value, p.value[AxisPoint::transverse_max], p.value[AxisPoint::transverse_min];
         std::sort(got.begin(), got.end(), std::greater<>());
         CHECK((got.array().exp().matrix() - expected).cwiseAbs().maxCoeff() <= 64.0 * eps * expected[0]);
-        CHECK(p.gradient.col(family.index("zs")).isZero(0.0));  // it has no O
+        CHECK(p.gradient.col(family.index("zs")).isZero(0.0));  // independent of O
       }
   }
 
@@ -149,7 +150,7 @@ TEST_SUITE("hexapod") {
       const Exact e = exact(x);
       CHECK(matrix_error(e.value, values(x)) <= 8.0 * eps);
       for (int row = 0; row < 4; ++row) {
-        // Neither where a pair meets nor next to zero.
+        // Away from equal pairs and from zero.
         const int pair = row / 2 * 2;
         if (e.value[pair + 1] < 0.05 * e.value[pair] || e.value[pair + 1] > 0.95 * e.value[pair]) continue;
         ++checked;
@@ -164,7 +165,7 @@ TEST_SUITE("hexapod") {
     CHECK(checked > 300);
   }
 
-  TEST_CASE("an exact tie: both values right, finite slopes that give the slope of their product") {
+  TEST_CASE("an exactly equal pair: both values correct, finite slopes whose sum is the slope of the product") {
     Random random(215);
     int tied = 0;
     for (int n = 0; n < 100; ++n) {
@@ -189,13 +190,13 @@ TEST_SUITE("hexapod") {
     CHECK(tied > 50);
   }
 
-  TEST_CASE("plates alike: singular, and said so without NaN") {
+  TEST_CASE("similar base and platform: singular, without NaN") {
     const Robot robot{Geometry::hexagonal(1.0, 2.0, 0.5, 1.0), neutral(3.0, 1.5)};
     const Exact e = exact(numbers(robot, 1.0));
     CHECK(e.value.minCoeff() <= 4.0 * eps);
     CHECK(e.value.maxCoeff() > 0.1);
     CHECK(e.gradient.allFinite());
-    Robot flat = robot;  // a leg of zero length: a base joint in its platform joint's place
+    Robot flat = robot;  // a leg of zero length: base joint and platform joint coincide
     flat.geometry = Geometry(robot.geometry.base_external(), robot.geometry.base_internal(),
                              robot.geometry.base_external(), robot.geometry.platform_internal());
     flat.configuration.position.setZero();

@@ -1,5 +1,5 @@
-/// sensitivity.hpp against conditioning.hpp, with which it shares only the singular value routine: every singular value moved
-/// by every coordinate of the fourteen points, mixed derivatives, and exact ties.
+/// sensitivity.hpp against conditioning.hpp, with which it shares only the singular value routine: derivatives of every
+/// singular value by every coordinate of the fourteen points, mixed derivatives, and exactly equal singular values.
 
 #include "ninedof/conditioning/sensitivity.hpp"
 
@@ -34,7 +34,7 @@ Points points_of(const Eigen::VectorXd& x) {
   return at;
 }
 
-/// The robot with its platform frame turned into the base axes.
+/// The robot with its platform frame rotated to the base axes.
 Robot robot_of(const Eigen::VectorXd& x) {
   const Points at = points_of(x);
   const auto triple = [&](std::size_t first, const Vec3& origin) -> Triple {
@@ -45,7 +45,7 @@ Robot robot_of(const Eigen::VectorXd& x) {
           {p, Mat3::Identity(), at[point_s]}};
 }
 
-/// Singular values of M, descending, and M^T M, which depends on no basis.
+/// Singular values of M, descending, and M^T M, which does not depend on a basis.
 Eigen::VectorXd sigma(const Eigen::VectorXd& x) {
   const Robot r = robot_of(x);
   return singular_values(r.geometry, r.configuration, x[coordinates - 1]).cwiseInverse().reverse();
@@ -78,7 +78,7 @@ struct Case {
 }  // namespace
 
 TEST_SUITE("sensitivity") {
-  TEST_CASE("singular values and twists are those of M; rates are leg rates, and their squares add up") {
+  TEST_CASE("singular values and twists are those of M; rates are leg rates with the right sum of squares") {
     Random random(221);
     for (int n = 0; n < 200; ++n) {
       const Robot r = random_robot(random);
@@ -105,7 +105,7 @@ TEST_SUITE("sensitivity") {
       Eigen::MatrixXd expected(6, coordinates);
       for (Eigen::Index k = 0; k < coordinates; ++k) expected.col(k) = difference(sigma, c.x, k, 1e-4);
       for (int k = 0; k < 6; ++k) {
-        // Where two are about to meet, differences over a finite step mean nothing.
+        // Close to equal singular values finite differences are inaccurate.
         const double above = k > 0 ? c.s.sigma[k - 1] - c.s.sigma[k] : infinity;
         const double below = k < 5 ? c.s.sigma[k] - c.s.sigma[k + 1] : infinity;
         if (std::min(above, below) < 0.03) continue;
@@ -120,10 +120,10 @@ TEST_SUITE("sensitivity") {
     CHECK(compared > 200);
   }
 
-  TEST_CASE("mixed derivatives v_a^T d(M^T M) v_b, all pairs, wherever the singular values are") {
+  TEST_CASE("mixed derivatives v_a^T d(M^T M) v_b, all pairs, for any singular values") {
     Random random(223);
     for (int n = 0; n < 20; ++n) {
-      // Symmetric robots stand at exact ties.
+      // Symmetric robots have exactly equal singular values.
       const Robot robot = n % 2 == 0 ? random_robot(random) : random_symmetric_robot(random);
       const Case c(robot, random.log_uniform(0.5, 2.0));
       for (Eigen::Index k = 0; k < coordinates; ++k) {
@@ -142,10 +142,10 @@ TEST_SUITE("sensitivity") {
   }
 
   TEST_CASE(
-      "an exact tie, a C3 design at its neutral pose: in any direction the pair parts by the eigenvalues of its "
+      "equal singular values of a C3 design, neutral: in any direction the pair splits by the eigenvalues of its "
       "block") {
     Random random(224);
-    int parted = 0;
+    int split = 0;
     for (int n = 0; n < 100; ++n) {
       const Case c(random_symmetric_robot(random), random.log_uniform(0.5, 2.0));
       const Eigen::VectorXd along =
@@ -159,7 +159,7 @@ TEST_SUITE("sensitivity") {
         Eigen::Matrix2d block;
         for (int i = 0; i < 2; ++i)
           for (int j = 0; j < 2; ++j) block(i, j) = c.gradient(k + i, k + j).dot(along) / (2.0 * c.s.sigma[k]);
-        // The sum is smooth through the tie.
+        // The sum of the pair is smooth.
         constexpr double h = 1e-4;
         const auto sum = [&](double t) { return ahead(t).segment<2>(k).squaredNorm(); };
         const double slope = (8.0 * (sum(h) - sum(-h)) - (sum(2 * h) - sum(-2 * h))) / (12.0 * h);
@@ -171,14 +171,14 @@ TEST_SUITE("sensitivity") {
         if (slopes[1] - slopes[0] < 0.01) continue;  // the two bend into each other's order
         CHECK(std::abs(slopes[1] - one_sided[0]) <= 1e-6);
         CHECK(std::abs(slopes[0] - one_sided[1]) <= 1e-6);
-        // A single diagonal entry is no slope of either.
-        parted += std::abs(block(0, 0) - slopes[0]) > 1e-3 && std::abs(block(0, 0) - slopes[1]) > 1e-3;
+        // A diagonal entry alone is the slope of neither.
+        split += std::abs(block(0, 0) - slopes[0]) > 1e-3 && std::abs(block(0, 0) - slopes[1]) > 1e-3;
       }
     }
-    CHECK(parted > 50);
+    CHECK(split > 50);
   }
 
-  TEST_CASE("moving the whole robot, or every length together, changes nothing or what it must") {
+  TEST_CASE("moving the whole robot changes no singular value, scaling all lengths only dimensional ones") {
     Random random(225);
     for (int n = 0; n < 50; ++n) {
       const Case c(random_robot(random), random.log_uniform(0.5, 2.0));
@@ -187,12 +187,12 @@ TEST_SUITE("sensitivity") {
         Vec3 total = Vec3::Zero();
         for (int point = 0; point < point_count; ++point) total += g.segment<3>(3 * point);
         CHECK(total.cwiseAbs().maxCoeff() <= 1e-12);
-        CHECK(std::abs(g.dot(c.x)) <= 1e-12);  // M has no dimension
+        CHECK(std::abs(g.dot(c.x)) <= 1e-12);  // M is dimensionless
       }
     }
   }
 
-  TEST_CASE("a leg of zero length, and NaN: no exception, no number from nothing") {
+  TEST_CASE("a leg of zero length and NaN: no exception, no invented number") {
     Random random(226);
     Robot r = random_robot(random);
     r.configuration.internal_point = r.geometry.base_internal()[0];

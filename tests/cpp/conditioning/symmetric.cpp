@@ -1,4 +1,4 @@
-/// symmetric.hpp against the general path of conditioning.hpp (which forms M from nine legs and knows no symmetry), and
+/// symmetric.hpp against the general path of conditioning.hpp (which forms M from nine legs without symmetry), and
 /// against the complex-step oracle where all singular values nearly meet. Gradients: symmetric_gradient.cpp.
 
 #include "ninedof/conditioning/symmetric.hpp"
@@ -32,7 +32,7 @@ double condition_number_of(const AxisSpectrum<double>& s) {
   return std::max(s.axial_max, s.transverse_max) / std::min(s.axial_min, s.transverse_min);
 }
 
-/// kappa = 1.0143, O far above the platform: found by a random search.
+/// kappa = 1.0143, O far above the platform: found by random search.
 const Robot almost_isotropic{Geometry::symmetric({5.962025, 0.320382, 0.416900}, {1.335971, -7.853464, 1.415718},
                                                  {1.879075, 3.964643, -0.095595}, {1.893601, 3.349726, -4.043400}),
                              neutral(0.512088, 10.699252)};
@@ -41,7 +41,7 @@ const Robot almost_isotropic{Geometry::symmetric({5.962025, 0.320382, 0.416900},
 
 TEST_SUITE("symmetric") {
   TEST_CASE(
-      "10 000 random C3 designs, non-planar, turned, O anywhere on the axis: all six singular values and the legs") {
+      "10 000 random C3 designs, non-planar, rotated, O anywhere on the axis: all six singular values and the legs") {
     Random random(101);
     double worst = 0.0, worst_legs = 0.0;
     for (int n = 0; n < 10'000; ++n) {
@@ -58,7 +58,7 @@ TEST_SUITE("symmetric") {
     CHECK(worst_legs <= 16.0 * eps);
   }
 
-  TEST_CASE("the axial pair belongs to turning about and moving along z") {
+  TEST_CASE("the axial pair belongs to rotation about and translation along z") {
     // On the axis M^T M has (omega_z, p_z) as an invariant plane: eigenvalues of that 2x2 block of the general M.
     Random random(102);
     for (int n = 0; n < 1000; ++n) {
@@ -73,7 +73,7 @@ TEST_SUITE("symmetric") {
     }
   }
 
-  TEST_CASE("where all singular values nearly meet, no digit is lost") {
+  TEST_CASE("no digit is lost where all singular values are nearly equal") {
     // T^2 - 4 D^2 of the textbook form loses half the digits here.
     const auto& [g, c] = almost_isotropic;
     const AxisSpectrum<double> s = axis_spectrum(axis_design(g, c), 1.0);
@@ -89,7 +89,7 @@ TEST_SUITE("symmetric") {
       for (double& value : y) value += 1e-3 * random.normal();
       const double lc = random.uniform(0.99, 1.01);
       const AxisDesign<double> d = design_of(y);
-      const auto orbit = [](const Point<double>& p) { return Orbit{std::hypot(p.x, p.y), std::atan2(p.y, p.x), p.z}; };
+      const auto orbit = [](const Xyz<double>& p) { return Orbit{std::hypot(p.x, p.y), std::atan2(p.y, p.x), p.z}; };
       const Geometry near = Geometry::symmetric(orbit(d.base_external), orbit(d.base_internal),
                                                 orbit(d.platform_external), orbit(d.platform_internal));
       const double general = condition_number(near, neutral(d.zp, d.zs), lc);
@@ -97,7 +97,7 @@ TEST_SUITE("symmetric") {
     }
   }
 
-  TEST_CASE("the smallest singular value has the digits that its own conditioning leaves") {
+  TEST_CASE("the smallest singular value is accurate to the digits that its condition number allows") {
     Random random(104);
     for (int n = 0; n < 1000; ++n) {
       const auto [g, c] = random_symmetric_robot(random);
@@ -107,7 +107,7 @@ TEST_SUITE("symmetric") {
     }
   }
 
-  TEST_CASE("axis_design takes joints as they stand in the base frame, and refuses by name what is not symmetric") {
+  TEST_CASE("axis_design takes platform joints in base axes and rejects asymmetric robots by name") {
     Random random(108);
     const auto [g, c] = random_symmetric_robot(random);
     const AxisDesign<double> d = axis_design(g, c);
@@ -134,7 +134,7 @@ TEST_SUITE("symmetric") {
       CHECK(refused("platform_external", {r, rh, off(v), vt}, c));
       CHECK(refused("platform_internal", {r, rh, v, off(vt)}, c));
     }
-    CHECK(refused("base_external", {{r[0], r[2], r[1]}, rh, v, vt}, c));  // an orbit, but the other way round
+    CHECK(refused("base_external", {{r[0], r[2], r[1]}, rh, v, vt}, c));  // an orbit in the opposite direction
     Configuration moved = c;
     moved.position.x() += 1e-6;
     CHECK(refused("position", g, moved));

@@ -1,5 +1,5 @@
-/// symmetric.hpp: exact gradients by dual numbers, against differences, in the regimes neutral, tiny, huge and random, and at
-/// singular designs.
+/// symmetric.hpp: exact gradients by dual numbers, against differences, for neutral, tiny, huge and random designs, and
+/// at singular designs.
 
 #include <doctest/doctest.h>
 
@@ -14,8 +14,8 @@ using namespace axis;
 
 namespace {
 
-/// Gradients of all seven quantities against fourth-order differences of the same formula over plain doubles: they share the
-/// formula (held against other ways elsewhere in this file), not one rule of differentiation.
+/// Gradients of all seven quantities against fourth-order differences of the same formula over plain doubles: they
+/// share the formula (tested elsewhere) but no rule of differentiation.
 void check_gradients(const Flat& x, double lc, double tolerance) {
   using D = Dual<coordinates>;
   std::array<D, coordinates> variables;
@@ -45,7 +45,7 @@ void check_gradients(const Flat& x, double lc, double tolerance) {
   }
 }
 
-/// Neither next to a kink (a singular value of zero, two that meet within a pair) nor next to a singularity.
+/// Not close to a kink (a singular value of zero, two equal ones of a pair) and not close to a singularity.
 bool smooth(const AxisSpectrum<double>& s) {
   return s.axial_min > 0.05 * s.axial_max && s.axial_min < 0.95 * s.axial_max &&
          s.transverse_min > 0.05 * s.transverse_max && s.transverse_min < 0.95 * s.transverse_max;
@@ -108,9 +108,9 @@ TEST_SUITE("symmetric_gradient") {
     };
     const Geometry g = Geometry::hexagonal(0.5, 3, 2, 0.5), alike = Geometry::hexagonal(0.5, 3, 0.5, 3);
     CHECK(least(g, neutral(2, 0)) == 0.0);  // det B
-    CHECK(least(alike, neutral(0, 1)) == 0.0);  // external legs of no length
+    CHECK(least(alike, neutral(0, 1)) == 0.0);  // external legs of zero length
     CHECK(least(g, neutral(2, 2)) == 0.0);  // det C
-    CHECK(least(Geometry::hexagonal(1, 2, 0.5, 1), neutral(2, 1)) <= 4.0 * eps);  // det M: similar hexagons
+    CHECK(least(Geometry::hexagonal(1, 2, 0.5, 1), neutral(2, 1)) <= 4.0 * eps);  // det N: similar hexagons
     CHECK(least(Geometry::hexagonal(0, 3, 0, 2), neutral(3, 1)) <= 4.0 * eps);
   }
 }

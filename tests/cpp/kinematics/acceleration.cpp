@@ -1,5 +1,5 @@
-/// acceleration.hpp against derivatives in time of leg lengths along a motion that curves, taken in extended precision from
-/// distances alone, and against identities. The code under test solves three 3x3 systems; no oracle here has them.
+/// acceleration.hpp against derivatives in time of leg lengths along a curved motion, computed in extended
+/// precision from distances alone, and against identities. No oracle here contains the three 3x3 systems of the code.
 
 #include "ninedof/kinematics/acceleration.hpp"
 
@@ -17,8 +17,8 @@ namespace {
 using Real = oracle::Real;
 using Vector = Eigen::Matrix<Real, 3, 1>;
 
-/// Leg lengths at time t of the motion Q(t) = exp(t omega + t^2 alpha / 2) Q, which has angular velocity omega and angular
-/// acceleration alpha at t = 0: the commutator that the exponential brings in is of the third order.
+/// Leg lengths at time t of the motion Q(t) = exp(t omega + t^2 alpha / 2) Q, which has angular velocity omega and
+/// angular acceleration alpha at t = 0: the commutator terms of the exponential are of third order.
 oracle::Vector lengths_at(const Robot& robot, const Motion& m, Real t) {
   const auto& [g, c] = robot;
   const auto moved = [t](const Vec3& from, const Vec3& v, const Vec3& a) {
@@ -54,7 +54,7 @@ Vec9 differenced_twice(const Robot& robot, const Motion& m) {
 }  // namespace
 
 TEST_SUITE("acceleration") {
-  TEST_CASE("inverse acceleration is the second derivative of the leg lengths along a motion that curves") {
+  TEST_CASE("inverse acceleration is the second derivative of the leg lengths along a curved motion") {
     Random random(201);
     for (int n = 0; n < 300; ++n) {
       const Robot robot = random_robot(random);
@@ -86,14 +86,14 @@ TEST_SUITE("acceleration") {
       const Motion m = random_motion(random);
       const Acceleration back =
           forward_acceleration(g, c, inverse_velocity(g, c, m.v), inverse_acceleration(g, c, m.v, m.a));
-      // Velocities come with an error of that conditioning, and are squared.
+      // Velocities have an error proportional to the condition number, and are squared.
       const double lost = std::pow(conditioning_of(robot), 2.0),
                    size = stacked(m.a).norm() + stacked(m.v).squaredNorm();
       CHECK((stacked(back) - stacked(m.a)).norm() <= 64.0 * eps * lost * size);
     }
   }
 
-  TEST_CASE("forward acceleration is where the robot goes: differences of leg lengths give both inputs back") {
+  TEST_CASE("differences of leg lengths along the forward motion give rates and accelerations back") {
     Random random(204);
     for (int n = 0; n < 100; ++n) {
       const Robot robot = random_robot(random);
@@ -105,7 +105,7 @@ TEST_SUITE("acceleration") {
     }
   }
 
-  TEST_CASE("powers of two as units of length round nothing, from 1e-90 to 1e90") {
+  TEST_CASE("with powers of two as units of length the bits are the same, from 1e-90 to 1e90") {
     Random random(208);
     for (int n = 0; n < 20; ++n) {
       const Robot robot = random_robot(random);
@@ -127,7 +127,7 @@ TEST_SUITE("acceleration") {
     }
   }
 
-  TEST_CASE("a motion along a leg adds nothing to it; one across it adds speed^2 / length, however short it is") {
+  TEST_CASE("a motion along a leg adds no acceleration; one across it adds speed^2 / length, also for short legs") {
     const Geometry g = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     for (const double length : {1.0, 1e-8, 1e-150}) {
       Configuration c = neutral(2.0, 1.0);
@@ -160,7 +160,7 @@ TEST_SUITE("acceleration") {
     CHECK(jacobian_rate(flat, exact, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitX()}).array().isNaN().all());
   }
 
-  TEST_CASE("O on the line of an external leg: nothing plausible") {
+  TEST_CASE("O on the line of an external leg: NaN or very large") {
     Random random(209);
     for (int n = 0; n < 100; ++n) {
       auto [g, c] = random_robot(random);
@@ -174,16 +174,16 @@ TEST_SUITE("acceleration") {
     }
   }
 
-  TEST_CASE("a leg of zero length has no acceleration, of whichever kind it is; the others have theirs") {
+  TEST_CASE("a leg of zero length of any kind has no acceleration; the others have") {
     Random random(210);
     for (Eigen::Index leg = 0; leg < 9; ++leg) {
       auto [g, c] = random_robot(random);
-      c.rotation = Mat3::Identity();  // the joint is met exactly
+      c.rotation = Mat3::Identity();  // O coincides with the joint exactly
       const auto i = static_cast<std::size_t>(leg % 3);
       if (leg < 3) c.position = g.base_external()[i] - g.platform_external()[i];
       else if (leg < 6) c.internal_point = c.position + g.platform_internal()[i];
       else c.internal_point = g.base_internal()[i];
-      // p + u - r and s - p - u~ must vanish in arithmetic, not on paper.
+      // p + u - r and s - p - u~ must vanish in floating-point arithmetic.
       Triple external = g.base_external(), upper = g.platform_internal();
       if (leg < 3) external[i] = c.position + g.platform_external()[i];
       if (leg >= 3 && leg < 6) upper[i] = c.internal_point - c.position;
@@ -196,7 +196,7 @@ TEST_SUITE("acceleration") {
     }
   }
 
-  TEST_CASE("NaN in, NaN out; a characteristic length that is none is refused by name") {
+  TEST_CASE("NaN gives NaN; an invalid characteristic length is rejected by name") {
     Random random(211);
     const auto [g, good] = random_robot(random);
     const Motion m = random_motion(random);

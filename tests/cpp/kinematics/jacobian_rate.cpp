@@ -1,5 +1,5 @@
-/// The derivative of J' in time against differences of the oracle's J', a general inverse in extended precision, along the
-/// motion; and against accelerations, with which it makes the derivative of the twist.
+/// The derivative of J' in time against differences of the oracle's J', a general inverse in extended precision, along
+/// the motion; and against accelerations: together they are the derivative of the twist.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ oracle::Matrix jacobian_at(const Robot& robot, const Velocity& v, double t, doub
 }  // namespace
 
 TEST_SUITE("jacobian_rate") {
-  TEST_CASE("the derivative of J' is that of the oracle's J' along the motion, each half in its own size") {
+  TEST_CASE("the derivative of J' is that of the oracle's J' along the motion, both halves relative to their size") {
     Random random(205);
     for (int n = 0; n < 200; ++n) {
       const Robot robot = random_robot(random);
@@ -41,7 +41,7 @@ TEST_SUITE("jacobian_rate") {
     }
   }
 
-  TEST_CASE("tdot = J' uddot + Jdot' udot, whatever O does and whatever the characteristic length") {
+  TEST_CASE("tdot = J' uddot + (d/dt J') udot for any motion of O and any characteristic length") {
     Random random(206);
     for (int n = 0; n < 500; ++n) {
       const Robot robot = random_robot(random);

@@ -1,5 +1,5 @@
-/// null_motion and internal_velocity against least squares in extended precision on the differentiated leg lengths, which know
-/// neither B, C nor the platform's point at O.
+/// null_motion and internal_velocity against least squares in extended precision on the differentiated leg lengths,
+/// which do not contain B, C or the platform point at O.
 
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ Vec9 random_weights(Random& random, double spread) {
   return Vec9::NullaryExpr([&] { return random.log_uniform(1.0 / spread, spread); });
 }
 
-/// A point of the plane of a triple, off its centre.
+/// A point in the plane of a triple, away from its centre.
 Vec3 in_plane(const Triple& t) {
   return t[0] + 0.41 * (t[1] - t[0]) + 0.23 * (t[2] - t[0]);
 }
@@ -51,7 +51,7 @@ const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
 }  // namespace
 
 TEST_SUITE("least_rates") {
-  TEST_CASE("null motions are the derivatives of the leg lengths by O, and J' does not see them") {
+  TEST_CASE("null motions are the derivatives of the leg lengths by O, and J' maps them to zero") {
     Random random(221);
     for (int n = 0; n < 200; ++n) {
       const Robot robot = random_robot(random);
@@ -67,7 +67,7 @@ TEST_SUITE("least_rates") {
     }
   }
 
-  TEST_CASE("internal velocity solves the least-squares problem, whatever the weights") {
+  TEST_CASE("internal velocity solves the least-squares problem for any weights") {
     Random random(222);
     for (int n = 0; n < 300; ++n) {
       const Robot robot = random_robot(random);
@@ -99,10 +99,11 @@ TEST_SUITE("least_rates") {
     }
   }
 
-  TEST_CASE("digits are lost with the conditioning, not with its square") {
+  TEST_CASE("the error grows with the condition number and not with its square") {
     Random random(224);
     for (const double height : {1e-2, 1e-4, 1e-6, 1e-8}) {
-      // O close to both planes, which coincide: what is left of C and B normal to them is of that height.
+      // O close to both planes, which coincide: the components of C and B normal to them are of the size of that
+      // height.
       for (int n = 0; n < 20; ++n) {
         const Configuration c{Vec3(0.1, 0.2, height * random.uniform(2.0, 3.0)), Mat3::Identity(),
                               Vec3(0.3, -0.2, height)};
@@ -129,16 +130,16 @@ TEST_SUITE("least_rates") {
     }
   }
 
-  TEST_CASE("where one is singular, the other's legs alone say what O does normal to the plane") {
+  TEST_CASE("where one is singular, the legs of the other determine the motion of O normal to the plane") {
     const Configuration in_base{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 0.0)};
-    // The platform rises: the upper legs would take O along, the lower ones do not resist.
+    // The platform rises: the upper legs move O along, and the lower ones do not resist.
     CHECK(internal_velocity(flat, in_base, Vec3::Zero(), Vec3::UnitZ()).z() > 0.5);
     const Configuration in_platform{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0)};
-    // The lower legs hold O, and the upper ones do not feel that the platform leaves it.
+    // The lower legs hold O, and the rates of the upper ones do not depend on the platform rising.
     CHECK(internal_velocity(flat, in_platform, Vec3::Zero(), Vec3::UnitZ()).norm() <= 4.0 * eps);
   }
 
-  TEST_CASE("both singular in one direction: the shortest answer, and leg rates that are still the least") {
+  TEST_CASE("both singular in one direction: the shortest solution, and leg rates that are still minimal") {
     const Configuration c{Vec3(0.1, 0.2, 0.0), Mat3::Identity(), Vec3(0.3, -0.2, 0.0)};
     Random random(226);
     for (int n = 0; n < 100; ++n) {
@@ -151,9 +152,9 @@ TEST_SUITE("least_rates") {
     CHECK(null_motion(flat, c).fullPivLu().rank() == 2);
   }
 
-  TEST_CASE("very different weights: the heavy legs are obeyed, the light ones decide what these leave free") {
-    // O in the platform's plane and the upper legs heavy: in the plane O follows the platform, normal to it the lower legs,
-    // light as they are, say where it goes.
+  TEST_CASE("very different weights: large weights dominate, small ones determine the remaining direction") {
+    // O in the platform's plane, upper legs with large weights: in the plane O follows the platform, normal to it the
+    // lower legs with their small weights determine its motion.
     const Configuration c{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0)};
     for (const double light : {1e-6, 1e-12, 1e-20, 1e-26}) {
       Vec9 weights = Vec9::Ones();
@@ -168,7 +169,7 @@ TEST_SUITE("least_rates") {
     }
   }
 
-  TEST_CASE("external weights have no effect; one that is not finite and positive is refused by name") {
+  TEST_CASE("external weights have no effect; one that is not finite and positive is rejected by name") {
     Random random(227);
     const auto [g, c] = random_robot(random);
     const Vec3 omega = random.matrix<Vec3>(), pdot = random.matrix<Vec3>();
@@ -184,7 +185,7 @@ TEST_SUITE("least_rates") {
       }
   }
 
-  TEST_CASE("NaN in, NaN out, from every number") {
+  TEST_CASE("NaN in any argument gives NaN") {
     Random random(228);
     const auto [g, good] = random_robot(random);
     const Vec3 one = Vec3::Ones();

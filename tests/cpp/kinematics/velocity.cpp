@@ -1,5 +1,5 @@
-/// velocity.hpp against finite differences of leg lengths, against the complex-step oracle (which knows neither the paper's
-/// matrices nor the closed form), and against the identities of eqs. (30)-(36).
+/// velocity.hpp against finite differences of leg lengths, against the complex-step oracle (which uses neither the
+/// paper's matrices nor the closed form), and against the identities of eqs. (30)-(36).
 
 #include "ninedof/kinematics/velocity.hpp"
 
@@ -84,7 +84,7 @@ TEST_SUITE("velocity") {
     }
   }
 
-  TEST_CASE("F t = G udot for every motion, whatever the characteristic length") {
+  TEST_CASE("F t = G udot for every motion and any characteristic length") {
     Random random(63);
     for (int n = 0; n < 300; ++n) {
       const auto [g, c] = random_robot(random);
@@ -103,7 +103,7 @@ TEST_SUITE("velocity") {
       const double lc = random.log_uniform(0.1, 10.0);
       const oracle::Matrix expected = oracle::jacobian(g, c, lc);
       const Mat69 j = jacobian(g, c, lc);
-      // Accuracy is lost with the conditioning of the three systems behind J'; it is measured on each half.
+      // The error grows with the condition numbers of the three systems behind J'; each half is measured separately.
       const VelocityMatrices m = velocity_matrices(g, c, lc);
       const oracle::Vector sigma = oracle::singular_values(oracle::rates(g, c));
       const double tolerance = 16.0 * eps * static_cast<double>(sigma[0] / sigma[8]);
@@ -113,7 +113,7 @@ TEST_SUITE("velocity") {
     }
   }
 
-  TEST_CASE("the characteristic length multiplies the angular rows and nothing else") {
+  TEST_CASE("the characteristic length multiplies the angular rows only") {
     Random random(65);
     const auto [g, c] = random_robot(random);
     const Mat69 one = jacobian(g, c), eight = jacobian(g, c, 8.0);
@@ -135,7 +135,7 @@ TEST_SUITE("velocity") {
     }
   }
 
-  TEST_CASE("powers of two as units of length round nothing, from 1e-90 to 1e90") {
+  TEST_CASE("with powers of two as units of length the bits are the same, from 1e-90 to 1e90") {
     Random random(72);
     for (int n = 0; n < 20; ++n) {
       const Robot robot = random_robot(random);
@@ -153,7 +153,7 @@ TEST_SUITE("velocity") {
     }
   }
 
-  TEST_CASE("forward velocity is where the robot goes: differences of leg lengths along it give the rates back") {
+  TEST_CASE("differences of leg lengths along the forward velocity give the rates back") {
     Random random(67);
     for (int n = 0; n < 100; ++n) {
       const auto [g, c] = random_robot(random);
@@ -164,7 +164,7 @@ TEST_SUITE("velocity") {
     }
   }
 
-  TEST_CASE("NaN in, NaN out; a characteristic length that is none is refused by name") {
+  TEST_CASE("NaN gives NaN; an invalid characteristic length is rejected by name") {
     Configuration c = neutral(2, 1);
     const Geometry g = Geometry::hexagonal(0, 3, 2, 0);
     for (const double bad : {0.0, -1.0, not_a_number, infinity}) {

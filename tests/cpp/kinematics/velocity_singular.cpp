@@ -1,5 +1,4 @@
-/// Velocities where the legs, held at their lengths, leave something free to move. Each configuration is built from what makes
-/// it singular, not from a determinant.
+/// Velocities at singular configurations, each built from its geometric condition and not from a determinant.
 
 #include <doctest/doctest.h>
 
@@ -15,12 +14,12 @@ Vec3 mean(const Triple& t) {
   return (t[0] + t[1] + t[2]) / 3.0;
 }
 
-/// A point of the plane of a triple, off its centre.
+/// A point in the plane of a triple, away from its centre.
 Vec3 in_plane(const Triple& t) {
   return mean(t) + 0.31 * (t[1] - t[0]) - 0.17 * (t[2] - t[0]);
 }
 
-/// NaN, or so large that nobody takes it for an answer.
+/// NaN, or too large to be mistaken for a result.
 bool implausible(const auto& m) {
   return m.array().isNaN().any() || m.cwiseAbs().maxCoeff() > 1e12;
 }
@@ -28,7 +27,7 @@ bool implausible(const auto& m) {
 }  // namespace
 
 TEST_SUITE("velocity_singular") {
-  TEST_CASE("O in the plane of the base joints (det B = 0): NaN where exact, else nothing plausible") {
+  TEST_CASE("O in the plane of the base joints (det B = 0): NaN where exact, else very large") {
     const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     const Configuration exact{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 0.0)};
     CHECK(jacobian(flat, exact).array().isNaN().all());
@@ -47,7 +46,7 @@ TEST_SUITE("velocity_singular") {
     }
   }
 
-  TEST_CASE("O within the joints of an oblique plane, met exactly: NaN, where a division would give infinity") {
+  TEST_CASE("O exactly in an oblique plane of joints: NaN, where a division would give infinity") {
     const Triple oblique{Vec3(2, -1, -1), Vec3(-1, 2, -1), Vec3(-1, -1, 2)};
     const Triple plate{Vec3(3, 0, 0), Vec3(-1, 2, 0), Vec3(-1, -2, 0)};
     const Geometry g(plate, oblique, plate, plate);
@@ -57,7 +56,7 @@ TEST_SUITE("velocity_singular") {
     CHECK(v.pdot.array().isNaN().all());
   }
 
-  TEST_CASE("O in the plane of the platform joints (det C = 0): the platform's velocity is lost, that of O is not") {
+  TEST_CASE("O in the plane of the platform joints (det C = 0): only the velocity of O is determined") {
     const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     const Configuration exact{Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0)};
     CHECK(jacobian(flat, exact).array().isNaN().all());
@@ -72,7 +71,7 @@ TEST_SUITE("velocity_singular") {
     }
   }
 
-  TEST_CASE("O on the line of an external leg (det M = 0): nothing plausible, O itself still known") {
+  TEST_CASE("O on the line of an external leg (det N = 0): NaN or very large, but the velocity of O is known") {
     Random random(70);
     for (int n = 0; n < 300; ++n) {
       auto [g, c] = random_robot(random);
@@ -85,14 +84,14 @@ TEST_SUITE("velocity_singular") {
     }
   }
 
-  TEST_CASE("closer and closer to det C = 0: sdot keeps its digits, the platform's velocity grows as 1 / distance") {
+  TEST_CASE("approaching det C = 0: sdot keeps its digits, the platform's velocity grows as 1 / distance") {
     const Geometry flat = Geometry::hexagonal(0.4, 3.0, 2.0, 0.3);
     const auto at = [&](double distance) {
       return forward_velocity(flat, {Vec3(0.1, 0.2, 2.0), Mat3::Identity(), Vec3(0.3, -0.2, 2.0 - distance)},
                               Vec9::Unit(3));
     };
     const double expected = at(1e-4).pdot.norm() * 1e-4;
-    for (const double distance : {0x1p-20, 0x1p-30, 0x1p-40, 0x1p-50}) {  // what 2 - distance still holds exactly
+    for (const double distance : {0x1p-20, 0x1p-30, 0x1p-40, 0x1p-50}) {  // 2 - distance is exact
       CHECK(at(distance).sdot.norm() == 0.0);
       CHECK(at(distance).pdot.norm() * distance == doctest::Approx(expected).epsilon(1e-2));
     }

@@ -1,4 +1,4 @@
-/// Roots on the projective line against polynomials multiplied out from known ones.
+/// Roots on the projective line against polynomials built from known roots.
 
 #include "math/roots/circle_roots.hpp"
 
@@ -17,7 +17,8 @@ using ninedof::Octic;
 
 namespace {
 
-/// Product of factors (a x + b), real roots at -b / a, infinity where a = 0; missing degrees filled with x^2 + c^2, c off zero.
+/// Product of factors (a x + b), real roots at -b / a, infinity where a = 0; missing degrees filled with x^2 + c^2, c
+/// off zero.
 Octic product(const std::vector<std::array<double, 2>>& factors, Random& random) {
   std::vector<double> p{1.0};
   const auto times = [&](const std::vector<double>& f) {
@@ -52,7 +53,7 @@ double apart(double a, double b) {
 }  // namespace
 
 TEST_SUITE("circle_roots") {
-  TEST_CASE("all real roots, and only those") {
+  TEST_CASE("all real roots are found, and no others") {
     Random random(1);
     int certain = 0;
     for (int n = 0; n < 3000; ++n) {
@@ -81,7 +82,7 @@ TEST_SUITE("circle_roots") {
     CHECK(certain > 2900);
   }
 
-  TEST_CASE("zero, infinity and one are roots like others") {
+  TEST_CASE("zero, infinity and one are ordinary roots") {
     Random random(2);
     for (const std::vector<std::array<double, 2>>& factors :
          {std::vector<std::array<double, 2>>{{1.0, 0.0}, {0.0, 1.0}},
@@ -94,7 +95,7 @@ TEST_SUITE("circle_roots") {
     }
   }
 
-  TEST_CASE("double roots are not sworn to") {
+  TEST_CASE("double roots are reported as uncertain") {
     Random random(3);
     for (int n = 0; n < 200; ++n) {
       const double a = random.uniform(-1.5, 1.5);
@@ -105,7 +106,7 @@ TEST_SUITE("circle_roots") {
     }
   }
 
-  TEST_CASE("no polynomial, no answer") {
+  TEST_CASE("coefficients that are zero or not finite give no roots") {
     CHECK_FALSE(circle_roots(Octic{}, 0.0).certain);
     Octic noise{};
     noise.fill(1e-15);

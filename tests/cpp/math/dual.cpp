@@ -1,4 +1,4 @@
-/// dual.hpp: every operator against differences of plain doubles, which know nothing of derivative rules.
+/// dual.hpp: every operator against differences of plain doubles.
 
 #include "ninedof/math/dual.hpp"
 
@@ -30,7 +30,7 @@ double difference(const F& f, std::array<double, 2> x, std::size_t k) {
   return (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
 }
 
-/// A formula over any number type: value as with doubles, gradient as the differences say.
+/// Compares a formula over dual numbers: its value with doubles, its gradient with differences.
 template <class F>
 void check_formula(const std::string& what, const F& f) {
   CAPTURE(what);
@@ -41,7 +41,7 @@ void check_formula(const std::string& what, const F& f) {
     CAPTURE(x[0]);
     CAPTURE(x[1]);
     const D out = f(D::variable(x[0], 0), D::variable(x[1], 1));
-    // Not bit for bit: a quotient is a product with the reciprocal.
+    // Not bit-equal: a quotient is a product with the reciprocal.
     const double value = f(x[0], x[1]);
     CHECK(std::abs(out.value - value) <= 16.0 * eps * std::max(1.0, std::abs(value)));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -74,7 +74,7 @@ TEST_SUITE("dual") {
   }
 
   TEST_CASE("a dual divided by a constant") {
-    // Asked of the compiler, so that a missing operator fails this test and not the build of all of them.
+    // A requires-expression: a missing operator fails this test instead of the build of all tests.
     check_formula("x / c", [](const auto& x, const auto&) {
       using T = std::decay_t<decltype(x)>;
       if constexpr (divides_by_a_constant<T>) return x / 1.7;
@@ -139,7 +139,7 @@ TEST_SUITE("dual") {
     CHECK(product.gradient[2] == 6.0);
   }
 
-  TEST_CASE("kinks: the derivative of sqrt at zero is given as 0, that of abs at zero is finite") {
+  TEST_CASE("kinks: the derivative of sqrt at zero is 0, that of abs at zero is finite") {
     const D root = sqrt(D::variable(0.0, 0));
     CHECK(root.value == 0.0);
     CHECK(root.gradient == std::array{0.0, 0.0});
@@ -148,7 +148,7 @@ TEST_SUITE("dual") {
     CHECK(std::abs(size.gradient[0]) <= 1.0);
   }
 
-  TEST_CASE("what is no number stays none") {
+  TEST_CASE("NaN and infinity propagate") {
     CHECK(std::isnan(sqrt(D::variable(-1.0, 0)).value));
     CHECK(std::isnan(log(D::variable(-1.0, 0)).value));
     CHECK(std::isnan((D(not_a_number) * D::variable(1.0, 0)).value));

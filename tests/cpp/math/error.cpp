@@ -13,7 +13,7 @@ using namespace ninedof;
 using namespace support;
 
 TEST_SUITE("error") {
-  TEST_CASE("a message names the argument, what came and what was expected") {
+  TEST_CASE("a message names the argument, the value received and the value expected") {
     CHECK(std::string(InvalidArgument("zp", "-1", "a finite number > 0").what()) ==
           "zp: got -1, expected a finite number > 0");
     CHECK_THROWS_AS(require_positive("x", 0.0), std::invalid_argument);

@@ -1,4 +1,4 @@
-/// first_root.hpp: zeros of functions whose zeros are known, close pairs and touching ones above all. enclosure.hpp and
+/// first_root.hpp: zeros of functions whose zeros are known, mainly close pairs and double zeros. enclosure.hpp and
 /// enclosed_motion.hpp: against the same formulas in extended precision.
 
 #include "math/roots/first_root.hpp"
@@ -98,7 +98,7 @@ TEST_SUITE("first_root") {
     }
   }
 
-  TEST_CASE("two zeros however close, a touched one, and one that is just missed") {
+  TEST_CASE("two close zeros, a double zero, and a minimum just above zero") {
     for (const double gap : {1e-1, 1e-2, 1e-4, 1e-6, 1e-7}) {
       // 2 (t - 0.6)^2 and a gap of either sign: (t - 0.6)^2 - gap^2 has zeros at 0.6 -+ gap.
       const Polynomial crossing{{0.36 - gap * gap, -1.2, 1.0}}, missing{{0.36 + gap * gap, -1.2, 1.0}};
@@ -117,7 +117,7 @@ TEST_SUITE("first_root") {
     CHECK(std::abs(search(with_roots({0.6, 0.6, 0.6})).at - 0.6) <= 1e-4);
   }
 
-  TEST_CASE("cubics, which bend down by all that the bound of the third derivative allows") {
+  TEST_CASE("cubics, which attain the bound of the third derivative") {
     Random random(403);
     for (int n = 0; n < 2000; ++n) {
       const double root = random.uniform(0.01, 1.0), k = 1.0 / (root * root * root);
@@ -135,7 +135,7 @@ TEST_SUITE("first_root") {
     CHECK(search(Polynomial{{0.0}}).at == 0.0);
   }
 
-  TEST_CASE("what cannot be settled is said so, with what is known") {
+  TEST_CASE("an unresolved search is reported, with the interval that has no zero") {
     const auto wave = [](double t, double) {
       return Enclosure<double>{
           {1.001 + std::cos(t), -std::sin(t), -0.5 * std::cos(t)}, {1e-15, 1e-15, 1e-15}, {2.001, 1.0, 0.5, 1.0 / 6.0}};
@@ -153,7 +153,7 @@ TEST_SUITE("first_root") {
     CHECK((broken.at >= 0.5 && broken.at < 1.0));
   }
 
-  TEST_CASE("lines and turning vectors: values, errors, and bounds that hold and are nearly reached") {
+  TEST_CASE("lines and rotating vectors: values, errors, and bounds that hold and are nearly attained") {
     Random random(404);
     for (int n = 0; n < 300; ++n) {
       const Vec3 v = random.matrix<Vec3>(), omega = random.log_uniform(0.1, 10.0) * random.unit();
@@ -191,7 +191,7 @@ TEST_SUITE("first_root") {
     CHECK((still.at[0] == Vec3(1, 2, 3) && still.at[1] == Vec3::Zero() && still.bound[1] == 0.0));
   }
 
-  TEST_CASE("products and sums hold what they promise: values, errors, bounds over the window") {
+  TEST_CASE("products and sums: values, errors and bounds over the window hold") {
     Random random(402);
     for (int n = 0; n < 200; ++n) {
       Curve x[4];

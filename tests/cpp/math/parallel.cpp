@@ -1,4 +1,4 @@
-/// parallel.hpp: every item once, whatever the threads; exceptions come back.
+/// parallel.hpp: every item once with any number of threads; exceptions are rethrown.
 
 #include "ninedof/math/parallel.hpp"
 
@@ -12,7 +12,7 @@
 using namespace ninedof;
 
 TEST_SUITE("parallel") {
-  TEST_CASE("every item is visited exactly once, in blocks no longer than asked") {
+  TEST_CASE("every item is visited exactly once, in blocks of at most the given length") {
     for (const long count : {0L, 1L, 2L, 7L, 100L, 1001L})
       for (const long block : {1L, 3L, 64L, 5000L})
         for (const int threads : {0, 1, 2, 3, 8}) {
@@ -27,7 +27,7 @@ TEST_SUITE("parallel") {
         }
   }
 
-  TEST_CASE("an exception in any thread ends the loop and is thrown here") {
+  TEST_CASE("an exception in any thread ends the loop and is rethrown") {
     for (const int threads : {1, 2, 4}) {
       std::atomic<int> calls = 0;
       const auto work = [&](long first, long) {
@@ -39,7 +39,7 @@ TEST_SUITE("parallel") {
     }
   }
 
-  TEST_CASE("thread_count: as asked, else at least one") {
+  TEST_CASE("thread_count: the given number, else at least one") {
     CHECK(thread_count(3) == 3);
     CHECK(thread_count(0) >= 1);
     CHECK(thread_count(-1) >= 1);

@@ -1,4 +1,4 @@
-/// rotation.hpp against the exponential series, against literal matrices, and against itself there and back.
+/// rotation.hpp against the exponential series, against literal matrices, and round trips.
 
 #include "ninedof/math/rotation.hpp"
 
@@ -30,7 +30,8 @@ Mat3 exponential_series(const Vec3& w) {
   return sum.cast<double>();
 }
 
-/// Angles in all regimes: none, below what a square can hold, tiny, ordinary, on both sides of a half turn, several turns.
+/// Angles of all sizes: zero, so small that the square underflows, tiny, ordinary, on both sides of a half turn,
+/// several turns.
 const std::vector<double> all_angles{0.0,       1e-300,     1e-160, 1e-100,    1e-20,     1e-9,     1e-8,
                                      1e-5,      1e-3,       0.3,    1.0,       2.0,       3.0,      pi - 1e-4,
                                      pi - 1e-8, pi - 1e-13, pi,     pi + 1e-9, pi + 1e-2, 2.0 * pi, 10.0};
@@ -65,7 +66,7 @@ TEST_SUITE("rotation") {
         const Mat3 q = exp_rotation(angle * axis);
         CHECK((q - exponential_series(angle * axis)).cwiseAbs().maxCoeff() <= (4.0 + 2.0 * angle) * eps);
         CHECK(orthogonality_error(q) <= 16.0 * eps);
-        // A small rotation keeps its relative accuracy in what differs from the identity.
+        // For a small rotation the difference from the identity has relative accuracy.
         if (angle > 0.0 && angle < 1e-3)
           CHECK((q - q.transpose()).norm() == doctest::Approx(std::sqrt(8.0) * angle).epsilon(1e-6));
       }
@@ -92,7 +93,7 @@ TEST_SUITE("rotation") {
     }
   }
 
-  TEST_CASE("log takes the short way: beyond a half turn the other way round") {
+  TEST_CASE("log returns the shorter rotation: beyond a half turn the opposite one") {
     for (const Vec3& axis : axes())
       for (const double angle : {pi + 1e-9, pi + 0.01, 4.0, 6.0, 2.0 * pi + 1.0, 20.0}) {
         CAPTURE(axis);
@@ -127,12 +128,12 @@ TEST_SUITE("rotation") {
     CHECK((exp_rotation({0, pi / 2.0, 0}) - about_y).cwiseAbs().maxCoeff() <= 4.0 * eps);
   }
 
-  TEST_CASE("quaternion and matrix there and back; w >= 0; length and sign do not matter") {
+  TEST_CASE("round trip of quaternion and matrix; w >= 0; length and sign do not matter") {
     Random random(13);
     for (int k = 0; k < 2000; ++k) {
       Eigen::Vector4d wxyz = random.matrix<Eigen::Vector4d>().normalized();
       if (k % 5 == 0) wxyz[0] = 0.0;                  // half turns
-      if (k % 7 == 0) wxyz.tail<3>() *= 1e-12;        // almost none
+      if (k % 7 == 0) wxyz.tail<3>() *= 1e-12;        // nearly no rotation
       if (k % 11 == 0) wxyz[1 + k % 3] = 0.0;
       wxyz.normalize();
       const Mat3 q = rotation_from_quaternion(wxyz);
@@ -146,7 +147,7 @@ TEST_SUITE("rotation") {
     }
   }
 
-  TEST_CASE("skew is the vector product; rotation_about_z turns x towards y") {
+  TEST_CASE("skew is the cross product; rotation_about_z rotates x towards y") {
     CHECK(skew({1, 2, 3}) * Vec3(4, 5, 6) == Vec3(-3, 6, -3));
     for (const double angle : {-3.0, -0.1, 0.0, 1e-9, 2.0, 5.0}) {
       CHECK((rotation_about_z(angle) * Vec3::UnitX() - Vec3(std::cos(angle), std::sin(angle), 0)).norm() <= eps);
@@ -154,7 +155,7 @@ TEST_SUITE("rotation") {
     }
   }
 
-  TEST_CASE("bad rotations are refused by name") {
+  TEST_CASE("invalid rotations are rejected by name") {
     CHECK(refuses("quaternion", [] { rotation_from_quaternion({0, 0, 0, 0}); }));
     CHECK(refuses("quaternion", [] { rotation_from_quaternion({1, not_a_number, 0, 0}); }));
     CHECK(refuses("quaternion", [] { rotation_from_quaternion({1, 0, infinity, 0}); }));

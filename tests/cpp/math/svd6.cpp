@@ -1,7 +1,7 @@
 /// svd6.hpp against Eigen's two-sided Jacobi method (other rotations, other order, in extended precision) and against
 /// matrices built from known singular values.
 
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 
 #include <doctest/doctest.h>
 
@@ -97,7 +97,7 @@ TEST_SUITE("svd6") {
     }
   }
 
-  TEST_CASE("identity, zero, permutations, rotations, diagonals: to the last bit or next to it") {
+  TEST_CASE("identity, zero, permutations, rotations, diagonals: exact or to the last bit") {
     CHECK(singular_values_6x6(Mat6::Zero()) == Vec6::Zero());
     CHECK(singular_values_6x6(Mat6::Identity()) == Vec6::Ones());
     Vec6 d;
@@ -112,7 +112,7 @@ TEST_SUITE("svd6") {
     CHECK(error(singular_values_6x6(Mat6::Ones()), 6.0 * Vec6::Unit(0)) <= 2.0 * eps);
   }
 
-  TEST_CASE("orders of magnitude: the answer scales with the matrix from 1e-300 to 1e300") {
+  TEST_CASE("orders of magnitude: the singular values scale with the matrix from 1e-300 to 1e300") {
     Random random(85);
     for (int n = 0; n < 200; ++n) {
       const Mat6 m = random.matrix<Mat6>();
@@ -122,7 +122,7 @@ TEST_SUITE("svd6") {
     }
   }
 
-  TEST_CASE("columns graded from 1e150 to 1e-150: no overflow, no NaN, the large ones right") {
+  TEST_CASE("columns graded from 1e150 to 1e-150: no overflow, no NaN, the large ones correct") {
     Random random(86);
     for (int n = 0; n < 500; ++n) {
       Mat6 m = random.matrix<Mat6>();
@@ -141,7 +141,7 @@ TEST_SUITE("svd6") {
   }
 
   TEST_CASE("columns graded over a few decades: small singular values with relative accuracy") {
-    // One-sided rotations lose nothing to column scaling; checked against extended precision.
+    // Column scaling does not reduce the accuracy of one-sided rotations; checked against extended precision.
     Random random(87);
     for (int n = 0; n < 500; ++n) {
       Mat6 m = random.matrix<Mat6>();
@@ -163,7 +163,7 @@ TEST_SUITE("svd6") {
     }
   }
 
-  TEST_CASE("right singular vectors: V orthogonal, M V has orthogonal columns as long as the singular values say") {
+  TEST_CASE("right singular vectors: V orthogonal, A V has orthogonal columns whose lengths are the singular values") {
     Random random(89);
     for (int n = 0; n < 1000; ++n) {
       Mat6 m = random.matrix<Mat6>();
@@ -197,7 +197,7 @@ TEST_SUITE("svd6") {
     CHECK(right_svd_6x6(bad).v.array().isNaN().all());
   }
 
-  TEST_CASE("NaN in, NaN out; infinite in, infinite out; never a number from neither") {
+  TEST_CASE("NaN gives NaN, an infinite entry infinity") {
     for (int k = 0; k < 36; ++k) {
       Mat6 m = Mat6::Identity();
       m(k / 6, k % 6) = not_a_number;

@@ -1,5 +1,5 @@
-/// null_space_rotations.hpp where solutions merge, form a curve, or meet a plane of the method's own making: against rotations
-/// that the problems were made from.
+/// null_space_rotations.hpp where solutions merge, form a curve, or satisfy g = 0 for a form g of the method: against
+/// the rotations from which the problems were built.
 
 #include <doctest/doctest.h>
 
@@ -36,7 +36,7 @@ TEST_SUITE("degenerate_rotations") {
         const Triple d = random_directions(random);
         Vec3 axis;
         const Triple w = with_double_root(random, q, d, random_directions(random), axis);
-        const Mat3 beside = Eigen::AngleAxisd(shift, axis).toRotationMatrix() * q;  // some 2 shift from its partner
+        const Mat3 beside = Eigen::AngleAxisd(shift, axis).toRotationMatrix() * q;  // 2 shift from the other
         const RotationProblem p = solved_by(beside, d, w);
         const auto found = solutions(p);
         CHECK(distance(found, beside) <= 1e-5);
@@ -44,7 +44,7 @@ TEST_SUITE("degenerate_rotations") {
         odd += static_cast<int>(found.size() % 2);
       }
       if (shift >= 1e-6) CHECK(odd == 0);
-      if (shift == 0.0) CHECK(odd > 1000);  // the pair counted once, unless it is very flat
+      if (shift == 0.0) CHECK(odd > 1000);  // the pair is usually counted once
     }
   }
 
@@ -61,11 +61,11 @@ TEST_SUITE("degenerate_rotations") {
       d[2] = sign * d[0];
       w[2] = sign * w[0];
       CHECK(self_motion(d, w));
-      // With other lengths the two legs contradict each other.
+      // With other lengths the two legs are incompatible.
       RotationProblem p = solved_by(q, d, w);
       p.c[2] += 0.01;
       CHECK((solutions(p).empty() && !null_space_rotations(p).self_motion));
-      // Only base directions, only platform directions, or both but of different legs: nothing special.
+      // Only base directions, only platform directions, or both but of different legs: no special case.
       for (const auto& [a, b] :
            {std::pair{d, random_directions(random)}, {random_directions(random), w}, {Triple{d[0], d[2], d[1]}, w}})
         CHECK(distance(solutions(solved_by(q, a, b)), q) <= 1e-7);
@@ -77,7 +77,7 @@ TEST_SUITE("degenerate_rotations") {
     }
   }
 
-  TEST_CASE("coplanar directions are not special") {
+  TEST_CASE("coplanar directions are no special case") {
     Random random(309);
     for (int n = 0; n < 300; ++n) {
       const Mat3 q = random.rotation();
@@ -90,8 +90,8 @@ TEST_SUITE("degenerate_rotations") {
     }
   }
 
-  TEST_CASE("a solution on the plane g = 0 of one, two or three of the four pairs of forms") {
-    // The rows of g, here to have z on them; its scale does not matter.
+  TEST_CASE("a solution with g = 0 for one, two or three of the four pairs of forms") {
+    // The rows of g, to which z is made orthogonal; its length does not matter.
     constexpr double a = 0.6821, b = 0.2714, c = -0.3917, d = 0.5547;
     const Eigen::Matrix4d g{{a, b, c, d}, {-b, a, -d, c}, {-c, d, a, -b}, {-d, -c, b, a}};
     CHECK((g * g.transpose() - Eigen::Matrix4d::Identity()).norm() < 1e-3);
@@ -106,7 +106,7 @@ TEST_SUITE("degenerate_rotations") {
       CHECK(null_space_rotations(p).reliable);
       const auto found = solutions(p);
       CHECK(distance(found, q) <= 1e-9);
-      // With the platform's axes turned no solution is on a plane, and all of them must correspond.
+      // With rotated platform axes no solution has g = 0, and all of them must correspond.
       const Mat3 turn = random.rotation();
       const auto elsewhere = solutions({p.d, turned(turn, p.w), p.c});
       CHECK(elsewhere.size() == found.size());

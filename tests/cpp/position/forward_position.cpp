@@ -1,5 +1,5 @@
-/// All assembly modes: what was put in comes out, each mode has the nine lengths by the other function, and two methods that share
-/// nothing but the equations count alike.
+/// All assembly modes: the original configuration is among them, leg_lengths of each mode gives the nine lengths, and
+/// two methods that share only the equations find the same number.
 
 #include "ninedof/position/forward_position.hpp"
 
@@ -72,14 +72,14 @@ TEST_SUITE("forward_position") {
       for (const AssemblyMode& m : fast) CHECK(nearest(slow, m.configuration) < 1e-6);
     }
     CHECK(fast_enough > 3980);
-    CHECK(both_certain > 3500);  // the null-space method does not swear to a count beside nearly real solutions
+    CHECK(both_certain > 3500);  // the null-space method is not certain near nearly real solutions
   }
 
-  TEST_CASE("flat plates in any plane are solved by halves, bent ones in full, with the same result") {
+  TEST_CASE("planar robots, solved by mirror images, and nearly planar ones, solved in full, agree") {
     Random random(2);
     for (int n = 0; n < 200; ++n) {
       const auto [g, c] = any_robot(random, true);
-      // The same robot seen from frames that lie anywhere, and one with a joint lifted by next to nothing.
+      // The same robot in arbitrary frames, and one with a joint moved slightly out of its plane.
       const Mat3 turn = random.rotation();
       const auto turned = [&](Triple t) {
         for (Vec3& j : t) j = turn * j + Vec3(0.3, -0.2, 0.7);
@@ -102,7 +102,7 @@ TEST_SUITE("forward_position") {
     }
   }
 
-  TEST_CASE("the octahedron: 32 modes, all as far apart as can be, and still 32 nearby") {
+  TEST_CASE("the octahedron: 32 modes, with the largest separation, and still 32 nearby") {
     const double a = std::numbers::sqrt2, third = 1.0 / std::numbers::sqrt3;
     const Geometry g = Geometry::hexagonal(0.0, a, a, 0.0);
     const AssemblyModes modes = forward_position(g, leg_lengths(g, ninedof::neutral(2.0 * third, third)));
@@ -119,7 +119,7 @@ TEST_SUITE("forward_position") {
     }
   }
 
-  TEST_CASE("legs through O: an isolated mode, found in spite of |c_i| = 1") {
+  TEST_CASE("legs through O: an isolated mode, found although |c_i| = 1") {
     Random random(4);
     for (int n = 0; n < 100; ++n) {
       // Each external leg goes through O: platform joints on the far side of it, on the lines from the base joints.
@@ -144,7 +144,7 @@ TEST_SUITE("forward_position") {
     }
   }
 
-  TEST_CASE("short legs, of each kind, down to none") {
+  TEST_CASE("short legs of each kind, down to zero length") {
     Random random(6);
     for (const double length : {1e-2, 1e-4, 1e-6, 1e-8, 0.0})
       for (std::size_t leg = 0; leg < 9; ++leg)
@@ -166,7 +166,7 @@ TEST_SUITE("forward_position") {
         }
   }
 
-  TEST_CASE("O in a plane of joints, whatever the sizes") {
+  TEST_CASE("O in a plane of joints, for any sizes") {
     Random random(7);
     for (const double near : {1.0, 1e-1, 1e-2, 1e-3})
       for (int n = 0; n < 60; ++n) {
@@ -183,7 +183,7 @@ TEST_SUITE("forward_position") {
       }
   }
 
-  TEST_CASE("what has no list is named") {
+  TEST_CASE("lengths without a list of modes have a status and a reason") {
     Random random(5);
     const auto [g, home] = any_robot(random, false);
     Configuration c = home;
@@ -206,7 +206,7 @@ TEST_SUITE("forward_position") {
     CHECK(forward_position(g, lengths).obstacle == PositionObstacle::external_leg_3);
   }
 
-  TEST_CASE("bad lengths are refused by name") {
+  TEST_CASE("invalid lengths are rejected by name") {
     const Geometry g = Geometry::hexagonal(0.3, 2.0, 1.0, 0.2);
     for (const double bad : {-1.0, not_a_number, infinity}) {
       Vec9 lengths = Vec9::Ones();

@@ -1,6 +1,6 @@
-/// null_space_rotations.hpp against rotations that the problems were made from, against a scan of the circle of rotations that
-/// solve the first equation (no quaternion, no linear algebra in it), and against symmetries. Where solutions merge or form a
-/// curve, see degenerate_rotations.cpp.
+/// null_space_rotations.hpp against the rotations from which the problems were built, against a scan of the circle of
+/// rotations that solve the first equation (no quaternion, no linear algebra in it), and against symmetries. Where
+/// solutions merge or form a curve, see degenerate_rotations.cpp.
 
 #include "position/null_space_rotations.hpp"
 
@@ -24,9 +24,9 @@ Mat3 frame_on(const Vec3& a) {
   return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), a).toRotationMatrix();
 }
 
-/// Real solutions counted without solving. Q = X Rz(phi) Ry(a) Rz(psi) Y^T with X e_z = d_1, Y e_z = w_1, cos a = c_1 solves the
-/// first equation; the others read A cos psi + B sin psi + C = 0, and eliminating psi leaves a function of phi that changes
-/// its sign at every simple solution. Two within one step of phi are missed, none is invented.
+/// Real solutions counted without solving. Q = X Rz(phi) Ry(a) Rz(psi) Y^T with X e_z = d_1, Y e_z = w_1, cos a = c_1
+/// solves the first equation; the others read A cos psi + B sin psi + C = 0, and eliminating psi leaves a function of
+/// phi that changes its sign at every simple solution. Two within one step of phi are missed.
 int sign_changes(const RotationProblem& p) {
   const Mat3 x = frame_on(p.d[0]), y = frame_on(p.w[0]);
   const Mat3 tilt = Eigen::AngleAxisd(std::acos(p.c[0]), Vec3::UnitY()).toRotationMatrix();
@@ -51,7 +51,7 @@ int sign_changes(const RotationProblem& p) {
   return changes;
 }
 
-/// Anything, a half turn, or within 1e-3 to 1e-14 of one or of the identity.
+/// A random rotation, a half turn, or one within 1e-3 to 1e-14 of a half turn or of the identity.
 Mat3 some_rotation(Random& random, int kind) {
   switch (kind % 4) {
     case 0: return Eigen::AngleAxisd(pi, random.unit()).toRotationMatrix();
@@ -81,7 +81,7 @@ bool same_candidates(const RotationCandidates& a, const RotationCandidates& b) {
 }  // namespace
 
 TEST_SUITE("null_space_rotations") {
-  TEST_CASE("the rotation that made the problem is found, to the accuracy of its condition; solutions come in pairs") {
+  TEST_CASE("the original rotation is found, to the accuracy of its condition; solutions come in pairs") {
     Random random(301);
     std::array<int, 9> counts{};
     double worst_candidate = 0.0, worst = 0.0, worst_residual = 0.0;
@@ -114,7 +114,7 @@ TEST_SUITE("null_space_rotations") {
     int equal = 0;
     constexpr int problems = 300;
     for (int n = 0; n < problems; ++n) {
-      // Half of them have no solution to be made from.
+      // Half of the problems are not built from a solution.
       RotationProblem p = solved_by(random.rotation(), random_directions(random), random_directions(random));
       if (n % 2 == 1) p.c = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
       const int found = static_cast<int>(solutions(p).size()), expected = sign_changes(p);
@@ -134,7 +134,7 @@ TEST_SUITE("null_space_rotations") {
         CHECK(distance(found, signs.asDiagonal() * cycle) <= 16.0 * eps);
     for (const auto& s : found)
       CHECK((rows_of(s.at.row) * rows_of(s.at.row).transpose() - Mat3::Identity()).norm() <= 32.0 * eps);
-    // They are simple, so near problems have eight, too.
+    // They are simple, so nearby problems also have eight.
     Random random(303);
     for (int n = 0; n < 200; ++n) {
       Triple d = axes, w = axes;
@@ -187,7 +187,7 @@ TEST_SUITE("null_space_rotations") {
     }
   }
 
-  TEST_CASE("no rotation is special: turned axes, turned solutions") {
+  TEST_CASE("rotated axes give rotated solutions") {
     Random random(305);
     for (int n = 0; n < 300; ++n) {
       const RotationProblem p = solved_by(random.rotation(), random_directions(random), random_directions(random));
@@ -204,7 +204,7 @@ TEST_SUITE("null_space_rotations") {
     }
   }
 
-  TEST_CASE("what is not finite gives no candidates; the same problem gives the same bits") {
+  TEST_CASE("input that is not finite gives no candidates; the same problem gives the same bits") {
     Random random(311);
     const RotationProblem good = solved_by(random.rotation(), random_directions(random), random_directions(random));
     const RotationCandidates once = null_space_rotations(good);

@@ -1,5 +1,5 @@
-/// polish_rotation.hpp against rotations that the problems were made from, against finite differences, and against Kantorovich's
-/// theorem on where Newton's method converges.
+/// polish_rotation.hpp against the rotations from which the problems were built, against finite differences, and
+/// against Kantorovich's theorem on where Newton's method converges.
 
 #include "position/polish_rotation.hpp"
 
@@ -80,7 +80,7 @@ TEST_SUITE("polish_rotation") {
     }
   }
 
-  TEST_CASE("from anywhere: a solution or a residual that says it is none; always a rotation") {
+  TEST_CASE("from any start: a solution, or a residual that shows there is none; always a rotation") {
     Random random(324);
     int reached = 0;
     for (int n = 0; n < 3000; ++n) {
@@ -95,10 +95,10 @@ TEST_SUITE("polish_rotation") {
       reached += s.converged() ? 1 : 0;
       CHECK(apart(polish_rotation(p, start, 1).rotation, start) <= 0.5);
     }
-    CHECK(reached > 2200);  // the rest stop where |f| is least nearby
+    CHECK(reached > 2200);  // the rest stop at local minima of |f|
   }
 
-  TEST_CASE("double roots: the residual gets to rounding, from beside the root and from where J is singular") {
+  TEST_CASE("double roots: the residual reaches rounding, from near the root and from a singular J") {
     Random random(325);
     int missed = 0;
     for (int n = 0; n < 4000; ++n) {
@@ -108,14 +108,14 @@ TEST_SUITE("polish_rotation") {
       const RotationProblem p = solved_by(q, d, with_double_root(random, q, d, random_directions(random), axis));
       const auto s = polish_rotation(p, turned_by(random.log_uniform(1e-6, 1e-2) * random.unit(), q));
       missed += s.residual() <= 64.0 * eps ? 0 : 1;
-      // J is singular at q; this problem has its solutions elsewhere.
+      // J is singular at q; the solutions of this problem are elsewhere.
       RotationProblem moved = p;
       moved.c += 1e-4 * random.unit();
       const auto other = polish_rotation(moved, q);
       CHECK(orthogonality_error(other.rotation) <= 2e-15);
       CHECK((solved_by(other.rotation, moved.d, moved.w).c - moved.c).norm() <= 1e-4 + 4.0 * eps);
     }
-    CHECK(missed <= 4);  // roots that are nearly triple, from far off
+    CHECK(missed <= 4);  // nearly triple roots, from distant starts
   }
 
   TEST_CASE("all three legs through O: J = 0 at a root of multiplicity eight") {
@@ -128,17 +128,17 @@ TEST_SUITE("polish_rotation") {
       const auto s = polish_rotation(p, turned_by(1e-2 * random.unit(), q));
       CHECK(s.converged());
       CHECK(apart(s.rotation, q) <= 1e-6);
-      CHECK(polish_rotation(p, q).converged());  // J = 0 at the start, nothing left to do
+      CHECK(polish_rotation(p, q).converged());  // J = 0 at the start, already a solution
     }
   }
 
-  TEST_CASE("no solution: not converged, whatever the start; no steps: the start; NaN: not converged") {
+  TEST_CASE("no solution: not converged from any start; no steps: the start; NaN: not converged") {
     Random random(327);
     for (int n = 0; n < 100; ++n) {
       const Mat3 start = random.rotation();
       RotationProblem p = solved_by(random.rotation(), random_directions(random), random_directions(random));
       CHECK(apart(polish_rotation(p, start, 0).rotation, start) <= 4.0 * eps);
-      p.c[1] = 1.01;  // beyond what two unit vectors can do
+      p.c[1] = 1.01;  // more than the product of two unit vectors
       const auto s = polish_rotation(p, start);
       CHECK((!s.converged() && s.residual() >= 0.001));
       CHECK(orthogonality_error(s.rotation) <= 2e-15);

@@ -1,4 +1,4 @@
-/// Tracking against the list of all modes, and what its certificate promises.
+/// Tracking against the list of all modes, and the statements of its certificate.
 
 #include "ninedof/position/tracking.hpp"
 
@@ -50,7 +50,7 @@ TEST_SUITE("tracking") {
     CHECK(certified > 600);
   }
 
-  TEST_CASE("a path there and back ends where it began") {
+  TEST_CASE("a path to a configuration and back ends at its start") {
     Random random(2);
     int kept = 0;
     for (int n = 0; n < 100; ++n) {
@@ -69,7 +69,7 @@ TEST_SUITE("tracking") {
     CHECK(kept > 50);
   }
 
-  TEST_CASE("nothing after a lost step") {
+  TEST_CASE("steps after a lost one are not tried") {
     const Geometry g = Geometry::hexagonal(0.3, 2.0, 1.0, 0.2);
     const Configuration c = ninedof::neutral(2.0, 1.1);
     std::vector<Vec9> lengths(3, leg_lengths(g, c));
@@ -82,19 +82,19 @@ TEST_SUITE("tracking") {
     CHECK(path[2].steps == 0);
   }
 
-  TEST_CASE("a singularity on the way ends in lost, soon") {
-    // The external legs grow until the platform cannot follow: on the way there its mode meets another.
+  TEST_CASE("a singularity on the path ends as lost after few steps") {
+    // The external legs grow until the platform cannot follow: before that its mode meets another.
     const Geometry g = Geometry::hexagonal(0.3, 2.0, 1.0, 0.2);
     const Configuration c = ninedof::neutral(2.0, 1.1);
     Vec9 far = leg_lengths(g, c);
-    far.head<3>() *= 1.9;  // the platform would have to rise beyond what the internal legs let it
+    far.head<3>() *= 1.9;  // the internal legs do not let the platform rise so far
     const Tracked t = track(g, far, c);
     CHECK(t.status != TrackStatus::tracked);
     CHECK(t.configuration.position.hasNaN());
     CHECK(t.reached < 1.0);
   }
 
-  TEST_CASE("scale is free") {
+  TEST_CASE("results scale with the length unit") {
     Random random(3);
     for (const double unit : {1e-6, 1e6}) {
       const auto [g, c] = random_robot(random);
@@ -108,7 +108,7 @@ TEST_SUITE("tracking") {
     }
   }
 
-  TEST_CASE("bad lengths are refused by name") {
+  TEST_CASE("invalid lengths are rejected by name") {
     const Geometry g = Geometry::hexagonal(0.3, 2.0, 1.0, 0.2);
     CHECK(refuses("leg_lengths", [&] { track(g, Vec9::Constant(-1.0), ninedof::neutral(2.0, 1.1)); }));
   }

@@ -1,4 +1,4 @@
-/// configuration.hpp: the neutral configuration as printed, the tangent by differences, there and back, refusals.
+/// configuration.hpp: the neutral configuration as printed, the tangent by differences, round trips, invalid input.
 
 #include "ninedof/robot/configuration.hpp"
 
@@ -30,7 +30,7 @@ double distance(const Configuration& a, const Configuration& b) {
 }  // namespace
 
 TEST_SUITE("configuration") {
-  TEST_CASE("neutral is eq. (6), turned about z") {
+  TEST_CASE("neutral is eq. (6), rotated about z") {
     const Configuration c = neutral(3.0, 1.0);
     CHECK(c.position == Vec3(0, 0, 3));
     CHECK(c.internal_point == Vec3(0, 0, 1));
@@ -43,7 +43,7 @@ TEST_SUITE("configuration") {
     CHECK(refuses("theta_z", [] { neutral(1.0, 1.0, -infinity); }));
   }
 
-  TEST_CASE("plus: omega turns the platform in the base frame, dp moves it, ds moves O") {
+  TEST_CASE("plus: omega rotates the platform in the base frame, dp moves it, ds moves O") {
     // Eigen's angle-axis on the left; no ninedof rotation is called.
     Random random(41);
     for (int n = 0; n < 300; ++n) {
@@ -85,7 +85,7 @@ TEST_SUITE("configuration") {
     }
   }
 
-  TEST_CASE("validate names what is wrong") {
+  TEST_CASE("validate names the invalid argument") {
     const Configuration good = neutral(2, 1);
     CHECK_NOTHROW(validate(good));
     for (Eigen::Index k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-/// geometry.hpp: the printed coordinates of eqs. (37)-(38), orbits by complex numbers, and every refusal.
+/// geometry.hpp: the printed coordinates of eqs. (37)-(38), orbits by complex numbers, and every kind of invalid input.
 
 #include "ninedof/robot/geometry.hpp"
 
@@ -49,7 +49,7 @@ void check_orbit(const Triple& joints, const Orbit& o) {
 }  // namespace
 
 TEST_SUITE("geometry") {
-  TEST_CASE("the hexagons of eqs. (37)-(38), a1 = 1, a2 = 2, b1 = 3, b2 = 4, as worked out by hand") {
+  TEST_CASE("the hexagons of eqs. (37)-(38), a1 = 1, a2 = 2, b1 = 3, b2 = 4, calculated by hand") {
     const Geometry g = Geometry::hexagonal(1.0, 2.0, 3.0, 4.0);
     check_joints(g.base_external(),
                  {{{0.5, -1.4433756729740645}, {-1.5, 0.28867513459481287}, {1.0, 1.1547005383792517}}});
@@ -100,7 +100,7 @@ TEST_SUITE("geometry") {
     CHECK(g.platform_internal() == good);
   }
 
-  TEST_CASE("size and place do not decide what is a triangle") {
+  TEST_CASE("the test for a triangle does not depend on size and position") {
     for (const Place& place : places) {
       CAPTURE(place.name);
       for (const double scale : {1e-140, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e140}) {
@@ -109,7 +109,7 @@ TEST_SUITE("geometry") {
         Triple far = scaled(good, scale);
         for (Vec3& joint : far) joint += 1e3 * scale * Vec3(1, -2, 3);
         CHECK_NOTHROW(place.with(far));
-        // On one line, whatever the scale and the direction.
+        // Collinear joints at any scale and in any direction.
         const Vec3 from = scale * Vec3(0.3, -0.7, 0.2), along = scale * Vec3(1, 2, -1);
         CHECK(refuses(place.name, [&] { place.with({from, from + along, from + 2.5 * along}); }));
         CHECK(refuses(place.name, [&] { place.with({from, from, from}); }));
@@ -133,7 +133,7 @@ TEST_SUITE("geometry") {
       }
   }
 
-  TEST_CASE("a coordinate that is no finite number is refused by triple and joint") {
+  TEST_CASE("a coordinate that is not finite is rejected by triple and joint") {
     for (const Place& place : places)
       for (std::size_t joint = 0; joint < 3; ++joint)
         for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -145,7 +145,7 @@ TEST_SUITE("geometry") {
           }
   }
 
-  TEST_CASE("sides of hexagons: refused by name") {
+  TEST_CASE("invalid sides of hexagons are rejected by name") {
     for (const double bad : {-1.0, -1e-300, not_a_number, infinity, -infinity}) {
       CAPTURE(bad);
       CHECK(refuses("a1", [&] { Geometry::hexagonal(bad, 1, 1, 1); }));
@@ -159,7 +159,7 @@ TEST_SUITE("geometry") {
     CHECK_NOTHROW(Geometry::hexagonal(1e-12, 0, 0, 1e12));
   }
 
-  TEST_CASE("orbits: refused by name and field") {
+  TEST_CASE("invalid orbits are rejected by name and field") {
     const Orbit o{1.0, 0.3, 0.1};
     for (const double bad : {0.0, -1.0, not_a_number, infinity}) {
       CHECK(refuses("base_external.radius", [&] { Geometry::symmetric({bad, 0, 0}, o, o, o); }));

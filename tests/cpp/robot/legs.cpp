@@ -26,7 +26,7 @@ TEST_SUITE("legs") {
     }
   }
 
-  TEST_CASE("the loops of eqs. (11)-(13) close, unit vectors point as named") {
+  TEST_CASE("the loops of eqs. (11)-(13) close, unit vectors have the documented directions") {
     Random random(52);
     for (int n = 0; n < 500; ++n) {
       const auto [g, c] = random_robot(random);
@@ -56,7 +56,7 @@ TEST_SUITE("legs") {
     for (int n = 0; n < 50; ++n) {
       const Robot robot = random_robot(random);
       const Legs one = legs(robot.geometry, robot.configuration);
-      for (const double scale : {0x1p-465, 0x1p-40, 0x1p40, 0x1p465}) {  // powers of two: nothing is rounded
+      for (const double scale : {0x1p-465, 0x1p-40, 0x1p40, 0x1p465}) {  // powers of two: no rounding
         const Robot other = scaled(robot, scale);
         const Legs k = legs(other.geometry, other.configuration);
         CHECK(matrix_error(k.l, scale * one.l) <= 4.0 * eps);
@@ -67,7 +67,7 @@ TEST_SUITE("legs") {
     }
   }
 
-  TEST_CASE("a leg of zero length has length 0 and no direction; the others are not touched") {
+  TEST_CASE("a leg of zero length has length 0 and no direction; the others are not affected") {
     Random random(54);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
@@ -94,7 +94,7 @@ TEST_SUITE("legs") {
     }
   }
 
-  TEST_CASE("NaN in, NaN out") {
+  TEST_CASE("NaN gives NaN") {
     Configuration c = neutral(2, 1);
     c.internal_point.x() = not_a_number;
     const Vec9 lengths = leg_lengths(Geometry::hexagonal(0, 3, 2, 0), c);

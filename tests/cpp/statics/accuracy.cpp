@@ -1,5 +1,5 @@
-/// accuracy.hpp against the inverse of differentiated leg lengths, against all 512 corners, and by the leg lengths that
-/// samples turn out to have; and the private solver behind the samples.
+/// accuracy.hpp against the inverse of differentiated leg lengths, against all 512 corners, and by the leg lengths of
+/// the samples; and the private solver behind the samples.
 
 #include "ninedof/statics/accuracy.hpp"
 
@@ -52,7 +52,7 @@ TEST_SUITE("accuracy") {
     }
   }
 
-  TEST_CASE("bounds are the worst of the 512 corners, one by one") {
+  TEST_CASE("bounds are the maxima over the 512 corners") {
     Random random(412);
     for (int n = 0; n < 100; ++n) {
       const Robot robot = random_robot(random);
@@ -75,7 +75,7 @@ TEST_SUITE("accuracy") {
     }
   }
 
-  TEST_CASE("singular: infinite where the lengths leave it open") {
+  TEST_CASE("singular configurations: infinite where the lengths do not determine the motion") {
     Random random(413);
     const Tolerances t = random_tolerances(random, 1e-3);
     for (int n = 0; n < 150; ++n) {
@@ -111,7 +111,7 @@ TEST_SUITE("accuracy") {
     }
   }
 
-  TEST_CASE("bad tolerances are refused, NaN is passed on") {
+  TEST_CASE("invalid tolerances are rejected, NaN gives NaN") {
     Random random(417);
     auto [g, c] = random_robot(random);
     for (const double bad : {-1e-12, infinity}) {

@@ -78,7 +78,7 @@ TEST_SUITE("ellipsoid") {
     }
   }
 
-  TEST_CASE("singular: one semi-axis without end along the motion that moves no leg, one force of zero") {
+  TEST_CASE("singular configurations: one infinite semi-axis along the free motion, one force of zero") {
     Random random(424);
     for (int n = 0; n < 300; ++n) {
       const auto [g, c] = random_singular_robot(random, n % 3);
@@ -101,7 +101,7 @@ TEST_SUITE("ellipsoid") {
     }
   }
 
-  TEST_CASE("no length unit; NaN in, NaN out; a characteristic length that is none is refused") {
+  TEST_CASE("independent of the length unit; NaN gives NaN; an invalid characteristic length is rejected") {
     Random random(425);
     auto [g, c] = random_robot(random);
     const Ellipsoid<6> expected = velocity_ellipsoid(g, c, 0.8);

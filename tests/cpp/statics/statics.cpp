@@ -1,4 +1,4 @@
-/// statics.hpp against the complex-step oracle, which knows no leg direction, and against sums of forces and moments
+/// statics.hpp against the complex-step oracle, which uses no leg directions, and against sums of forces and moments
 /// joint by joint; singular configurations of all three kinds, units, bad input.
 
 #include "ninedof/statics/statics.hpp"
@@ -27,7 +27,7 @@ Vec9 stacked(const Load& load) {
   return v;
 }
 
-/// What is left on the platform (moment about p, force) and on O when the legs push with f against `load`.
+/// The sum of leg forces f and `load` on the platform (moment about p, force) and on O.
 Vec9 left_over(const Robot& robot, const Vec9& f, const Load& load) {
   const auto& [g, c] = robot;
   Load sum = load;
@@ -65,7 +65,7 @@ TEST_SUITE("statics") {
     }
   }
 
-  TEST_CASE("singular: what legs can carry they carry with least norm, the rest works on the free motion") {
+  TEST_CASE("singular configurations: forces of least norm balance what they can, the rest works on the free motion") {
     Random random(402);
     for (int n = 0; n < 300; ++n) {
       const Robot robot = random_singular_robot(random, n % 3);
@@ -79,14 +79,14 @@ TEST_SUITE("statics") {
       CHECK((stress.transpose() * f).norm() <= 1e-12 * f.norm());
       CHECK(left_over(robot, stress.col(0), {}).norm() <= 1e-13);
       CHECK(std::abs(stress.norm() - 1.0) <= 1e-14);
-      // Taken away, it leaves a load that is carried to the last bit of what was asked.
+      // The load without this part is balanced exactly.
       const Load rest{load.moment - unbalanced.moment, load.force - unbalanced.force,
                       load.force_at_o - unbalanced.force_at_o};
       CHECK(stacked(leg_forces(g, c, rest).unbalanced) == Vec9::Zero());
     }
   }
 
-  TEST_CASE("regular: no self-stress, until the three external legs meet in O") {
+  TEST_CASE("regular configurations have no self-stress; one exists when the external legs meet in O") {
     Random random(403);
     for (int n = 0; n < 100; ++n) {
       const auto [g, c] = random_robot(random);
@@ -96,7 +96,7 @@ TEST_SUITE("statics") {
     CHECK(self_stress(similar, neutral(3.0, 2.0, pi)).cols() == 3);
   }
 
-  TEST_CASE("ranks and forces know no length unit") {
+  TEST_CASE("ranks and forces do not depend on the length unit") {
     Random random(404);
     for (int n = 0; n < 60; ++n) {
       const Robot robot = n % 2 == 0 ? random_robot(random) : random_singular_robot(random, (n / 2) % 3);
@@ -132,7 +132,7 @@ TEST_SUITE("statics") {
     }
   }
 
-  TEST_CASE("singular: stiffness is finite and yields in one direction; nothing holds where no leg does") {
+  TEST_CASE("singular configurations: stiffness is finite and zero in one direction; zero without legs") {
     Random random(406);
     for (int n = 0; n < 300; ++n) {
       const auto [g, c] = random_singular_robot(random, n % 3);
@@ -145,7 +145,7 @@ TEST_SUITE("statics") {
     CHECK(stiffness(g, c, Vec9::Zero()) == Mat6::Zero());
   }
 
-  TEST_CASE("NaN in, NaN out; negative and infinite stiffness are refused") {
+  TEST_CASE("NaN gives NaN; negative and infinite stiffness are rejected") {
     Random random(407);
     auto [g, c] = random_robot(random);
     Vec9 k = Vec9::Ones();

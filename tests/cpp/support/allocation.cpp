@@ -15,7 +15,7 @@
 #include "ninedof/design/design.hpp"
 #include "ninedof/kinematics/acceleration.hpp"
 #include "ninedof/kinematics/velocity.hpp"
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -180,7 +180,7 @@ TEST_SUITE("allocation") {
     const AxisDesign<double> d = axis_design(g, c);
     CHECK(allocations_of([&] { keep(axis_spectrum(d, 0.7)); }) == 0);
     using D = Dual<3>;
-    const auto point = [](const Point<double>& p) { return Point<D>{p.x, p.y, D::variable(p.z, 0)}; };
+    const auto point = [](const Xyz<double>& p) { return Xyz<D>{p.x, p.y, D::variable(p.z, 0)}; };
     const AxisDesign<D> dual{point(d.base_external),     point(d.base_internal), point(d.platform_external),
                              point(d.platform_internal), D::variable(d.zp, 1),   D::variable(d.zs, 2)};
     CHECK(allocations_of([&] { keep(axis_spectrum(dual, 0.7)); }) == 0);

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 
 # --- C++ --------------------------------------------------------------------------------------------------------------
 
-# batch comes after design: it evaluates stacks of designs as well as of configurations.
 CPP_ROOMS = (
     "math",
     "robot",
@@ -19,8 +18,8 @@ CPP_ROOMS = (
     "singularity",
     "statics",
     "redundancy",
-    "design",
     "batch",
+    "design",
     "optimize",
     "workspace",
 )

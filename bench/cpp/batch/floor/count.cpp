@@ -1,4 +1,4 @@
-#define NINEDOF_LEVEL count  // a namespace of their own for the counted kernels
+#define NINEDOF_LEVEL count  // a separate namespace for the counted kernels
 #include "batch/floor/counting.hpp"
 #include "batch/floor/floor.hpp"
 #include "batch/kernels/conditioning_matrix.hpp"
@@ -31,7 +31,7 @@ Count count_with(const File& file, long most) {
     for (std::size_t j = 0; j < 9; ++j) c.q[j] = column(3 + j);
     c.s = {column(12), column(13), column(14)};
     const P length = file.characteristic_length();
-    // What condition_numbers of kernels.cpp does, its checks left out.
+    // condition_numbers of kernels.cpp without its checks.
     P m[6][6];
     kernels::conditioning_matrix(joints, c, 1.0 / length, m);
     const auto [least, greatest] = kernels::extreme_roots(kernels::bidiagonalize(m));
@@ -39,7 +39,7 @@ Count count_with(const File& file, long most) {
     for (std::size_t k = 0; k < N; ++k) {
       const double kappa = ninedof::condition_number(g, file.configuration(static_cast<std::size_t>(first) + k),
                                                      file.characteristic_length());
-      if (kappa > 1e8) continue;  // left to the accurate path
+      if (kappa > 1e8) continue;  // recomputed by the accurate path
       const double error = std::abs(ratio.lane[k] / kappa - 1.0) / std::max(1.0, kappa / 1e3);
       if (!(error <= 1e-11)) throw std::runtime_error("the counted kernel is wrong: nothing it says is worth anything");
       out.worst = std::max(out.worst, error);

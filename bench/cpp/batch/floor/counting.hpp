@@ -1,6 +1,6 @@
 #pragma once
-/// A pack that counts what is done with it. The kernels are templates over their pack: this one is plugged in and the arithmetic
-/// of the real source is counted while it runs.
+/// A pack that counts its operations. The kernels are templates over their pack: with this one the operations of the
+/// actual source are counted while it runs.
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// Operations on packs, each of which is one for every pose in it.
+/// Numbers of operations on packs.
 struct Operations {
   double multiplies = 0, additions = 0, divisions = 0, roots = 0;
   double others = 0;  ///< comparisons, selections, signs

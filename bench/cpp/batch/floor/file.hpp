@@ -1,6 +1,6 @@
 #pragma once
-/// The poses of the comparison, as bench/python/compare/data.py writes them: doubles, first the robot (four joint triples), the
-/// characteristic length, then 15 numbers a pose: position, rotation (row-major), internal point.
+/// The poses of the comparison, as bench/python/compare/data.py writes them: doubles, first the robot (four joint
+/// triples), the characteristic length, then 15 numbers per pose: position, rotation (row-major), internal point.
 
 #include <algorithm>
 #include <fstream>
@@ -18,7 +18,7 @@ struct File {
 
   static constexpr std::size_t head = 37, width = 15;
 
-  /// At most `most` poses of it.
+  /// At most `most` of the poses.
   explicit File(const std::string& path, std::size_t most = ~std::size_t{0} / 1024) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     if (!in) throw std::runtime_error("cannot read " + path);

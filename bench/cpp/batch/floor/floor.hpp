@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of ninedof_floor.
+/// The parts of the program ninedof_floor.
 
 #include "batch/floor/file.hpp"
 
@@ -21,7 +21,8 @@ struct Accuracy {
   long handed_over = 0;  ///< poses the kernel was not sure of
 };
 
-/// The vector call beside the scalar one. `near_singular`: every pose is brought to 1 ... 1e-9 from a singularity first.
+/// Compares the vector call with the scalar one. `near_singular`: every pose is first moved to 1 ... 1e-9 from a
+/// singularity.
 Accuracy accuracy(const File& file, bool near_singular);
 
 }  // namespace bench

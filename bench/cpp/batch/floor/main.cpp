@@ -1,4 +1,5 @@
-/// The arithmetic floor of the vector kernels and their accuracy, as JSON: what bench/python/comparison.py runs.
+/// The least time of the arithmetic of the vector kernels, and their accuracy, as JSON. Run by
+/// bench/python/comparison.py.
 ///
 ///     ninedof_floor FILE
 

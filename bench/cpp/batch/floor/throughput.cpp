@@ -1,4 +1,4 @@
-/// Compiled once for each level, as the kernels are.
+/// Compiled once for each instruction set, like the kernels.
 
 #include "batch/floor/throughput.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 using ninedof::kernels::per_register;
 using ninedof::kernels::Register;
 
-/// Chains of each of two kinds: enough to hide the latency of two units, few enough for the registers.
+/// Independent chains of each of two kinds: enough to hide the latency of two units, few enough for the registers.
 constexpr int chains = per_register == 8 ? 10 : 6;
 constexpr int steps = 4000;
 
@@ -30,7 +30,7 @@ constexpr int steps = 4000;
 #define BENCH_KEEP(x) asm volatile("" : "+w"(x))
 #endif
 
-/// The best of many short runs: what the core can do, whatever else the machine does.
+/// The best of many short runs, to exclude the load of other programs.
 template <class Step>
 double best(const Step& step) {
   Register x[chains], y[chains];
@@ -81,7 +81,7 @@ Register root_of(const Register& x) {
 }
 #endif
 
-/// Both numbers of a step treated alike: twice as many chains.
+/// The same operation on both numbers of a step: twice as many chains.
 template <class Step>
 double best_alone(const Step& step) {
   return 0.5 * best([&](Register& x, Register& y) {
@@ -94,7 +94,7 @@ double best_alone(const Step& step) {
 
 Throughput throughput() {
   Register one = Register{} + 1.0, zero = Register{};
-  BENCH_KEEP(one);  // so that the compiler does not know them
+  BENCH_KEEP(one);  // hides the values from the compiler
   BENCH_KEEP(zero);
   Throughput t{};
   t.multiply = best_alone([&](Register& x) { x *= one; });

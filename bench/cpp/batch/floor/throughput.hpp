@@ -1,5 +1,6 @@
 #pragma once
-/// What one core does at most, at each level of instructions. Nanoseconds a number (a lane), of many independent ones.
+/// Peak throughput of one core at each level of instructions, in nanoseconds per number (lane) of many independent
+/// ones.
 
 namespace bench {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The length that makes the Jacobian homogeneous, chosen from the robot itself.
+/// The length that makes the Jacobian homogeneous, computed from the robot.
 
 #include <string>
 
@@ -12,15 +12,15 @@ namespace ninedof {
 enum class LengthKind {
   mean_leg,         ///< mean of the nine leg lengths
   platform_radius,  ///< largest distance of a platform joint from the platform origin
-  natural,  ///< makes the rotation and translation columns of M equal in Frobenius norm; isotropic designs keep it
-  optimal,  ///< makes the condition number least
+  natural,          ///< makes the angular and translational columns of M equal in Frobenius norm
+  optimal,          ///< minimizes the condition number
 };
 
-/// "mean_leg", "platform_radius", "natural" or "optimal"; throws InvalidArgument for another word.
+/// "mean_leg", "platform_radius", "natural" or "optimal"; throws InvalidArgument for any other word.
 LengthKind length_kind(const std::string& word);
 
 /// The characteristic length of a configuration, in its length unit. `natural` and `optimal` are NaN at a singular
-/// configuration, where no length helps.
+/// configuration: the condition number is infinite with any length there.
 double characteristic_length(const Geometry& g, const Configuration& c, LengthKind kind = LengthKind::optimal);
 
 }  // namespace ninedof

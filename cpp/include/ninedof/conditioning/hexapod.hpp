@@ -1,8 +1,8 @@
 #pragma once
-/// The yardstick: the six-legged platform on the same plates, legs r_i-u_i and r^_i-u~_i, on the symmetry axis.
+/// Reference: the Gough-Stewart platform on the same joints, with legs r_i-u_i and r^_i-u~_i, on the symmetry axis.
 ///
-/// Its matrix H has the six rows [u x e / l_c, e] and J' is its inverse, so kappa(J') = kappa(H). C3 symmetry splits H into an
-/// axial 2x2 block and a complex transverse one, appearing twice.
+/// Its matrix H has the six rows [u x e / l_c, e], and J' is its inverse, so kappa(J') = kappa(H). C3 symmetry splits H
+/// into an axial 2x2 block and a complex transverse 2x2 block that occurs twice (docs/theory/closed-form.md).
 
 #include "ninedof/conditioning/symmetric.hpp"
 
@@ -19,23 +19,20 @@ namespace detail {
 /// One leg's direction e and moment u x e / l_c.
 template <class T>
 struct LegRow {
-  Point<T> e, m;
+  Xyz<T> e, m;
 };
 
+/// The leg is formed as (p + u) - r, for non-planar designs one rounding away from the (p - r) + u of axis_spectrum.
 template <class T, class Length>
-LegRow<T> leg_row(const Point<T>& base, const Point<T>& joint, const T& zp, const Length& inverse_lc) {
+LegRow<T> leg_row(const Xyz<T>& base, const Xyz<T>& joint, const T& zp, const Length& inverse_lc) {
   using std::sqrt;
-  const Point<T>& u = joint;
-  const T x = u.x - base.x, y = u.y - base.y, z = zp + u.z - base.z;
-  const T inverse = inverse_or_zero(T(sqrt(square(x) + square(y) + square(z))));
-  const Point<T> e{x * inverse, y * inverse, z * inverse};
-  return {e,
-          {(u.y * e.z - u.z * e.y) * inverse_lc, (u.z * e.x - u.x * e.z) * inverse_lc,
-           (u.x * e.y - u.y * e.x) * inverse_lc}};
+  const Xyz<T> leg{joint.x - base.x, joint.y - base.y, zp + joint.z - base.z};
+  const Xyz<T> e = inverse_or_zero(T(sqrt(squared_norm(leg)))) * leg;
+  return {e, inverse_lc * cross(joint, e)};
 }
 
-/// Singular values from the squared Frobenius norm and the determinant: their sum and difference are roots of
-/// T + 2 D and T - 2 D, and `minus` is T - 2 D computed without cancellation.
+/// Singular values from T, the squared Frobenius norm, and the determinant D: their sum and difference are the square
+/// roots of `plus` = T + 2 D and of `minus` = T - 2 D, computed without cancellation.
 template <class T>
 Pair<T> from_sums(const T& plus, const T& minus, const T& determinant, double scale) {
   using std::sqrt;
@@ -46,7 +43,7 @@ Pair<T> from_sums(const T& plus, const T& minus, const T& determinant, double sc
 
 }  // namespace detail
 
-/// The closed form; conventions of axis_spectrum.
+/// The closed form, with the conventions of axis_spectrum.
 template <class T, class Length>
 HexapodSpectrum<T> hexapod_spectrum(const AxisDesign<T>& d, const Length& characteristic_length) {
   using std::abs;

@@ -1,32 +1,28 @@
 #pragma once
 /// Closed form of the singular values on the symmetry axis, for any C3 design.
 ///
-/// When the four joint triples are orbits of a rotation by 120 degrees about z, and p, s lie on z, the matrix M of
-/// conditioning.hpp splits into a 2x2 block for (omega_z, p_z) and a complex 2x2 block, appearing twice, for the
+/// If the four joint triples are orbits of a rotation by 120 degrees about z, and p and s lie on z, the matrix M of
+/// conditioning.hpp splits into a 2x2 block for (omega_z, p_z) and a complex 2x2 block, occurring twice, for the
 /// transverse motion. Because E t = C v_O (v_O: velocity of the platform point at O), a rotation of the columns makes
-/// both blocks triangular, [[g, f], [0, w]]; their singular values follow without cancellation.
+/// both blocks triangular, [[g, f], [0, w]], and their singular values follow without cancellation
+/// (docs/theory/closed-form.md).
 ///
-/// Written over a number type: T = double for values, T = Dual<N> for exact gradients. Shares no code with velocity.hpp:
-/// each is the other's oracle in the tests.
+/// A template over the number type: T = double for values, T = Dual<N> for exact gradients. Shares no code with
+/// velocity.hpp: the tests check each against the other.
 
 #include <cmath>
 
 #include "ninedof/math/dual.hpp"
+#include "ninedof/math/xyz.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
 
 namespace ninedof {
 
-/// A point, over the number type.
-template <class T>
-struct Point {
-  T x, y, z;
-};
-
-/// The first joint of each orbit, base axes; platform joints as Q u_1, Q u~_1 seen from p. Heights of p and s.
+/// The first joint of each orbit in base axes, the platform joints as Q u_1 and Q u~_1, and the heights of p and s.
 template <class T>
 struct AxisDesign {
-  Point<T> base_external, base_internal, platform_external, platform_internal;
+  Xyz<T> base_external, base_internal, platform_external, platform_internal;
   T zp, zs;
 };
 
@@ -40,7 +36,14 @@ struct AxisSpectrum {
 
 namespace detail {
 
-/// A leg of zero length has no direction: zero, so that the design is singular, as in legs.hpp.
+/// |v|^2: for dual numbers with half the products of dot(v, v).
+template <class T>
+T squared_norm(const Xyz<T>& v) {
+  return square(v.x) + square(v.y) + square(v.z);
+}
+
+/// 1 / length. Zero for a leg of zero length, whose direction then becomes zero and the design singular, as in
+/// legs.hpp.
 template <class T>
 T inverse_or_zero(const T& length) {
   return value_of(length) == 0.0 ? T(0.0) : 1.0 / length;
@@ -60,8 +63,8 @@ Pair<T> triangular_block(const T& g, const T& f_squared, const T& w, double scal
   return {scale * 0.5 * sum, scale * 2.0 * (g * w) / sum};
 }
 
-/// What is left of a unit of leg speed along a direction shared by an upper and a lower internal leg of lengths q and r whose
-/// components in it are a, b >= 0: (a/q) (b/r) / hypot(a/q, b/r), written with one division.
+/// (a/q) (b/r) / hypot(a/q, b/r) with one division: the singular value of a direction in which an upper internal leg of
+/// length q has the component a >= 0 and a lower one of length r the component b >= 0.
 template <class T>
 T shared(const T& a, const T& q, const T& b, const T& r) {
   using std::sqrt;
@@ -71,7 +74,8 @@ T shared(const T& a, const T& q, const T& b, const T& r) {
 
 }  // namespace detail
 
-/// The closed form. Lengths in one unit; the characteristic length, a double or a T, must be positive and is not checked here.
+/// The closed form. Lengths in one unit. The characteristic length, a double or a T, must be positive; it is not
+/// checked.
 template <class T, class Length>
 AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characteristic_length) {
   using detail::shared;
@@ -79,19 +83,17 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characterist
   using std::sqrt;
   const Length inverse_lc = 1.0 / characteristic_length;
 
-  // External leg 1: x = p + u - r, and u x (p - r) = u x x.
-  const Point<T>& u = d.platform_external;
-  const T px = -d.base_external.x, py = -d.base_external.y, pz = d.zp - d.base_external.z;
-  const T x = px + u.x, y = py + u.y, z = pz + u.z;
-  const T l = sqrt(square(x) + square(y) + square(z));
+  // External leg 1: x = (p - r) + u. Its moment u x x / (l l_c) is formed as u x (p - r) / (l l_c).
+  const Xyz<T>&base = d.base_external, &u = d.platform_external;
+  const Xyz<T> from_base{-base.x, -base.y, d.zp - base.z};
+  const Xyz<T> x = from_base + u;
+  const T l = sqrt(detail::squared_norm(x));
   const T inverse_l = detail::inverse_or_zero(l);
-  const T ex = x * inverse_l, ey = y * inverse_l, ez = z * inverse_l;
+  const Xyz<T> e = inverse_l * x;
   const T lever = inverse_lc * inverse_l;
-  const T mx = (u.y * pz - u.z * py) * lever;
-  const T my = (u.z * px - u.x * pz) * lever;
-  const T mz = (u.x * py - u.y * px) * lever;
+  const Xyz<T> m = lever * cross(u, from_base);
 
-  // Internal legs 1: only their axial and radial components matter, not their azimuths.
+  // Internal legs 1: only their axial and radial components matter.
   const T rho = d.zs - d.zp;
   const T upper_z = rho - d.platform_internal.z;
   const T lower_z = d.zs - d.base_internal.z;
@@ -101,21 +103,21 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characterist
   const T r = sqrt(lower_radius2 + square(lower_z));
 
   const T axial_w = shared(abs(upper_z), q, abs(lower_z), r);
-  const detail::Pair<T> axial = detail::triangular_block(abs(mz), square(ez), axial_w, std::sqrt(3.0));
+  const detail::Pair<T> axial = detail::triangular_block(abs(m.z), square(e.z), axial_w, std::sqrt(3.0));
 
   const T eta = rho * inverse_lc;
   const T stretch2 = 1.0 + square(eta);
   const T stretch = sqrt(stretch2);
-  const T g = sqrt(square(mx + eta * ey) + square(my - eta * ex)) / stretch;
-  const T f_squared = (square(ex + eta * my) + square(ey - eta * mx)) / stretch2;
+  const T g = sqrt(square(m.x + eta * e.y) + square(m.y - eta * e.x)) / stretch;
+  const T f_squared = (square(e.x + eta * m.y) + square(e.y - eta * m.x)) / stretch2;
   const T w = shared(sqrt(upper_radius2), q, sqrt(lower_radius2), r) * stretch;
   const detail::Pair<T> transverse = detail::triangular_block(g, f_squared, w, std::sqrt(1.5));
 
   return {axial.max, axial.min, transverse.max, transverse.min, l, q, r};
 }
 
-/// The axis design of a geometry and configuration. Throws InvalidArgument naming what breaks the symmetry: a triple that
-/// is not a C3 orbit about z (to 1e-9 of its size), p or s off the z axis, a rotation about another axis.
+/// The axis design of a geometry and configuration. Throws InvalidArgument naming what violates the symmetry: a triple
+/// that is not a C3 orbit about z (to 1e-9 of its size), p or s off the z axis, or a rotation about another axis.
 AxisDesign<double> axis_design(const Geometry& g, const Configuration& c);
 
 }  // namespace ninedof

@@ -13,7 +13,7 @@ namespace ninedof {
 /// A number that carries its gradient with respect to N variables through a formula.
 template <int N>
 struct Dual {
-  /// The gradient is filled up with zeros to whole 16-byte vectors: loops over it have no remainder to do one by one.
+  /// The gradient is padded with zeros to whole 16-byte vectors, so that loops over it have no scalar remainder.
   static constexpr std::size_t padded = (N + 1) / 2 * 2;
 
   alignas(16) std::array<double, padded> gradient;
@@ -31,15 +31,15 @@ struct Dual {
     for (std::size_t k = 0; k < padded; ++k) gradient[k] = a * x.gradient[k] + b * y.gradient[k];
   }
 
-  /// The independent variable number `index`.
+  /// The independent variable with this index.
   static Dual variable(double value, int index) {
     Dual x(value);
     x.gradient[static_cast<std::size_t>(index)] = 1.0;
     return x;
   }
 
-  /// The N independent variables at `x`, written where they are used: copying one just made would stall the processor, which
-  /// cannot forward two narrow stores to one wide load.
+  /// The N independent variables at `x`. Written in place: copying a dual number just written would stall the
+  /// processor, which cannot forward two narrow stores to one wide load.
   static std::array<Dual, N> variables(std::span<const double, N> x) {
     std::array<Dual, N> out;
     for (std::size_t i = 0; i < N; ++i) {
@@ -107,7 +107,7 @@ Dual<N> operator/(double a, const Dual<N>& b) {
   return {quotient, -quotient / b.value, b};
 }
 
-/// At zero, where the slope is infinite, the derivative is given as 0: such points are kinks or singular designs.
+/// At zero, where the slope is infinite, the derivative is set to 0: such points are kinks or singular designs.
 template <int N>
 Dual<N> sqrt(const Dual<N>& x) {
   const double root = std::sqrt(x.value);
@@ -130,7 +130,7 @@ Dual<N> abs(const Dual<N>& x) {
   return x.value < 0.0 ? -x : x;
 }
 
-/// x * x, with one product for each partial derivative where the operator takes two.
+/// x * x, with one product for each partial derivative where operator* takes two.
 inline double square(double x) {
   return x * x;
 }

@@ -1,12 +1,12 @@
 #pragma once
-/// Bad input throws InvalidArgument. What mathematics may refuse comes back as a Status.
+/// Bad input throws InvalidArgument. An answer that mathematics may refuse comes back as a Status.
 
 #include <stdexcept>
 #include <string>
 
 namespace ninedof {
 
-/// Thrown for input no answer can be given to. The message names the argument, what came and what was expected.
+/// Thrown for invalid input. The message names the argument, the value received and the value expected.
 class InvalidArgument : public std::invalid_argument {
  public:
   InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected);
@@ -14,10 +14,10 @@ class InvalidArgument : public std::invalid_argument {
 
 /// How a solver ended.
 enum class Status {
-  optimal,     ///< feasible and stationary by our own checks
-  unbounded,   ///< the index keeps improving as named variables run away; no optimum exists
+  optimal,     ///< feasible and stationary by checks that do not rely on the solver
+  unbounded,   ///< the index keeps improving while the named variables grow without limit; no optimum exists
   infeasible,  ///< no design satisfies the named constraints
-  stopped,     ///< interrupted, or no start passed the checks; the best point found is returned as such
+  stopped,     ///< interrupted, or no start passed the checks; the best point found is returned
 };
 
 /// The word for a status: "optimal", "unbounded", "infeasible", "stopped".

@@ -1,6 +1,6 @@
 #pragma once
-/// One loop over independent items, spread over threads. Results must be written by index, so that they do not depend
-/// on how many threads ran.
+/// A loop over independent items on several threads. The work must write its results by index: then they do not depend
+/// on the number of threads.
 
 #include <functional>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// SO(3): exponential, logarithm, quaternions (w, x, y, z), and the check every rotation from outside passes.
+/// SO(3): exponential, logarithm, quaternions (w, x, y, z), and the check of rotations given by a user.
 
 #include <string>
 
@@ -7,20 +7,20 @@
 
 namespace ninedof {
 
-/// The matrix of v x (.).
+/// The matrix of the cross product: skew(v) * x = v x x.
 Mat3 skew(const Vec3& v);
 
 /// Rotation by |w| radians about w. Exact to rounding for every |w|, 0 included.
 Mat3 exp_rotation(const Vec3& w);
 
 /// The rotation vector w with exp_rotation(w) = Q and |w| <= pi. Accurate to rounding near 0; the axis of a half turn
-/// is one of the two possible.
+/// is one of the two possible ones.
 Vec3 log_rotation(const Mat3& q);
 
 /// Rotation about z by `angle` radians.
 Mat3 rotation_about_z(double angle);
 
-/// The rotation of a quaternion (w, x, y, z), normalised first. Throws InvalidArgument if it is zero or not finite.
+/// The rotation of a quaternion (w, x, y, z), normalized first. Throws InvalidArgument if it is zero or not finite.
 Mat3 rotation_from_quaternion(const Eigen::Vector4d& wxyz);
 
 /// The unit quaternion (w, x, y, z), w >= 0, of a rotation.

@@ -1,8 +1,10 @@
 #pragma once
-/// Names for the small fixed-size arrays every layer speaks in. Aliases only.
+/// Names for the small fixed-size arrays of every room.
 
 #include <Eigen/Core>
 #include <array>
+
+#include "ninedof/math/xyz.hpp"
 
 namespace ninedof {
 
@@ -19,5 +21,12 @@ using Mat93 = Eigen::Matrix<double, 9, 3>;
 
 /// One vector for each of the three legs of a kind; 9 doubles, joint after joint.
 using Triple = std::array<Vec3, 3>;
+
+EIGEN_ALWAYS_INLINE Xyz<double> xyz(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+EIGEN_ALWAYS_INLINE Vec3 vec3(const Xyz<double>& v) {
+  return {v.x, v.y, v.z};
+}
 
 }  // namespace ninedof

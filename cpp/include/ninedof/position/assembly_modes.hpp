@@ -1,5 +1,5 @@
 #pragma once
-/// What direct position analysis answers with.
+/// The result of direct position analysis.
 
 #include <array>
 
@@ -7,48 +7,50 @@
 
 namespace ninedof {
 
-/// What the nine lengths allow.
+/// The solutions for the nine lengths.
 enum class PositionStatus {
-  found,        ///< finitely many modes, all of them simple: every mode goes on smoothly as the lengths change
-  tangent,  ///< finitely many, and two of them meet here: the configuration is singular, its coordinates good to half the digits
-  infeasible,  ///< no configuration has these lengths
-  self_motion,  ///< the robot moves with these lengths held: no list exists and none is given
+  found,        ///< finitely many modes, all simple: each changes smoothly with the lengths
+  tangent,      ///< finitely many modes, two of which meet in a singular configuration, known to half the digits
+  infeasible,   ///< no configuration has these lengths
+  self_motion,  ///< the robot can move with these lengths locked: infinitely many modes, none is listed
 };
 
 /// "found", "tangent", "infeasible", "self_motion".
 const char* to_string(PositionStatus status);
 
-/// Which legs leave no configuration.
+/// Which legs make the lengths infeasible.
 enum class PositionObstacle {
   none,
-  lower_legs,  ///< the spheres of r1 r2 r3 have no common point
-  upper_legs,  ///< the spheres of q1 q2 q3 have no common point
-  external_leg_1,  ///< in every branch this leg is too long or too short for O where it is
+  lower_legs,      ///< the spheres of r1 r2 r3 have no common point
+  upper_legs,      ///< the spheres of q1 q2 q3 have no common point
+  external_leg_1,  ///< in every branch this leg is too long or too short for the position of O
   external_leg_2,
   external_leg_3,
-  external_legs,  ///< each of the three fits in some way, no rotation fits all
+  external_legs,  ///< each of the three fits in some branch, but no rotation fits all
 };
 
-/// "none", "lower_legs", ... as above.
+/// "none", "lower_legs" and so on, as above.
 const char* to_string(PositionObstacle obstacle);
 
 struct AssemblyMode {
   Configuration configuration;
-  /// Side of the plane of the base's internal joints on which O lies: +1 along (c2 - c1) x (c3 - c1), -1 against it, 0 in it.
+  /// Side of O relative to the plane of the base's internal joints: +1 along (c2 - c1) x (c3 - c1), -1 against it, 0 in
+  /// it.
   int base_side;
-  int platform_side;  ///< the same for the platform's internal joints, seen in the platform frame
-  /// Smallest singular value of the rows (Q w_i) x d_i, d_i and w_i the unit vectors from O to the external joints: 0 where two modes
-  /// meet, at most sqrt 3. Another mode with O on the same sides is at least about this far off, in radians.
+  int platform_side;  ///< the same for the platform's internal joints, in the platform frame
+  /// Smallest singular value of the matrix with rows (Q w_i) x d_i, d_i and w_i the unit vectors from O to the external
+  /// joints: 0 where two modes meet, at most sqrt 3. Another mode with O on the same sides is at least about this angle
+  /// away, in radians.
   double separation;
 };
 
 struct AssemblyModes {
   PositionStatus status = PositionStatus::infeasible;
   PositionObstacle obstacle = PositionObstacle::none;
-  /// Whether the number of modes is confirmed: every root of the eliminant was isolated and became a mode of its own, or the null-space
-  /// method found its solutions well apart. False near double solutions.
+  /// Whether the number of modes is confirmed: every root of the eliminant was isolated and became a separate mode, or
+  /// the null-space method found well separated solutions. False near double solutions.
   bool certain = true;
-  int null_space_branches = 0;  ///< branches the fast elimination handed over
+  int null_space_branches = 0;  ///< branches solved by the null-space method
   int count = 0;
   std::array<AssemblyMode, 32> mode;  ///< the first `count`
 
@@ -56,11 +58,11 @@ struct AssemblyModes {
   const AssemblyMode* end() const { return mode.data() + count; }
 };
 
-/// Which method solves for the rotation.
+/// The method that solves for the rotation.
 enum class RotationMethod {
-  automatic,  ///< elimination, and the null-space method where its count does not come out
-  elimination,  ///< alone: for comparison; `certain` is false where it should not be trusted
-  null_space,  ///< alone: for comparison
+  automatic,  ///< elimination, and the null-space method where the number of modes is not confirmed
+  elimination,  ///< elimination alone, for comparison; `certain` is false where it is unreliable
+  null_space,  ///< the null-space method alone, for comparison
 };
 
 }  // namespace ninedof

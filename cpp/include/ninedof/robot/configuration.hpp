@@ -1,5 +1,5 @@
 #pragma once
-/// Where the robot stands: nine coordinates.
+/// The configuration of the robot: nine coordinates.
 
 #include "ninedof/math/types.hpp"
 
@@ -15,13 +15,13 @@ struct Configuration {
 /// Eq. (6): p = (0, 0, zp), s = (0, 0, zs), Q a rotation by theta_z radians about z (the paper has theta_z = 0).
 Configuration neutral(double zp, double zs, double theta_z = 0.0);
 
-/// Moves along a tangent (omega, dp, ds), base frame, in the order of the twist: Q becomes exp(omega) Q.
+/// The configuration displaced by a tangent (omega, dp, ds) in the base frame: Q becomes exp(omega) Q.
 Configuration plus(const Configuration& c, const Vec9& tangent);
 
-/// The tangent that leads from `from` to `to`: plus(from, minus(to, from)) = to, the rotation taken the short way.
+/// The tangent from `from` to `to`: plus(from, minus(to, from)) = to, with the shorter of the two rotations.
 Vec9 minus(const Configuration& to, const Configuration& from);
 
-/// Throws InvalidArgument if a value is not finite or the rotation is improper.
+/// Throws InvalidArgument if a value is not finite or the rotation is not proper.
 void validate(const Configuration& c);
 
 }  // namespace ninedof

@@ -1,5 +1,5 @@
 #pragma once
-/// What is fixed once the robot is built: the twelve joint centres.
+/// The geometry of the robot: the twelve joint centres, fixed once it is built.
 
 #include "ninedof/math/types.hpp"
 
@@ -15,11 +15,11 @@ struct Orbit {
 
 /// The four joint triples r, r^ (base frame) and u, u~ (platform frame), in one length unit.
 ///
-/// Fixed after construction. Every triple must be finite and span a triangle: three coincident or collinear joints leave
-/// the platform or O free to move whatever the legs do.
+/// Immutable. Every triple must be finite and span a triangle: with three coincident or collinear joints the platform
+/// or O can move while all legs are locked.
 class Geometry {
  public:
-  /// Throws InvalidArgument naming the triple that is not finite, of zero size, or collinear
+  /// Throws InvalidArgument naming the triple if it is not finite, has zero size, or is collinear
   /// (height of the triangle below 1e-9 of its longest side).
   Geometry(const Triple& base_external, const Triple& base_internal, const Triple& platform_external,
            const Triple& platform_internal);

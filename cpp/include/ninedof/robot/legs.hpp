@@ -1,5 +1,5 @@
 #pragma once
-/// Inverse position analysis: the nine legs of a configuration. It always has exactly one answer.
+/// Inverse position analysis: the nine legs of a configuration. The solution always exists and is unique.
 
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
@@ -9,7 +9,7 @@ namespace ninedof {
 
 /// Lengths, unit vectors and platform lever arms of the nine legs, base frame (eqs. 11-13).
 ///
-/// A leg of zero length has no direction: its unit vector is zero, so that every matrix built on it is singular.
+/// A leg of zero length has no direction: its unit vector is set to zero, so that every matrix built on it is singular.
 struct Legs {
   Vec3 l, q, r;          ///< external, upper internal, lower internal lengths
   Triple e;              ///< external: base joint -> platform joint

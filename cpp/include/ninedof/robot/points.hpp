@@ -1,5 +1,5 @@
 #pragma once
-/// A robot at a pose as fourteen points in the base frame: all it is made of, and what derivatives are taken by.
+/// A robot in a configuration as fourteen points in the base frame. Derivatives are taken with respect to these points.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace ninedof {
 
-/// Places in Points: joint i of a triple is `triple + i`.
+/// Indices into Points: joint i of a triple has the index `triple + i`.
 enum PointIndex : int {
   point_r = 0,         ///< r_i, base joints of the external legs
   point_r_hat = 3,     ///< r^_i, base joints of the lower internal legs
@@ -19,11 +19,11 @@ enum PointIndex : int {
   point_count = 14
 };
 
-/// The points themselves, or one number's derivatives with respect to them.
+/// The points, or the derivatives of a number with respect to them.
 using Points = std::array<Vec3, point_count>;
 
-/// The two ends of leg k, in the order of eq. (35b): l1 l2 l3 q1 q2 q3 r1 r2 r3. A leg points from `from` to `to`, as e, e~
-/// and e^ do.
+/// The two ends of leg k, in the order of eq. (35b): l1 l2 l3 q1 q2 q3 r1 r2 r3. The unit vectors e, e~ and e^ point
+/// from `from` to `to`.
 struct LegEnds {
   int from, to;
 };
@@ -40,7 +40,7 @@ struct NineLegs {
 };
 NineLegs nine_legs(const Points& at);
 
-/// The points of a geometry in a configuration.
+/// The points of a robot in a configuration.
 Points points(const Geometry& g, const Configuration& c);
 
 }  // namespace ninedof

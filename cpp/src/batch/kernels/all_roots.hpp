@@ -1,8 +1,9 @@
 #pragma once
-/// All eigenvalues of B^T B for a bidiagonal B, from the least up.
+/// All eigenvalues of B^T B for a bidiagonal B, in ascending order (docs/theory/kernels.md).
 ///
-/// The least root is found and taken off, all but its rounding, as a shift of the differential quotient-difference transform. What
-/// is left of it comes out last, two more transforms part it from the others, and it is split off.
+/// The least root is found and subtracted, except for its rounding error, as a shift of the differential
+/// quotient-difference transform. Two more transforms separate the remainder, which is then the last quotient, and the
+/// root is deflated.
 
 #include "batch/kernels/extreme_roots.hpp"
 
@@ -36,7 +37,7 @@ NINEDOF_INLINE void roots_from(P* q, P* e, const P& shift, P* out, typename P::M
     transform<n>(q, e, P(0.0));
     rest = transform<n>(q, e, P(0.0));
     const P root = (shift + most) + rest;
-    // What is dropped, against the root.
+    // The neglected coupling, relative to the root.
     open = open | (e[n - 2] > 1e-16 * root);
     out[0] = root;
     roots_from<n - 1>(q, e, shift + most, out + 1, open);
@@ -49,8 +50,8 @@ struct Roots {
   typename P::Mask open;
 };
 
-/// Where B falls apart in the middle, a root may come out elsewhere than last and spoil the rest: the sums of the roots and of
-/// their reciprocals, and their order, tell.
+/// If B decouples in the middle, a root may appear in another place than the last, and the others become wrong. The
+/// sums of the roots and of their reciprocals, and their order, detect this.
 template <class P>
 NINEDOF_INLINE Roots<P> all_roots(Bidiagonal<P> b) {
   const Taylor<P> zero = characteristic_at_zero<6>(b.q, b.e);
@@ -58,7 +59,7 @@ NINEDOF_INLINE Roots<P> all_roots(Bidiagonal<P> b) {
 #pragma GCC unroll 5
   for (int k = 0; k < 5; ++k) trace += b.q[k + 1] + b.e[k];
   Roots<P> out;
-  out.open = trace < 0.0;  // none
+  out.open = trace < 0.0;  // false in every lane
   roots_from<6>(b.q, b.e, P(0.0), out.x, out.open);
   P sum = 0.0, reciprocals = 0.0;
 #pragma GCC unroll 6

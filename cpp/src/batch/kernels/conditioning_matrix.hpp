@@ -1,8 +1,8 @@
 #pragma once
-/// The matrix M of conditioning.hpp, whose singular values are the reciprocals of those of J'.
+/// The conditioning matrix M, whose singular values are the reciprocals of those of J' (docs/theory/kernels.md).
 ///
-/// Because E t = C v_O with v_O = pdot + omega x y, y = s - p, its lower rows are W [y x . / l_c, 1] with W = Nq C, and a QR
-/// factorization of [C C; B 0] leaves just that W below the diagonal blocks.
+/// E t = C v_O with v_O = pdot + omega x y, y = s - p. So the lower rows of M are w -> [y x w / l_c, w] for the rows w
+/// of W = N_q C, and a QR factorization of [C C; B 0] leaves this W below the diagonal block.
 
 #include "batch/kernels/poses.hpp"
 #include "batch/kernels/reflect.hpp"
@@ -10,9 +10,9 @@
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 
-/// W = Nq C from the rows of C and B; W^T W = ((C^T C)^-1 + (B^T B)^-1)^-1 where the inverses exist.
+/// W = N_q C from the rows of C and B; W^T W = ((C^T C)^-1 + (B^T B)^-1)^-1 where the inverses exist.
 template <class P>
-NINEDOF_INLINE void shared_rows(const Vector<P> (&c)[3], const Vector<P> (&b)[3], Vector<P> (&w)[3]) {
+NINEDOF_INLINE void shared_rows(const Xyz<P> (&c)[3], const Xyz<P> (&b)[3], Xyz<P> (&w)[3]) {
   P m[6][6];
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
@@ -32,7 +32,7 @@ NINEDOF_INLINE void shared_rows(const Vector<P> (&c)[3], const Vector<P> (&b)[3]
 }
 
 template <class P>
-NINEDOF_INLINE void set_row(P (&row)[6], const Vector<P>& turning, const Vector<P>& moving) {
+NINEDOF_INLINE void set_row(P (&row)[6], const Xyz<P>& turning, const Xyz<P>& moving) {
   row[0] = turning.x;
   row[1] = turning.y;
   row[2] = turning.z;
@@ -43,22 +43,15 @@ NINEDOF_INLINE void set_row(P (&row)[6], const Vector<P>& turning, const Vector<
 
 template <class P>
 NINEDOF_INLINE void conditioning_matrix(const Joints& g, const Poses<P>& c, const P& inverse_lc, P (&m)[6][6]) {
-  const Vector<P> y = c.s - c.p;
-  Vector<P> u[3], external[3], upper[3], lower[3], w[3];
+  LegVectors<P> legs(g, c);
+  normalize(legs.upper);
+  normalize(legs.lower);
+  normalize(legs.external);
 #pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
-    u[i] = c.turned(g.platform_external[i]);
-    external[i] = c.p + u[i] - g.base_external[i];
-    upper[i] = y - c.turned(g.platform_internal[i]);
-    lower[i] = c.s - g.base_internal[i];
-  }
-  normalize(upper);
-  normalize(lower);
-  normalize(external);
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) set_row(m[i], cross(u[i], external[i]) * inverse_lc, external[i]);
-  shared_rows(upper, lower, w);
-  const Vector<P> lever = y * inverse_lc;
+  for (int i = 0; i < 3; ++i) set_row(m[i], inverse_lc * cross(legs.u[i], legs.external[i]), legs.external[i]);
+  Xyz<P> w[3];
+  shared_rows(legs.upper, legs.lower, w);
+  const Xyz<P> lever = inverse_lc * legs.y;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) set_row(m[i + 3], cross(lever, w[i]), w[i]);
 }

@@ -38,7 +38,7 @@ bool runs_v4() {
 }  // namespace
 
 const Table* table_of(const std::string& level) {
-  // Nothing that came with v2 is of use here.
+  // No instruction of v2 helps these kernels.
   if (level == "base" || level == "v2") return &base::level_table;
 #ifdef NINEDOF_HAS_v3
   if (level == "v3" && runs_v3()) return &v3::level_table;

@@ -1,5 +1,5 @@
 #pragma once
-/// The kernels that fit this processor.
+/// Selects the kernels for the instruction set of this processor.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace ninedof::kernels {
 
-/// The table of a level of x86-64, "base", "v2", "v3" or "v4"; null where this build or this processor does not have it.
+/// The table of a level of x86-64, "base", "v2", "v3" or "v4"; null if this build or this processor does not have it.
 const Table* table_of(const std::string& level);
 
-/// The best table for this processor, or the one that the environment variable NINEDOF_SIMD names. Throws InvalidArgument where
-/// there is none of that name.
+/// The best table for this processor, or the one named by the environment variable NINEDOF_SIMD. Throws InvalidArgument
+/// if there is none of that name.
 const Table& table();
 
 }  // namespace ninedof::kernels

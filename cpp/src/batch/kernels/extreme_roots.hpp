@@ -1,14 +1,14 @@
 #pragma once
-/// Least and greatest eigenvalue of B^T B for a bidiagonal B, without forming it.
+/// Least and greatest eigenvalue of B^T B for a bidiagonal B, without forming the product (docs/theory/kernels.md).
 ///
-/// The characteristic polynomial is evaluated from the squares q_k and e_k of the entries of B, without division and without
-/// the cancellation that B^T B would bring,
+/// The characteristic polynomial is evaluated from the squares q_k and e_k of the entries of B, without division and
+/// without the cancellation that B^T B would bring,
 ///
 ///   v_1 = 1, u_1 = q_1 - x,    v_{k+1} = u_k + e_k v_k,    u_{k+1} = q_{k+1} u_k - x v_{k+1},    p(x) = u_6
 ///
-/// (the differential quotient-difference transform, numerators and denominators of its quotients kept apart). Small roots are
-/// therefore as accurate as B. Laguerre's iteration goes up from 0 to the least root and down from an upper bound to the
-/// greatest: monotonically, as all roots are real, and cubically where the root is simple.
+/// (the differential quotient-difference transform with numerators and denominators of its quotients kept apart). Small
+/// roots are therefore as accurate as B. The iterations go up from 0 to the least root and down from an upper bound to
+/// the greatest root: monotonically, because all roots are real, and with cubic convergence at a simple root.
 
 #include "batch/kernels/bidiagonal.hpp"
 
@@ -51,7 +51,7 @@ NINEDOF_INLINE Taylor<P> characteristic_at_zero(const P* q, const P* e) {
   return {u, u1, u2};
 }
 
-/// Laguerre's step to the nearest root from outside all of them, without its sign.
+/// Size of Laguerre's step from a point outside all roots to the nearest one.
 template <int n, class P>
 NINEDOF_INLINE P laguerre(const Taylor<P>& t) {
   constexpr double slope = (n - 1) * (n - 1), bend = 2 * n * (n - 1);
@@ -59,7 +59,7 @@ NINEDOF_INLINE P laguerre(const Taylor<P>& t) {
   return double(n) * t.p / (abs(t.p1) + root);
 }
 
-/// Halley's step: as quick close to a simple root, and without the square root.
+/// Size of Halley's step: close to a simple root as good as Laguerre's, and without the square root.
 template <class P>
 NINEDOF_INLINE P halley(const Taylor<P>& t) {
   return abs(t.p * t.p1 / (square(t.p1) - t.p * t.p2));
@@ -71,18 +71,19 @@ struct Root {
   typename P::Mask open;  ///< not converged
 };
 
-constexpr int most_rounds = 40;  // four to six suffice; a multiple root takes up to thirty
+constexpr int most_rounds = 40;  // usually four to six; up to thirty for a multiple root
 
-/// From x on, in this direction; `last` is the step that led to x, 0 where x is a mere bound: then a second step is always made.
+/// Iterates from x in the given direction. `last` is the step that led to x, 0 if x is only a bound: then at least two
+/// steps are made.
 template <int n, class P>
 NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction, P last) {
   typename P::Mask open = x >= 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     const P step = halley(characteristic<n>(q, e, x));
     x = select(open, x + direction * step, x);
-    // Of a cubic iteration the next step is this one times the cube of its ratio to the one before; one that is slow, towards
-    // a multiple root, goes on until its steps are rounding. Lanes that are done keep their root: it must not depend on
-    // their neighbours.
+    // With cubic convergence the next step is this one times the cube of its ratio to the step before. With slow
+    // convergence, towards a multiple root, iterate until the steps are rounding. Converged lanes keep their root: it
+    // must not depend on the other lanes.
     open = open &
            ((square(square(step)) > 1e-15 * x * (square(last) * last)) | ((step > 0.1 * last) & (step > 4e-15 * x)));
     if (!any(open)) break;

@@ -1,5 +1,5 @@
 #pragma once
-/// Rows of numbers in memory, turned into columns and back: lane k of column j is number j of row k.
+/// Transposes rows of numbers in memory to columns and back: lane k of column j is number j of row k.
 
 #include "batch/kernels/pack.hpp"
 #include "batch/kernels/poses.hpp"
@@ -7,12 +7,12 @@
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 
-/// Rows that are turned at a time: their columns fit the first-level cache, and are a whole number of packs.
+/// Number of rows transposed at a time: a multiple of the pack size, and their columns fit the first-level cache.
 constexpr long chunk = 64;
 
 using Two = double __attribute__((vector_size(16), aligned(sizeof(double)), may_alias));
 
-/// The columns of `rows` rows, the last repeated to fill the chunk.
+/// The columns of `rows` rows; the last row is repeated to fill the chunk.
 template <int width>
 NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*column)[chunk]) {
   if (step == 0) {
@@ -20,7 +20,7 @@ NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*co
       for (long k = 0; k < chunk; ++k) column[j][k] = from[j];
     return;
   }
-  // Two rows and two columns at a time: half the stores.
+  // Two rows and two columns at a time need half the stores.
   for (long k = 0; k < chunk; k += 2) {
     const double* one = from + (k < rows ? k : rows - 1) * step;
     const double* two = from + (k + 1 < rows ? k + 1 : rows - 1) * step;
@@ -34,13 +34,13 @@ NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*co
   }
 }
 
-/// Asks for rows before they are read: memory works while the chunk before them is calculated.
+/// Prefetches rows while the chunk before them is computed.
 NINEDOF_INLINE void prefetch(const double* from, long step, long rows) {
   constexpr long line = 64 / sizeof(double);
   for (long k = 0; k < rows * step; k += line) __builtin_prefetch(from + k);
 }
 
-/// A chunk of configurations, by column: position, rotation, internal point, characteristic length.
+/// A chunk of configurations as columns: position, rotation, internal point, characteristic length.
 struct Columns {
   alignas(64) double x[16][chunk];
 

@@ -11,7 +11,7 @@
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 namespace {
 
-/// Two registers: two chains of dependent operations at a time. No result depends on it.
+/// Two registers: two independent chains of operations at a time. No result depends on the number of lanes.
 using Lanes = PackOf<2 * per_register>;
 
 /// Calls work(columns, first, rows) for each chunk.
@@ -25,11 +25,11 @@ NINEDOF_INLINE void for_each_chunk(const Block& b, const Work& work) {
   }
 }
 
-/// Squares of the entries of M made bidiagonal, by column: q, then e.
+/// Squares of the entries of the bidiagonal form of M, by column: q, then e.
 struct Bidiagonals {
   alignas(64) double x[11][chunk];
 
-  /// In the meantime the poses of the next chunk are fetched from memory, a few lines at a time: more would wait for each other.
+  /// Also prefetches the configurations of the next chunk, a few cache lines at a time: more at once would stall.
   NINEDOF_INLINE void reduce(const Block& b, const Columns& c, long next) {
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const long left = b.count - next - k;
@@ -54,7 +54,7 @@ struct Bidiagonals {
   }
 };
 
-/// The same with the characteristic lengths, and with M made bidiagonal: work(columns, bidiagonals, first, rows).
+/// The same with the characteristic lengths and the bidiagonal forms of M: work(columns, bidiagonals, first, rows).
 template <class Work>
 NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
   Bidiagonals reduced;
@@ -65,13 +65,14 @@ NINEDOF_INLINE void for_each_reduced_chunk(const Block& b, const Work& work) {
   });
 }
 
-/// Beyond this condition number, and where O is this many largest singular values of M away from p, rounding weighs too much.
+/// Above this condition number, or if the distance of O from p is more than this many characteristic lengths times the
+/// largest singular value of M, rounding errors are too large: the row is unsure.
 constexpr double most_condition = 1e8, most_lever = 16.0;
 
 template <class P>
 NINEDOF_INLINE typename P::Mask lever_allows(const Columns& c, long k, const P& greatest) {
   const Poses<P> pose = c.poses<P>(k);
-  const Vector<P> y = pose.s - pose.p;
+  const Xyz<P> y = pose.s - pose.p;
   return dot(y, y) <= (most_lever * most_lever) * greatest * square(c.length<P>(k));
 }
 
@@ -83,16 +84,12 @@ void leg_lengths(const Block& b, double* out) {
   for_each_chunk(b, [&](const Columns& c, long first, long rows) {
     alignas(64) double length[9][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
-      const Poses<Lanes> pose = c.poses<Lanes>(k);
-      const Vector<Lanes> y = pose.s - pose.p;
+      const LegVectors<Lanes> legs(b.robot, c.poses<Lanes>(k));
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
-        const Vector<Lanes> l = pose.p + pose.turned(b.robot.platform_external[i]) - b.robot.base_external[i];
-        const Vector<Lanes> q = y - pose.turned(b.robot.platform_internal[i]);
-        const Vector<Lanes> r = pose.s - b.robot.base_internal[i];
-        store(sqrt(dot(l, l)), length[i] + k);
-        store(sqrt(dot(q, q)), length[3 + i] + k);
-        store(sqrt(dot(r, r)), length[6 + i] + k);
+        store(sqrt(dot(legs.external[i], legs.external[i])), length[i] + k);
+        store(sqrt(dot(legs.upper[i], legs.upper[i])), length[3 + i] + k);
+        store(sqrt(dot(legs.lower[i], legs.lower[i])), length[6 + i] + k);
       }
     }
     scatter<9>(length, rows, out + 9 * first);

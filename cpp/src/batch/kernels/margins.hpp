@@ -9,39 +9,39 @@ namespace ninedof::kernels::inline NINEDOF_LEVEL {
 template <class P>
 struct Margins {
   P m, b, c;
-  typename P::Mask sure;  ///< no two points nearly coincide
+  typename P::Mask sure;  ///< whether no two points nearly coincide
 };
 
-/// Squared length of a difference of points, in terms of the squared size of the coordinates, that has a direction beyond doubt.
+/// Squared length of a difference of points, relative to the squared size of the coordinates, above which its direction
+/// is accurate.
 constexpr double clear_difference = 1e-26;
 
-/// The unit vector along a; `least` keeps the least squared length.
+/// The unit vector along a; `least` becomes the least squared length so far.
 template <class P>
-NINEDOF_INLINE Vector<P> unit(const Vector<P>& a, P& least) {
+NINEDOF_INLINE Xyz<P> unit(const Xyz<P>& a, P& least) {
   const P squared = dot(a, a);
   least = min(least, squared);
-  return a * (1.0 / sqrt(squared));
+  return (1.0 / sqrt(squared)) * a;
 }
 
-/// No -0.0: at a singularity there is no side.
+/// Never -0.0: a singularity lies on neither side.
 template <class P>
-NINEDOF_INLINE P determinant(const Vector<P> (&rows)[3]) {
+NINEDOF_INLINE P determinant(const Xyz<P> (&rows)[3]) {
   return dot(rows[0], cross(rows[1], rows[2])) + 0.0;
 }
 
 template <class P>
 NINEDOF_INLINE Margins<P> margins(const Joints& g, const Poses<P>& c) {
   P least = 1e300;
-  Vector<P> turning[3], lower[3], upper[3];
-  const Vector<P> y = c.s - c.p;
+  Xyz<P> turning[3], lower[3], upper[3];
+  const LegVectors<P> legs(g, c);
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
-    const Vector<P> tip = c.p + c.turned(g.platform_external[i]);
-    const Vector<P> leg = tip - g.base_external[i];
+    const Xyz<P>& leg = legs.external[i];
     least = min(least, dot(leg, leg));
-    turning[i] = cross(unit(c.s - g.base_external[i], least), unit(c.s - tip, least));
-    lower[i] = unit(c.s - g.base_internal[i], least);
-    upper[i] = unit(y - c.turned(g.platform_internal[i]), least);
+    turning[i] = cross(unit(c.s - g.base_external[i], least), unit(c.s - (c.p + legs.u[i]), least));
+    lower[i] = unit(legs.lower[i], least);
+    upper[i] = unit(legs.upper[i], least);
   }
   const double* joint = &g.base_external[0][0];
   double joints = 0.0;

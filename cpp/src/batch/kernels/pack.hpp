@@ -1,11 +1,12 @@
 #pragma once
-/// Doubles that are calculated with at once, lane by lane.
+/// Packs: several doubles in one or more vector registers, computed lane by lane.
 ///
-/// The number of lanes of a pack is the same on every processor; only how many of its lanes fit a register differs. No operation mixes
-/// lanes and each is rounded as IEEE 754 says, so that the bits of a result do not depend on the instruction set.
+/// No operation mixes lanes, and each is rounded according to IEEE 754, so that the bits of a result depend neither on
+/// the number of lanes nor on the instruction set.
 ///
-/// Kernel sources include nothing but the headers of this folder and see no function of another file: what is compiled here
-/// for AVX-512 must never be linked into code that runs elsewhere.
+/// Kernel sources include only the headers of this folder and templates over the number type (xyz.hpp, hexagon.hpp),
+/// and call no function of another file: code compiled here for AVX-512 must never be linked into code for other
+/// processors.
 
 #ifndef NINEDOF_LEVEL
 #error "compile kernel sources with -DNINEDOF_LEVEL=<name>"
@@ -28,7 +29,7 @@ constexpr int per_register = register_bytes / static_cast<int>(sizeof(double));
 
 #define NINEDOF_INLINE [[gnu::always_inline]] inline
 
-/// Lanes for which something holds.
+/// One truth value per lane.
 template <int N>
 struct MaskOf {
   static constexpr int registers = N / per_register;
@@ -67,7 +68,7 @@ struct PackOf {
   Register part[registers];
 
   PackOf() = default;
-  // A number stands for itself in every lane.
+  // The same number in every lane.
   NINEDOF_INLINE PackOf(double x) {  // NOLINT(google-explicit-constructor)
     for (int i = 0; i < registers; ++i) part[i] = Register{} + x;
   }
@@ -110,7 +111,7 @@ struct PackOf {
     return Mask::each([&](int i) { return a.part[i] >= b.part[i]; });
   }
 
-  /// a where the mask holds, else b.
+  /// a where the mask is set, else b.
   NINEDOF_INLINE friend PackOf select(const Mask& m, const PackOf& a, const PackOf& b) {
     return each([&](int i) { return m.part[i] ? a.part[i] : b.part[i]; });
   }

@@ -1,9 +1,11 @@
 #pragma once
-/// Least and greatest eigenvalue of B^T B from the coefficients of its characteristic polynomial.
+/// Least and greatest eigenvalue of B^T B from the coefficients of its characteristic polynomial
+/// (docs/theory/kernels.md).
 ///
-/// The coefficients are sums of products of the squares q_k and e_k of the entries of B, so that nothing cancels in them, and with
-/// them p, p' and p'' cost a third of what the recurrence of extreme_roots.hpp asks. But a root moves with their rounding, some units
-/// in the last place, times p(-x) / (x p'(x)), which is large where a second root is close: there the recurrence decides.
+/// The coefficients are sums of products of the squares q_k and e_k of the entries of B, without cancellation. With
+/// them p, p' and p'' cost a third of the recurrence of extreme_roots.hpp. But the rounding errors of the coefficients,
+/// some units in the last place, change a root by this much times p(-x) / (x p'(x)), which is large close to a second
+/// root: there the recurrence is used.
 
 #include "batch/kernels/extreme_roots.hpp"
 
@@ -14,9 +16,9 @@ template <class P>
 struct Polynomial {
   P s[6];
 
-  /// s_k is the sum of all products of k numbers of q_1, e_1, q_2, ..., q_6 of which no two are neighbours.
+  /// s_k is the sum of all products of k of the numbers q_1, e_1, q_2, ..., q_6, no two of them adjacent.
   NINEDOF_INLINE explicit Polynomial(const Bidiagonal<P>& b) {
-    // Those of the sequence up to the number taken in last, and up to the one before it.
+    // The sums for the sequence up to the last number included, and up to the one before it.
     P one[7] = {1.0, b.q[0]}, two[7] = {1.0};
 #pragma GCC unroll 10
     for (int j = 1; j < 11; ++j) {
@@ -51,7 +53,7 @@ struct Polynomial {
     return {p, p1, p2};
   }
 
-  /// p(-x): the sum of the sizes of all its terms.
+  /// p(-x): the sum of the absolute values of all terms of p(x).
   NINEDOF_INLINE P sizes(const P& x) const {
     P sum = x + s[0];
 #pragma GCC unroll 5
@@ -60,13 +62,13 @@ struct Polynomial {
   }
 };
 
-/// A root on its way, from outside all of them.
+/// An iteration towards a root, from outside all roots.
 template <class P>
 struct Approach {
   P x, last, slope;
   typename P::Mask open;
 
-  /// Whatever led to x was no step of this kind and predicts none: a second one is always made.
+  /// x did not come from a step of this iteration: at least two steps are made.
   NINEDOF_INLINE explicit Approach(const P& at) : x(at), last(0.0), slope(0.0), open(at >= 0.0) {}
 
   NINEDOF_INLINE void advance(const Polynomial<P>& p) {
@@ -75,14 +77,14 @@ struct Approach {
     x = select(open, x - step, x);
     slope = select(open, t.p1, slope);
     const P size = abs(step);
-    // Of a cubic iteration the next step is this one times the cube of its ratio to the one before. Steps as small as
-    // rounding are the last.
+    // With cubic convergence the next step is this one times the cube of its ratio to the step before. A step of the
+    // size of rounding is the last.
     open = open & (square(square(size)) > 1e-15 * x * (square(last) * last)) & (size > 1e-13 * x);
     last = size;
   }
 
-  /// Where the iteration has not ended, or the root is so close to another that it moves by more than a hundred times the
-  /// relative rounding of a coefficient.
+  /// Whether the iteration has not converged, or the root is so close to another that the relative rounding of a
+  /// coefficient changes it by more than a hundred times as much.
   NINEDOF_INLINE typename P::Mask doubtful(const Polynomial<P>& p) const {
     constexpr double most = 100.0;
     return open | !(p.sizes(x) <= most * (x * abs(slope)));
@@ -96,21 +98,21 @@ struct Extremes {
 
 template <class P>
 NINEDOF_INLINE Extremes<P> extreme_roots(const Bidiagonal<P>& b) {
-  constexpr int rounds = 6;  // three or four as a rule
+  constexpr int rounds = 6;  // usually three or four
   const Polynomial<P> p(b);
   const P up = laguerre<6>(Taylor<P>{p.s[5], p.s[4], p.s[3]});
-  // The bound of Laguerre and Samuelson: mean and variance of the roots are known.
+  // The bound of Laguerre and Samuelson, from the mean and the variance of the roots.
   const P mean = p.s[0] * (1.0 / 6.0);
   const P bound = mean + sqrt(max(25.0 * square(mean) - (5.0 / 3.0) * p.s[1], P(0.0)));
   const P down = laguerre<6>(p.at(bound));
   Approach<P> least(up), greatest(bound - down);
-  for (int round = 0; round < rounds; ++round) {  // both at once: two chains of dependent operations
+  for (int round = 0; round < rounds; ++round) {  // both together: two independent chains of operations
     least.advance(p);
     greatest.advance(p);
     if (!any(least.open | greatest.open)) break;
   }
   Extremes<P> out{{least.x, least.doubtful(p)}, {greatest.x, greatest.doubtful(p)}};
-  // Lanes that were sure keep their root: it must not depend on their neighbours.
+  // Converged lanes keep their root: it must not depend on the other lanes.
   if (any(out.least.open)) {
     const Root<P> again = iterate<6>(b.q, b.e, up, 1.0, P(0.0));
     out.least = {select(out.least.open, again.x, least.x), out.least.open & again.open};

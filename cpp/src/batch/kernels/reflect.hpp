@@ -5,7 +5,7 @@
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 
-/// a[0] b[0] + ... + a[n-1] b[n-1], summed as a tree: short chains of dependent operations.
+/// a[0] b[0] + ... + a[n-1] b[n-1], summed as a tree to keep chains of dependent operations short.
 template <int n, class P>
 NINEDOF_INLINE P product(const P* const (&a)[n], const P* const (&b)[n]) {
   if constexpr (n == 1) {
@@ -23,8 +23,8 @@ NINEDOF_INLINE P product(const P* const (&a)[n], const P* const (&b)[n]) {
   }
 }
 
-/// Reflects `lines` vectors of n numbers so that the first comes to lie along the first axis; returns its squared length.
-/// Number i of vector j is at m[j * across + i * along]. The first vector is used up.
+/// Reflects `lines` vectors of n numbers so that the first becomes parallel to the first axis; returns its squared
+/// length. Number i of vector j is at m[j * across + i * along]. The first vector is not updated.
 template <int n, int lines, int across, int along, class P>
 NINEDOF_INLINE P reflect(P* m) {
   const P* x[n];
@@ -40,7 +40,7 @@ NINEDOF_INLINE P reflect(P* m) {
     dots[j] = product<n>(x, y);
   }
   const P length = copysign(sqrt(squared), m[0]);
-  // A vector of zeros stays where it is.
+  // A zero vector is not reflected.
   const P scale = select(squared > 0.0, 1.0 / (squared + length * m[0]), P(0.0));
   const P head = m[0] + length;
 #pragma GCC unroll 6

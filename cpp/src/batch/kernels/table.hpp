@@ -1,14 +1,15 @@
 #pragma once
-/// What the kernels offer: one table of plain functions for each instruction set. Includes nothing, as kernels must.
+/// The kernels as a table of plain functions, one for each instruction set. Includes nothing, as the kernels require.
 
 namespace ninedof::kernels {
 
-/// The joints of a robot: x, y, z of each of three.
+/// The joints of a robot: x, y, z of each joint of a triple.
 struct Joints {
   double base_external[3][3], base_internal[3][3], platform_external[3][3], platform_internal[3][3];
 };
 
-/// Configurations of one robot in the caller's memory; a step of 0 repeats the same one. `length` is used by the conditioning.
+/// Configurations of one robot in the caller's memory; a step of 0 repeats the same value. `length` is the
+/// characteristic length, where a kernel needs it.
 struct Block {
   Joints robot;
   const double *position, *rotation, *internal_point, *length;
@@ -16,19 +17,20 @@ struct Block {
   long count;
 };
 
-/// What a kernel writes, in place of the first number of a row, where it is not sure of it. Callers ask the accurate path then.
-/// No result can be that: condition numbers and lengths are positive, determinants of unit rows at least -1.
+/// A kernel writes this in place of the first number of a row whose accuracy is uncertain; the caller then recomputes
+/// the row with the functions of one configuration. No result has this value: condition numbers and lengths are
+/// positive, determinants of unit rows at least -1.
 constexpr double unsure = -2.0;
 
 struct Table {
   const char* level;
   int lanes;
-  void (*leg_lengths)(const Block& block, double* out);                    ///< 9 a row; never unsure
-  void (*condition_numbers)(const Block& block, double* out);              ///< 1 a row
-  void (*frobenius_condition_numbers)(const Block& block, double* out);    ///< 1 a row
-  void (*singular_values)(const Block& block, double* out);                ///< of J', descending, 6 a row
-  void (*singularity_margins)(const Block& block, double* out);            ///< m, b, c, 3 a row
-  /// Rows a1 a2 b1 b2 zp zs of hexagonal designs at theta_z = 0, in characteristic lengths: 1 a row.
+  void (*leg_lengths)(const Block& block, double* out);                    ///< 9 per row; never unsure
+  void (*condition_numbers)(const Block& block, double* out);              ///< 1 per row
+  void (*frobenius_condition_numbers)(const Block& block, double* out);    ///< 1 per row
+  void (*singular_values)(const Block& block, double* out);                ///< of J', descending, 6 per row
+  void (*singularity_margins)(const Block& block, double* out);            ///< m, b, c, 3 per row
+  /// Rows a1 a2 b1 b2 zp zs of hexagonal designs at theta_z = 0, in characteristic lengths: 1 per row.
   void (*hexagonal_condition_numbers)(const double* designs, long count, double* out);
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Unknowns that settle where they like, taken out of a least-squares sum without squaring it.
+/// Eliminates free unknowns from a least-squares problem without forming normal equations.
 
 #include <Eigen/QR>
 
@@ -7,9 +7,9 @@
 
 namespace ninedof {
 
-/// X with |X y| = min over z of |kept y + free z| for every y: the part of `kept` that the columns of `free` cannot
-/// reach, in an orthonormal basis. X^T X is the Schur complement of the normal equations, and stays right where `free`
-/// has lost rank.
+/// X with |X y| = min over z of |kept y + free z| for every y: the part of `kept` orthogonal to the columns of `free`,
+/// in an orthonormal basis. X^T X is the Schur complement of the normal equations. Correct also if `free` is
+/// rank-deficient.
 template <int Rows, int Kept>
 Eigen::Matrix<double, Rows, Kept> eliminate(const Eigen::Matrix<double, Rows, 3>& free,
                                             const Eigen::Matrix<double, Rows, Kept>& kept) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Householder reflections of small matrices. Every loop has a length known to the compiler, which makes them twice as
+/// Householder reflections of small matrices. Every loop has a length known at compile time, which makes them twice as
 /// fast as Eigen's.
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace ninedof {
 
-/// The reflection 1 - beta v v^T that takes rows k and below of a column to (image, 0, 0, ...) and leaves those above.
+/// The reflection 1 - beta v v^T that maps rows k and below of a column to (image, 0, 0, ...) and keeps the rows above.
 template <int Rows>
 struct Reflection {
   static_assert(Rows % 4 == 0, "pad with rows of zeros");
@@ -19,7 +19,7 @@ struct Reflection {
 
   Reflection() = default;
 
-  /// The column must not be zero in all of these rows.
+  /// The column must have an entry other than zero in row `row` or below.
   Reflection(const Eigen::Matrix<double, Rows, 1>& column, Eigen::Index row) : k(row), v(column) {
     v.head(k).setZero();
     const double norm = std::copysign(v.norm(), v[k]);  // with this sign nothing cancels in the next line
@@ -31,7 +31,7 @@ struct Reflection {
 
 namespace detail {
 
-/// Reflects columns of Rows numbers that follow each other every Stride numbers; v starts with `zeros` zeros.
+/// Reflects columns of Rows numbers, Stride numbers apart; v starts with `zeros` zeros.
 template <int Rows, int Stride>
 void reflect(const double* v, double beta, Eigen::Index zeros, double* a, Eigen::Index columns) {
   if constexpr (Rows > 4)

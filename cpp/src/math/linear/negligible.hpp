@@ -1,12 +1,12 @@
 #pragma once
-/// Where rounding begins.
+/// The threshold below which a singular value counts as zero.
 
 #include "math/numbers.hpp"
 
 namespace ninedof {
 
-/// Below this fraction of the largest, a singular value is rounding: double precision cannot tell the configuration
-/// from a singular one, and it is called singular.
+/// As a fraction of the largest singular value. Below it a singular value is rounding error: in double precision the
+/// configuration cannot be distinguished from a singular one, and counts as singular.
 constexpr double negligible = 16.0 * eps;
 
 }  // namespace ninedof

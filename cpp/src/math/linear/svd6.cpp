@@ -1,4 +1,4 @@
-#include "ninedof/math/linear/svd6.hpp"
+#include "math/linear/svd6.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 namespace ninedof {
 namespace {
 
-/// Five rounds of three disjoint column pairs: every pair once a sweep, and three independent rotations at a time for
-/// the processor to overlap.
+/// Five rounds of three disjoint column pairs: each pair occurs once in a sweep, and the processor can overlap the
+/// three independent rotations of a round.
 constexpr std::array<std::array<std::array<int, 2>, 3>, 5> rounds{{
     {{{0, 5}, {1, 4}, {2, 3}}},
     {{{0, 4}, {5, 3}, {1, 2}}},
@@ -19,13 +19,13 @@ constexpr std::array<std::array<std::array<int, 2>, 3>, 5> rounds{{
 }};
 
 constexpr int max_sweeps = 30;             // five to eight suffice
-constexpr double orthogonal = 1e-31;       // squared cosine that is left alone: below rounding
-constexpr double nearly_orthogonal = 1e-17;  // squared cosine from which one more rotation ends below rounding
+constexpr double orthogonal = 1e-31;         // squared cosine below rounding: no rotation
+constexpr double nearly_orthogonal = 1e-17;  // squared cosine that the next rotation takes below rounding
 
-/// Columns of the matrix, each times the square root of its weight. Keeping the weights apart (Gentleman's trick) takes
-/// the normalisation of every rotation, a square root and a division, off the chain of dependent operations.
+/// Columns of the matrix, each times the square root of its weight. With separate weights (Gentleman's fast rotations)
+/// the normalization of a rotation, a square root and a division, is not on the chain of dependent operations.
 ///
-/// Rows beyond the sixth are turned along: the identity there ends as the right singular vectors.
+/// Rows beyond the sixth are rotated along: the identity there becomes the right singular vectors.
 template <int Rows>
 struct WeightedColumns {
   Eigen::Matrix<double, Rows, 6> columns;
@@ -38,7 +38,7 @@ struct WeightedColumns {
     squared_norms = weights.cwiseProduct(columns.template topRows<6>().colwise().squaredNorm().transpose());
   }
 
-  /// Makes columns i and j orthogonal; returns whether they were far from it.
+  /// Makes columns i and j orthogonal; returns whether they were far from orthogonal.
   bool rotate(int i, int j) {
     const double dot = head(i).dot(head(j));
     const double product = weights[i] * weights[j];

@@ -1,12 +1,12 @@
 #pragma once
-/// Singular values of a 6x6 matrix by one-sided Jacobi rotations, written for this one size.
+/// Singular values of a 6x6 matrix by one-sided Jacobi rotations.
 
 #include "ninedof/math/types.hpp"
 
 namespace ninedof {
 
-/// Singular values, descending. No allocation; NaN where the input has NaN, infinite where it is infinite.
-/// Each is accurate to a few rounding errors of the largest, the small ones often far better.
+/// Singular values, descending. No allocation. All NaN if the input has NaN, all infinite if it has an infinite entry.
+/// Each is accurate to a few rounding errors of the largest, small ones often to far less.
 Vec6 singular_values_6x6(const Mat6& m);
 
 /// Singular values, descending, and the right singular vectors in the same order, one a column.

@@ -9,9 +9,9 @@ namespace {
 constexpr int degree = 8;
 constexpr std::array<double, 9> inverse_binomial{1.0,        1.0 / 8.0,  1.0 / 28.0, 1.0 / 56.0, 1.0 / 70.0,
                                                  1.0 / 56.0, 1.0 / 28.0, 1.0 / 8.0,  1.0};
-constexpr int most_halvings = 20;       // roots nearer than a millionth are a double one
-constexpr double noise = 1e-13;         // of the largest coefficient: what cancellation may have left of them
-constexpr int most_refinements = 40;    // four or five suffice
+constexpr int most_halvings = 20;     // roots closer than 1e-6 count as a double root
+constexpr double noise = 1e-13;       // relative to the largest coefficient: error after cancellation
+constexpr int most_refinements = 40;  // four or five suffice
 
 /// Bernstein coefficients on an interval [from, from + size] of [0, 1].
 struct Piece {
@@ -32,8 +32,8 @@ double largest_of(const Octic& b) {
   return largest;
 }
 
-/// Whether the signs say nothing: no coefficient stands out of the noise, or a double root may sit on an end, where value and slope
-/// are both noise and it would hide between two pieces.
+/// Whether the signs are unreliable: no coefficient exceeds the noise, or a double root may lie on an end of the
+/// interval, where value and slope are both noise and neither of the two neighbouring pieces would show it.
 bool in_noise(const Octic& b, double level) {
   const double largest = largest_of(b);
   if (largest <= level) return true;
@@ -43,7 +43,8 @@ bool in_noise(const Octic& b, double level) {
   return touches(b[0], b[1]) || touches(b[degree], b[degree - 1]);
 }
 
-/// de Casteljau at the middle; `right` replaces the whole. Sums only, and an exact power of two at the end.
+/// De Casteljau subdivision at the middle: returns the left half, `b` becomes the right half. Only sums, and an exact
+/// power of two at the end.
 Octic split_left(Octic& b) {
   Octic left;
   double scale = 1.0;
@@ -71,7 +72,8 @@ ValueSlope horner(const Octic& p, double x) {
   return {value, slope};
 }
 
-/// The root of p in [low, high], where p changes sign once; `start` is a guess. Newton, bisection where it leaves the bracket.
+/// The root of p in [low, high], where p changes sign once, from the estimate `start`: Newton's method, or bisection
+/// where a step leaves the bracket.
 double refine(const Octic& p, double low, double high, double start, bool negative_below) {
   double x = start;
   for (int k = 0; k < most_refinements; ++k) {
@@ -82,7 +84,7 @@ double refine(const Octic& p, double low, double high, double start, bool negati
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::abs(next - x);
     x = next;
-    if (step < root_accuracy) break;  // Newton's step is the error before it; squared, the one after
+    if (step < root_accuracy) break;  // the error after a Newton step is of the order of the squared step
   }
   return x;
 }
@@ -97,8 +99,9 @@ CircleRoots circle_roots(const Octic& p, double error) {
     return out;
   }
   const double level = std::max(noise * largest, error);
-  // x in (0, infinity) is u = x / (1 + x) in (0, 1), where the coefficients over the binomials are those of Bernstein;
-  // negative x the same with odd coefficients negated. A piece below one half is refined in x, one above in 1 / x.
+  // x in (0, infinity) maps to u = x / (1 + x) in (0, 1), where the coefficients divided by the binomials are the
+  // Bernstein coefficients. Negative x: the same with odd coefficients negated. Pieces below u = 1/2 are refined in x,
+  // those above in 1 / x.
   for (const double sign : {1.0, -1.0}) {
     Octic forward = p, backward;
     for (std::size_t k = 1; k <= degree; k += 2) forward[k] *= sign;
@@ -119,7 +122,7 @@ CircleRoots circle_roots(const Octic& p, double error) {
             return out;
           }
           const double to = piece.from + piece.size;
-          // Where the line through the two nearest coefficients of different sign cuts the axis.
+          // The line through the two neighbouring coefficients of different sign crosses zero here.
           std::size_t k = 0;
           while (std::signbit(piece.b[k]) == std::signbit(piece.b[k + 1])) ++k;
           const double guess =

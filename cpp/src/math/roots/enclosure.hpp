@@ -1,7 +1,7 @@
 #pragma once
-/// A function of time near a place: Taylor coefficients there, what rounding may have done to them, and what they cannot
-/// exceed over a window [t, t + h]. Sums and products carry all of it along, so that a formula is written once and comes
-/// with its own proof.
+/// A function of time with proved bounds: its Taylor coefficients at t, their rounding errors, and bounds on them over
+/// a window [t, t + h]. Sums and products propagate all three, so that a formula is written once and yields its own
+/// proof.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace ninedof {
 
-/// Of a number or of a vector, whose size is then its norm.
+/// T is double or a vector; the size of a vector is its norm.
 template <class T>
 struct Enclosure {
   std::array<T, 3> at;             ///< f(t), f'(t), f''(t) / 2
-  std::array<double, 3> error;     ///< each is off by at most so much
+  std::array<double, 3> error;     ///< largest absolute error of each
   std::array<double, 4> bound;     ///< of |f|, |f'|, |f''| / 2, |f'''| / 6 over the window
 };
 
@@ -31,10 +31,10 @@ inline double size(const Vec3& x) {
   return x.norm();
 }
 
-/// Roundings a coefficient of a product suffers: few products of few terms.
+/// Relative rounding error of a coefficient of a product: few products of few terms.
 constexpr double product_error = 16.0 * eps;
 
-/// Each bound is also what the coefficient is at t and the next one adds over the window.
+/// A coefficient is also bounded by its value at t and what the next one adds over the window.
 template <class T>
 void tighten(Enclosure<T>& x, double window) {
   for (std::size_t k = 3; k-- > 0;)
@@ -42,7 +42,7 @@ void tighten(Enclosure<T>& x, double window) {
         std::min(x.bound[k], size(x.at[k]) + x.error[k] + static_cast<double>(k + 1) * window * x.bound[k + 1]);
 }
 
-/// A product of any kind with |a b| <= |a| |b|.
+/// Any product with |a b| <= |a| |b|.
 template <class A, class B, class Product>
 auto multiply(const Enclosure<A>& a, const Enclosure<B>& b, double window, const Product& product) {
   using T = std::decay_t<decltype(product(a.at[0], b.at[0]))>;
@@ -79,7 +79,7 @@ inline Enclosure<double> dot(const Enclosure<Vec3>& a, const Enclosure<Vec3>& b,
   return detail::multiply(a, b, window, [](const Vec3& x, const Vec3& y) { return x.dot(y); });
 }
 
-/// The error of the sum itself counts as one of the larger term's.
+/// The rounding error of the sum itself is at most eps times the sizes of the terms.
 template <class T>
 Enclosure<T> operator+(const Enclosure<T>& a, const Enclosure<T>& b) {
   Enclosure<T> out;

@@ -1,5 +1,5 @@
 #pragma once
-/// The first zero of a smooth function on [0, most], nothing stepped over.
+/// The first zero of a smooth function on [0, most], with a proof that none was missed before it.
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,15 @@
 namespace ninedof {
 
 struct FirstRoot {
-  double at;      ///< infinite: none on [0, most]
-  bool resolved;  ///< false: none before `at`, and the search ended there
+  double at;      ///< infinite if there is none on [0, most]
+  bool resolved;  ///< false if the search ended at `at` without a zero before it
 };
 
 namespace detail {
 
-/// Root of value - fall x - curvature x^2 / 2 for value >= 0, curvature >= 0: how far a function stays positive that starts
-/// at `value`, falls at the rate `fall` at most and bends down by `curvature` at most. No cancellation.
+/// Root of value - fall x - curvature x^2 / 2 for value >= 0, curvature >= 0: the distance over which a function stays
+/// positive that starts at `value` with a slope of at least -fall and a second derivative of at least -curvature. No
+/// cancellation.
 inline double safe_step(double value, double fall, double curvature) {
   const double root = std::sqrt(fall * fall + 2.0 * curvature * value);
   if (fall > 0.0) return 2.0 * value / (fall + root);
@@ -26,11 +27,11 @@ inline double safe_step(double value, double fall, double curvature) {
 
 }  // namespace detail
 
-/// `f(t, h)` gives the Enclosure<double> of f at t with its bounds over [t, t + h]. `window` is the first h tried.
+/// `f(t, h)` returns the Enclosure<double> of f at t with its bounds over [t, t + h]. `window` is the first h tried.
 ///
-/// From t the function keeps its sign for as long as |f| - fall x - bend x^2 / 2 is positive, whence the step; close to a simple
-/// zero that is Newton's, always short of it. A zero is where |f| is down to twice its error, so that one merely
-/// touched is found, and one missed by less than rounding is taken for found.
+/// From t the function keeps its sign while |f| - fall x - bend x^2 / 2 is positive: this gives the step. Close to a
+/// simple zero it is Newton's step from one side. A zero is reported where |f| is at most twice its error. So a double
+/// zero is found, and so is a minimum that misses zero by less than rounding.
 template <class Function>
 FirstRoot first_root(const Function& f, double most, double window) {
   constexpr int max_steps = 100000;
@@ -42,7 +43,8 @@ FirstRoot first_root(const Function& f, double most, double window) {
     if (!std::isfinite(here.at[0])) return {t, false};
     if (step == 0) sign = here.at[0] < 0.0 ? -1.0 : 1.0;
     const double value = sign * here.at[0], slope = sign * here.at[1], bend = 2.0 * sign * here.at[2];
-    // Taylor's remainder, x^3 max |f'''| / 6, is below x^2 / 2 times twice h of that; or f'' keeps to its own bound.
+    // Taylor's remainder, x^3 max |f'''| / 6, is at most x^2 / 2 times 2 h max |f'''| / 6. The bound of f'' holds as
+    // well.
     const double most_bend = std::min(2.0 * here.bound[2], 2.0 * here.bound[3] * h + 2.0 * here.error[2] - bend);
     if (!std::isfinite(most_bend)) {
       window = 0.125 * h;
@@ -57,7 +59,7 @@ FirstRoot first_root(const Function& f, double most, double window) {
       t = h == rest ? most : t + h;
       window = 2.0 * h;
     } else {
-      if (t + reach == t) return {t, true};  // nothing left that a double could tell from t
+      if (t + reach == t) return {t, true};  // the zero is at t to rounding
       t += reach;
       window = 2.0 * reach;
     }

@@ -16,7 +16,7 @@ namespace ninedof {
 /// The first joint of each triple in its body's frame, and the neutral configuration, over a number type.
 template <class T>
 struct Orbits {
-  Point<T> base_external, base_internal, platform_external, platform_internal;
+  Xyz<T> base_external, base_internal, platform_external, platform_internal;
   T zp, zs, theta_z;
 };
 
@@ -73,7 +73,7 @@ class AxisFamily : public DesignFamily {
   }
 
   /// Three joints from the first: -120 degrees at a time, as eqs. (37)-(38) number them.
-  static void place(const Point<Dual<N>>& first, int triple, Blueprint& out) {
+  static void place(const Xyz<Dual<N>>& first, int triple, Blueprint& out) {
     static constexpr std::array<double, 3> cosine{1.0, -0.5, -0.5};
     static constexpr std::array<double, 3> sine{0.0, -0.5 * std::numbers::sqrt3, 0.5 * std::numbers::sqrt3};
     for (int i = 0; i < 3; ++i) {
@@ -96,7 +96,7 @@ class AxisFamily : public DesignFamily {
     using std::sin;
     const T angle = o.theta_z + by.turn;
     const T c = cos(angle), s = sin(angle);
-    const auto turned = [&](const Point<T>& u) { return Point<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z}; };
+    const auto turned = [&](const Xyz<T>& u) { return Xyz<T>{c * u.x - s * u.y, s * u.x + c * u.y, u.z}; };
     return {o.base_external,
             o.base_internal,
             turned(o.platform_external),

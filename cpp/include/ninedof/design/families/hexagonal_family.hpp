@@ -2,6 +2,7 @@
 /// The paper's semi-regular hexagons (eqs. 37-38) at the neutral configuration (eq. 6), with the twist theta_z.
 
 #include "ninedof/design/families/axis_family.hpp"
+#include "ninedof/robot/hexagon.hpp"
 
 namespace ninedof {
 
@@ -14,19 +15,11 @@ class HexagonalFamily : public AxisFamily<HexagonalFamily, 7> {
 
   template <class T>
   Orbits<T> orbits(std::span<const T, 7> x) const {
-    const T &a1 = x[0], &b1 = x[2], zero(0.0);
-    const T ay = side_height(a1, x[1]), by = side_height(b1, x[3]);
-    const T half_a = 0.5 * a1, half_b = 0.5 * b1;
-    return {{half_a, ay, zero}, {-half_a, ay, zero}, {half_b, by, zero}, {-half_b, by, zero}, x[4], x[5], x[6]};
+    const Xyz<T> base = hexagon_joint_1(x[0], x[1]), platform = hexagon_joint_1(x[2], x[3]);
+    return {base, mirrored(base), platform, mirrored(platform), x[4], x[5], x[6]};
   }
 
  private:
-  /// y of joints 1 in eqs. (37)-(38)
-  template <class T>
-  static T side_height(const T& s1, const T& s2) {
-    return (-std::numbers::sqrt3 / 6.0) * (s1 + 2.0 * s2);
-  }
-
   std::string name_ = "hexagonal";
   std::vector<VariableInfo> variables_{
       {"a1", VariableKind::length, 0.0, 60.0},   {"a2", VariableKind::length, 0.0, 60.0},

@@ -33,7 +33,7 @@ class SymmetricFamily : public AxisFamily<SymmetricFamily<N>, N> {
 
  private:
   template <class T>
-  static Point<T> at(const T& radius, const T& angle, const T& height) {
+  static Xyz<T> at(const T& radius, const T& angle, const T& height) {
     using std::cos;
     using std::sin;
     return {radius * cos(angle), radius * sin(angle), height};
