@@ -40,12 +40,12 @@ InternalPoint nearby_internal_point(const Geometry& g, const Vec3& position, con
 }
 
 InternalPointMap best_internal_map(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem,
-                                   const MapSettings& settings) {
+                                   const MapSettings& settings, const Control& control) {
   validate(problem);
   validate(grid);
   require_share("seed_every", settings.seed_every);
   require_share("audit_every", settings.audit_every);
-  return map_in_waves(g, grid, problem, settings);
+  return map_in_waves(g, grid, problem, settings, control);
 }
 
 }  // namespace ninedof

@@ -117,12 +117,13 @@ std::vector<std::size_t> best_sequence(std::span<const Place> places, double cou
   return out;
 }
 
-void place_segment(std::span<const Place> places, double coupling, std::span<InternalPoint> out) {
+void place_segment(std::span<const Place> places, double coupling, const std::stop_token& stop,
+                   std::span<InternalPoint> out) {
   const std::vector<std::size_t> choice = best_sequence(places, coupling);
   std::vector<Stop> stops;
   for (std::size_t k = 0; k < places.size(); ++k)
     stops.push_back({places[k].merit.get(), places[k].choices[choice[k]].x});
-  const bool settled = settle_path(stops, coupling);
+  const bool settled = settle_path(stops, coupling, stop);
   for (std::size_t k = 0; k < places.size(); ++k)
     out[k] = internal_point(*stops[k].merit, stops[k].x,
                             settled ? InternalPointStatus::found : InternalPointStatus::stopped);
@@ -132,15 +133,17 @@ void place_segment(std::span<const Place> places, double coupling, std::span<Int
 
 std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const PlatformPose> poses,
                                               const InternalPointProblem& problem, double smoothness,
-                                              const std::optional<Vec3>& start) {
+                                              const std::optional<Vec3>& start, const Control& control) {
   validate(problem);
   require_positive("smoothness", smoothness);
   std::vector<InternalPoint> out(poses.size());
   std::vector<Place> places;
   Chamber chamber(start);
   for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (control.stop.stop_requested()) throw Stopped{};
     places.push_back(look(g, poses[k], problem, chamber, out[k]));
     if (places.back().choices.empty()) chamber.divide();
+    if (control.progress) control.progress(static_cast<long>(k + 1), static_cast<long>(poses.size()), not_a_number);
   }
   const auto first = std::ranges::find_if(places, [](const Place& p) { return p.scene != nullptr; });
   if (first == places.end()) return out;
@@ -150,7 +153,7 @@ std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const
   for (std::size_t k = 0; k < places.size();) {
     std::size_t end = k;
     while (end < places.size() && !places[end].choices.empty()) ++end;
-    if (end > k) place_segment({&places[k], end - k}, coupling, {&out[k], end - k});
+    if (end > k) place_segment({&places[k], end - k}, coupling, control.stop, {&out[k], end - k});
     k = std::max(end, k + 1);
   }
   return out;

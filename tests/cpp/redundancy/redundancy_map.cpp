@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <stop_token>
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"
@@ -16,6 +17,7 @@
 using namespace support;
 using ninedof::best_internal_map;
 using ninedof::best_internal_point;
+using ninedof::Control;
 using ninedof::Criterion;
 using ninedof::InternalPoint;
 using ninedof::InternalPointMap;
@@ -159,8 +161,11 @@ TEST_SUITE("redundancy_map") {
     const std::vector<PlatformPose> poses = plane(40);
     MapSettings settings;
     settings.threads = 2;
-    settings.proceed = [](std::size_t done, std::size_t) { return done < 600; };
-    const InternalPointMap map = best_internal_map(published, {poses, {40, 40}, {}}, {}, settings);
+    std::stop_source source;
+    const Control control{source.get_token(), [&](long done, long, double) {
+                            if (done >= 600) source.request_stop();
+                          }};
+    const InternalPointMap map = best_internal_map(published, {poses, {40, 40}, {}}, {}, settings, control);
     CHECK(!map.complete);
     const auto missing = std::ranges::count(map.points, InternalPointStatus::missing, &InternalPoint::status);
     CHECK(missing > 0);

@@ -2,10 +2,10 @@
 /// Where to put O at very many poses: a grid of them, each continued from its neighbours.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "ninedof/math/control.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 #include "ninedof/redundancy/redundancy_path.hpp"
 
@@ -30,8 +30,6 @@ struct MapSettings {
   std::size_t audit_every = 512;  ///< so is one in so many of the others, 32 at least, once all are placed
   std::uint64_t audit_seed = 0;  ///< which ones
   int threads = 0;  ///< 0: one a processor. The result does not depend on it.
-  /// Called with the number of poses placed so far, and of all, from the calling thread, several times a second; false stops.
-  std::function<bool(std::size_t done, std::size_t total)> proceed;
 };
 
 /// How often following neighbours missed a better point, by searching poses drawn at random.
@@ -46,7 +44,7 @@ struct InternalPointMap {
   MapAudit audit;  ///< of the map before what the audit found better went into it
   std::size_t searched = 0;  ///< poses given to best_internal_point, those of the audit included
   std::size_t followed = 0;  ///< local optima sought from a neighbour's
-  bool complete = true;  ///< false where `proceed` stopped it: poses not placed are `missing`
+  bool complete = true;  ///< false where a stop ended it: poses not placed are `missing`
 };
 
 /// The best internal point of every pose of a grid, each in the chamber of its own start.
@@ -59,6 +57,6 @@ struct InternalPointMap {
 /// Each wave reads the one before only. Throws InvalidArgument as best_internal_point does, and if the shape or the starts do not fit the
 /// poses, or a share is none.
 InternalPointMap best_internal_map(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem,
-                                   const MapSettings& settings = {});
+                                   const MapSettings& settings = {}, const Control& control = {});
 
 }  // namespace ninedof

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "ninedof/math/control.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 
 namespace ninedof {
@@ -25,9 +26,10 @@ struct PlatformPose {
 /// together by Newton's method on the whole path, softened at first. O stays in one chamber, that of `start` at the first pose.
 /// Poses that allow no point divide the path: on their two sides O is placed independently.
 ///
-/// Throws InvalidArgument as best_internal_point does, and unless the smoothness is finite and positive.
+/// Throws InvalidArgument as best_internal_point does, and unless the smoothness is finite and positive; Stopped on a stop.
+/// Reports the poses searched.
 std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const PlatformPose> poses,
                                               const InternalPointProblem& problem, double smoothness,
-                                              const std::optional<Vec3>& start = {});
+                                              const std::optional<Vec3>& start = {}, const Control& control = {});
 
 }  // namespace ninedof

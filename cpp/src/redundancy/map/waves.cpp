@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/numbers.hpp"
 #include "math/splitmix.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "redundancy/map/follow.hpp"
@@ -12,7 +13,7 @@
 namespace ninedof {
 namespace {
 
-// Poses between two looks at `proceed`: fixed, though nothing depends on them.
+// Poses between two progress reports.
 constexpr std::size_t slice = 512, search_slice = 32;
 constexpr std::size_t least_audit = 32;  // fewer poses say little
 constexpr double deficit = 1e-6;   // counts as missed
@@ -21,11 +22,13 @@ using Places = std::vector<std::size_t>;
 
 class Map {
  public:
-  Map(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem, const MapSettings& settings)
+  Map(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem, const MapSettings& settings,
+      const Control& control)
       : geometry_(g),
         grid_(grid),
         problem_(problem),
         settings_(settings),
+        control_(control),
         lattice_(grid.shape, settings.seed_every),
         cells_(grid.poses.size()),
         open_(cells_.size(), 0),
@@ -51,9 +54,12 @@ class Map {
     for (std::size_t first = 0; first < count; first += length) {
       const auto last = static_cast<long>(std::min(count, first + length));
       parallel_for(last - static_cast<long>(first), 8, settings_.threads, [&](long from, long to) {
+        if (control_.stop.stop_requested()) return;
         for (long n = from; n < to; ++n) work(first + static_cast<std::size_t>(n));
       });
-      if (settings_.proceed && !settings_.proceed(done_, cells_.size())) return out_.complete = false;
+      if (control_.stop.stop_requested()) return out_.complete = false;
+      if (control_.progress)
+        control_.progress(static_cast<long>(done_), static_cast<long>(cells_.size()), not_a_number);
     }
     return true;
   }
@@ -210,6 +216,7 @@ class Map {
   const PoseGrid& grid_;
   const InternalPointProblem& problem_;
   const MapSettings& settings_;
+  const Control& control_;
   Lattice lattice_;
   std::vector<Finding> cells_;
   std::vector<char> open_, fresh_, searched_;
@@ -221,8 +228,8 @@ class Map {
 }  // namespace
 
 InternalPointMap map_in_waves(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem,
-                              const MapSettings& settings) {
-  return Map(g, grid, problem, settings).run();
+                              const MapSettings& settings, const Control& control) {
+  return Map(g, grid, problem, settings, control).run();
 }
 
 }  // namespace ninedof

@@ -7,6 +7,6 @@ namespace ninedof {
 
 /// best_internal_map, its arguments checked.
 InternalPointMap map_in_waves(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem,
-                              const MapSettings& settings);
+                              const MapSettings& settings, const Control& control);
 
 }  // namespace ninedof

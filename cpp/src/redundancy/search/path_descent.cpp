@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "ninedof/math/control.hpp"
 
 namespace ninedof {
 namespace {
@@ -26,7 +27,8 @@ Mat3 convex(const Mat3& hessian, double floor) {
 
 class Path {
  public:
-  Path(std::span<Stop> stops, double coupling) : stops_(stops), coupling_(coupling), s_(points()) {}
+  Path(std::span<Stop> stops, double coupling, const std::stop_token& stop)
+      : stops_(stops), coupling_(coupling), stop_(stop), s_(points()) {}
 
   bool settle(double epsilon, double enough) {
     double value = evaluate(s_, epsilon, jets_);
@@ -55,6 +57,7 @@ class Path {
     jets.resize(s.size());
     double sum = 0.0;
     for (std::size_t k = 0; k < s.size(); ++k) {
+      if (stop_.stop_requested()) throw Stopped{};
       const Merit& merit = *stops_[k].merit;
       const double unit = merit.scene().unit();
       if (!merit.soft(merit.scene().inward(s[k]), epsilon, jets[k])) return infinity;
@@ -117,6 +120,7 @@ class Path {
 
   std::span<Stop> stops_;
   double coupling_;
+  const std::stop_token& stop_;
   std::vector<Vec3> s_;
   std::vector<Jet> jets_, trial_;
   double decrement_ = 0.0;
@@ -124,8 +128,8 @@ class Path {
 
 }  // namespace
 
-bool settle_path(std::span<Stop> stops, double coupling) {
-  Path path(stops, coupling);
+bool settle_path(std::span<Stop> stops, double coupling, const std::stop_token& stop) {
+  Path path(stops, coupling, stop);
   bool settled = true;
   for (const double epsilon : path_epsilons)
     settled = path.settle(epsilon, epsilon == path_epsilons.back() ? path_fully : path_nearly);

@@ -19,7 +19,7 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 class Grower {
  public:
   Grower(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-         const std::optional<Vec3>& home, const WorkspaceControl& control)
+         const std::optional<Vec3>& home, const Control& control)
       : m_(margins), settings_(settings), home_(home), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
@@ -127,7 +127,7 @@ class Grower {
   const WorkspaceSettings& settings_;
   std::optional<Vec3> home_;
   bool home_allowed_ = false;
-  const WorkspaceControl& control_;
+  const Control& control_;
   CellLattice& lattice_;
   std::vector<Leaf> settled_;  // the tree itself stays as it was after the last whole level
   std::vector<double> parents_;
@@ -272,7 +272,7 @@ std::optional<WorkspaceStatus> Grower::finished(int level) {
 }  // namespace
 
 Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                   bool first_piece_alone, const std::optional<Vec3>& home, const WorkspaceControl& control) {
+                   bool first_piece_alone, const std::optional<Vec3>& home, const Control& control) {
   Grower grower(margins, lattice, settings, home, control);
   grower.tree.status = grower.run(first_piece_alone);
   grower.tree.evaluations = grower.evaluations();

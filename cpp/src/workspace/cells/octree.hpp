@@ -43,7 +43,7 @@ struct Octree {
 /// Divides until the error is small enough. With `home` the cell of that point is divided as long as it has no allowed corner;
 /// with `first_piece_alone` the volume is that of its piece.
 Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                   bool first_piece_alone, const std::optional<Vec3>& home, const WorkspaceControl& control);
+                   bool first_piece_alone, const std::optional<Vec3>& home, const Control& control);
 
 /// Connected pieces of the allowed cells, largest first, or that with `home` first; sets Leaf::piece, returns their volumes.
 /// Cells are connected where an allowed corner lies on the face they share.

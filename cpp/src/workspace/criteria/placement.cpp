@@ -45,8 +45,7 @@ InternalPoint Placement::best(const PlatformPose& pose, std::span<const Lead> le
 InternalPointMap Placement::best(const PoseGrid& grid, int threads, const std::stop_token& stop) const {
   MapSettings settings;
   settings.threads = threads;
-  settings.proceed = [&](std::size_t, std::size_t) { return !stop.stop_requested(); };
-  return best_internal_map(g_, grid, problem_, settings);
+  return best_internal_map(g_, grid, problem_, settings, {stop, {}});
 }
 
 InternalPoint Placement::found_before(const PlatformPose& pose, const Vec3& s) const {

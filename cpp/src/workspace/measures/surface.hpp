@@ -20,12 +20,12 @@ void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool
 /// The largest ball and box that hold no point of the surface and stay in the chart. Then both are shrunk until a few hundred
 /// points of their own surfaces are allowed.
 void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
-              const Surface& surface, bool first_piece_alone, const WorkspaceControl& control, WorkspaceMap& map);
+              const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map);
 
 /// The other two methods.
 void map_by_grid(const Margins& margins, const WorkspaceSettings& settings, bool first_piece_alone,
-                 const WorkspaceControl& control, WorkspaceMap& map);
-void map_by_sample(const Margins& margins, const WorkspaceSettings& settings, const WorkspaceControl& control,
+                 const Control& control, WorkspaceMap& map);
+void map_by_sample(const Margins& margins, const WorkspaceSettings& settings, const Control& control,
                    WorkspaceMap& map);
 
 }  // namespace ninedof

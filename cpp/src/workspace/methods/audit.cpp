@@ -14,7 +14,7 @@ constexpr double too_many = 0.05;  // share of the allowed poses in cells that d
 }  // namespace
 
 void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m,
-                  const WorkspaceSettings& settings, const WorkspaceControl& control) {
+                  const WorkspaceSettings& settings, const Control& control) {
   std::vector<long> judged;
   for (std::size_t n = 0; n < roots.size(); ++n)
     if (!roots[n].proved) judged.push_back(static_cast<long>(n));

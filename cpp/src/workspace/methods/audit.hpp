@@ -10,7 +10,7 @@ class Audit {
  public:
   /// Draws the poses and judges them. Throws Stopped.
   void begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings,
-             const WorkspaceControl& control);
+             const Control& control);
 
   long count() const { return static_cast<long>(at_.size()); }
   /// See WorkspaceMap.

@@ -21,9 +21,8 @@ double missed(const Margins& m, long count) {
 }
 
 /// Evaluates `count` points in order, with news between pieces of work.
-std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads,
-                                    const WorkspaceControl& control, long before, long total,
-                                    const BestPoints* mapped = nullptr) {
+std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads, const Control& control,
+                                    long before, long total, const BestPoints* mapped = nullptr) {
   std::vector<PointMargins> out(x.size());
   const long count = static_cast<long>(x.size()), piece = 64 * m.block();
   for (long done = 0; done < count; done += piece) {
@@ -60,8 +59,8 @@ Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
 
 }  // namespace
 
-void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone,
-                 const WorkspaceControl& control, WorkspaceMap& map) {
+void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone, const Control& control,
+                 WorkspaceMap& map) {
   const int n = settings.resolution;
   if (static_cast<double>(n) * n * n > static_cast<double>(settings.most_evaluations))
     throw InvalidArgument(
@@ -139,8 +138,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
 }
 
-void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const WorkspaceControl& control,
-                   WorkspaceMap& map) {
+void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Control& control, WorkspaceMap& map) {
   const Chart& chart = m.chart();
   const Vec3 side = chart.high() - chart.low();
   const double measure = chart.box_volume() / static_cast<double>(settings.points);
