@@ -63,7 +63,7 @@ auto interruptible(const py::object& progress, const Work& work, const IsPartial
     {
       const py::gil_scoped_release nogil;
       std::unique_lock lock(shared.guard);
-      shared.changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return shared.finished; });
+      shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.finished; });
       finished = shared.finished;
       done = shared.done;
       total = shared.total;
