@@ -66,7 +66,7 @@ track_statuses: list[str]
 
 internal_point_statuses: list[str]
 
-# Columns "internal_point" (n, 3), "value", "status", "active" (n,); "active_names" has the words for each key of "active".
+# "internal_point" (n, 3), "value", "status", "active" (n,); "active_names" has the words for each key in "active".
 def best_internal_point(
     g: Geometry,
     position: _Floats,

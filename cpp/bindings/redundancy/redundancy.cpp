@@ -54,7 +54,8 @@ std::vector<Vec3> starts_from(const Array& start) {
   return out;
 }
 
-/// Columns of n rows. Statuses are indices into internal_point_statuses, `active` keys of `active_names`: few sets of bounds occur.
+/// Columns of n rows. Statuses are indices into internal_point_statuses, `active` keys of `active_names`: few sets of
+/// bounds occur.
 py::dict columns_of(const std::vector<InternalPoint>& points) {
   const auto n = static_cast<py::ssize_t>(points.size());
   Array s(std::vector<py::ssize_t>{n, 3}), value(std::vector<py::ssize_t>{n});

@@ -21,10 +21,10 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
-/// Returns work(control), called on a new thread and without the GIL. The calling thread meanwhile checks for signals and calls
-/// `progress`, None or a Python callable, as progress(done, total, value) with None for a value of NaN. An exception of `progress`
-/// or of a signal handler stops the work and goes on to the caller. After Ctrl-C, though, a partial result is returned:
-/// is_partial(result) tells whether it is one.
+/// Returns work(control), called on a new thread and without the GIL. The calling thread meanwhile checks for signals
+/// and calls `progress`, None or a Python callable, as progress(done, total, value) with None for a value of NaN. An
+/// exception of `progress` or of a signal handler stops the work and goes on to the caller. After Ctrl-C, though, a
+/// partial result is returned: is_partial(result) tells whether it is one.
 template <class Work, class IsPartial>
 auto interruptible(const py::object& progress, const Work& work, const IsPartial& is_partial) {
   struct {
@@ -94,9 +94,9 @@ auto interruptible(const py::object& progress, const Work& work) {
   return interruptible(progress, work, [](const auto&) { return false; });
 }
 
-/// Calls work(first, last) on blocks of [0, count) of at most `block` items each, on `threads` threads and without the GIL. For
-/// items so short that a thread for a single one would cost more than the item. Signals are checked between slices of about
-/// 30 ms; more than one thread is used only for work worth it.
+/// Calls work(first, last) on blocks of [0, count) of at most `block` items each, on `threads` threads and without the
+/// GIL. For items so short that a thread for a single one would cost more than the item. Signals are checked between
+/// slices of about 30 ms; more than one thread is used only for work worth it.
 template <class Work>
 void in_slices(long count, long block, int threads, const Work& work) {
   using Clock = std::chrono::steady_clock;
