@@ -4,7 +4,10 @@
 
 #include "workspace/checks.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/measures/surface.hpp"
+#include "workspace/cells/octree.hpp"
+#include "workspace/measures/inscribed.hpp"
+#include "workspace/measures/pieces.hpp"
+#include "workspace/methods/sampling.hpp"
 
 namespace ninedof {
 namespace {

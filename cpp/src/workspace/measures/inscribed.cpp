@@ -1,4 +1,4 @@
-/// Declared in workspace/measures/surface.hpp.
+#include "workspace/measures/inscribed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include "math/numbers.hpp"
 #include "workspace/measures/near_points.hpp"
 #include "workspace/measures/solid_box.hpp"
-#include "workspace/measures/surface.hpp"
 
 namespace ninedof {
 namespace {

@@ -20,7 +20,7 @@ class Audit {
   double contradicts(double volume, bool only_if_less) const;
 
   /// Opens every cell that one of the poses disagrees with.
-  Doubt open(std::vector<Leaf>& leaves) const;
+  Disagreement open(std::vector<Leaf>& leaves) const;
 
   /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
   void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice);
