@@ -7,10 +7,11 @@ float64; characteristic lengths as one value or n.
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from numpy import float64, intc, uint8, uint32
+from numpy import float64, intc, uint8
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
+_Progress = Callable[[int, int, float | None], object]
 
 version: str
 built_with: dict[str, str]
@@ -63,55 +64,40 @@ def track(
 
 track_statuses: list[str]
 
+internal_point_statuses: list[str]
+
+# "internal_point" (n, 3), "value", "status", "active" (n,); "active_names" has the words for each key in "active".
 def best_internal_point(
     g: Geometry,
     position: _Floats,
     rotation: _Floats,
     start: _Floats,
-    criterion: str,
-    low: _Floats,
-    high: _Floats,
-    length: float,
-    clearance: float,
+    problem: dict[str, Any],
     threads: int,
     /,
-) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
+) -> dict[str, Any]: ...
+def best_internal_path(
+    g: Geometry,
+    position: _Floats,
+    rotation: _Floats,
+    start: _Floats,
+    problem: dict[str, Any],
+    smoothness: float,
+    /,
+) -> dict[str, Any]: ...
+
+# The same and "audit", "searched" and "followed".
 def best_internal_map(
     g: Geometry,
     position: _Floats,
     rotation: _Floats,
     shape: Sequence[int],
     start: _Floats,
-    criterion: str,
-    low: _Floats,
-    high: _Floats,
-    length: float,
-    clearance: float,
-    threads: int,
-    seed_every: int,
-    audit_every: int,
-    audit_seed: int,
-    progress: Callable[[int, int], object] | None,
+    problem: dict[str, Any],
+    settings: dict[str, Any],
+    progress: _Progress | None,
     /,
-) -> tuple[
-    tuple[_Floats, _Floats, NDArray[uint8], list[str], NDArray[uint32], dict[int, tuple[str, ...]]],
-    tuple[int, int, float],
-    int,
-    int,
-]: ...
-def best_internal_path(
-    g: Geometry,
-    position: _Floats,
-    rotation: _Floats,
-    start: _Floats,
-    criterion: str,
-    low: _Floats,
-    high: _Floats,
-    length: float,
-    clearance: float,
-    smoothness: float,
-    /,
-) -> tuple[_Floats, _Floats, list[str], list[tuple[str, ...]]]: ...
+) -> dict[str, Any]: ...
 def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...
@@ -280,7 +266,7 @@ def optimize(
     seed: int,
     threads: int,
     max_evaluations: int,
-    progress: Callable[[int, int, float], object] | None,
+    progress: _Progress | None,
     warm: Sequence[Sequence[float]] | _Floats | None = None,
 ) -> Result: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str) -> tuple[list[float], Candidate]: ...
@@ -296,6 +282,6 @@ def workspace(
     criteria: dict[str, Any],
     settings: dict[str, Any],
     home: tuple[_Floats, _Floats, _Floats] | None,
-    progress: Callable[[int, int, float], object] | None,
+    progress: _Progress | None,
 ) -> dict[str, Any]: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...

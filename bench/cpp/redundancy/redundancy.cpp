@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "ninedof/redundancy/redundancy_map.hpp"
+#include "redundancy/map/continuation.hpp"
 #include "support/data.hpp"
 #include "support/figure.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::size_t side = 32;  // of a grid of poses; a piece is a row of it
 
-/// A plane of poses of the published design at its height, its best points, and the same poses from a neighbour's.
+/// A plane of poses of the published design at its height, and their best points.
 struct Plane {
   ninedof::Geometry geometry = ninedof::Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
   ninedof::InternalPointProblem problem;
@@ -60,8 +61,8 @@ Figures figures_of(const std::string& name, const std::shared_ptr<const Plane>& 
     };
   };
   const auto continued = [](const Plane& p, std::size_t k) {
-    return ninedof::nearby_internal_point(p.geometry, p.poses[k].position, p.poses[k].rotation, p.problem,
-                                          p.map.points[k - 1].s);
+    const std::vector<ninedof::Guess> guess{{p.map.points[k - 1].s, 0.0}};
+    return ninedof::continued_from(p.geometry, p.poses[k], p.problem, {}, guess, {});
   };
   out.timed.push_back({name + ", from a neighbour's",
                        "best_internal_point",

@@ -3,8 +3,8 @@
 #include <pybind11/stl.h>
 
 #include "support/arrays.hpp"
+#include "support/interruptible.hpp"
 #include "support/module.hpp"
-#include "support/watched.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -54,11 +54,8 @@ void bind_optimize(py::module_& m) {
         if (!warm.is_none())
           for (const auto& x : warm.cast<std::vector<std::vector<double>>>())
             settings.warm.emplace_back(Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())));
-        return watched(
-            progress,
-            [&](const std::stop_token& stop, const Report& report) {
-              return optimize(problem, settings, {stop, report});
-            },
+        return interruptible(
+            progress, [&](const Control& control) { return optimize(problem, settings, control); },
             [](const Result& result) { return result.interrupted; });
       },
       py::arg("problem"), py::arg("starts"), py::arg("seed"), py::arg("threads"), py::arg("max_evaluations"),

@@ -11,7 +11,7 @@
 #include "ninedof/math/error.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
-#include "support/slices.hpp"
+#include "support/interruptible.hpp"
 
 namespace ninedof::python {
 
@@ -135,8 +135,8 @@ inline Array result_rows(long count, py::ssize_t columns, const py::object& out)
   return py::reinterpret_borrow<Array>(out);
 }
 
-/// Calls block(first, last, output row first) for blocks of rows, none longer than `most`, on `threads` threads and without the
-/// GIL: nothing in it touches Python. Ctrl-C is heeded between slices.
+/// Calls block(first, last, output row first) for blocks of rows, none longer than `most`, as in_slices does: on
+/// `threads` threads and without the GIL, so that nothing in it may touch Python.
 template <class Work>
 Array for_each_block(long count, py::ssize_t columns, long most, int threads, const py::object& out,
                      const Work& block) {

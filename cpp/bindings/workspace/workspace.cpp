@@ -3,8 +3,8 @@
 #include <pybind11/stl.h>
 
 #include "support/arrays.hpp"
+#include "support/interruptible.hpp"
 #include "support/module.hpp"
-#include "support/watched.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -77,7 +77,7 @@ WorkspaceCriteria criteria_from(const py::dict& d) {
   return out;
 }
 
-WorkspaceSettings settings_from(const py::dict& d) {
+WorkspaceSettings workspace_settings_from(const py::dict& d) {
   using enum WorkspaceSettings::Method;
   return {word<WorkspaceSettings::Method>("method", d["method"].cast<std::string>(),
                                           {{"octree", octree}, {"grid", grid}, {"sample", sample}}),
@@ -159,17 +159,14 @@ void bind_workspace(py::module_& m) {
           const WorkspaceDomain d = domain_from(domain);
           const InternalPointRule rule = rule_from(kind, fraction, point);
           const WorkspaceCriteria c = criteria_from(criteria);
-          const WorkspaceSettings s = settings_from(settings);
+          const WorkspaceSettings s = workspace_settings_from(settings);
           std::optional<Configuration> at_home;
           if (!home.is_none()) {
             const auto [p, q, o] = home.cast<std::tuple<Array, Array, Array>>();
             at_home = Configuration{vec3_of(p), mat3_of(q.data()), vec3_of(o)};
           }
-          return dict_of(watched(
-              progress,
-              [&](const std::stop_token& stop, const Report& report) {
-                return workspace(g, d, rule, c, s, at_home, {stop, report});
-              },
+          return dict_of(interruptible(
+              progress, [&](const Control& control) { return workspace(g, d, rule, c, s, at_home, control); },
               [](const WorkspaceMap& map) { return map.status == WorkspaceStatus::stopped; }));
         });
   m.def("spread_rotations", [](int count, double angle) {

@@ -4,7 +4,10 @@
 
 #include "workspace/checks.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/measures/surface.hpp"
+#include "workspace/cells/octree.hpp"
+#include "workspace/measures/inscribed.hpp"
+#include "workspace/measures/pieces.hpp"
+#include "workspace/methods/sampling.hpp"
 
 namespace ninedof {
 namespace {
@@ -26,8 +29,8 @@ std::vector<std::string> all_names() {
   return out;
 }
 
-void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected,
-                   const WorkspaceControl& control, WorkspaceMap& map) {
+void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected, const Control& control,
+                   WorkspaceMap& map) {
   CellLattice lattice(margins, settings.resolution, settings.threads);
   const std::optional<Vec3> home = connected ? std::optional(margins.home()) : std::nullopt;
   Octree tree = grow_octree(margins, lattice, settings, connected, home, control);
@@ -73,7 +76,7 @@ const std::vector<std::string>& limit_names() {
 
 WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                        const WorkspaceCriteria& criteria, const WorkspaceSettings& settings,
-                       const std::optional<Configuration>& home, const WorkspaceControl& control) {
+                       const std::optional<Configuration>& home, const Control& control) {
   require_workspace(domain, rule, criteria, settings, home);
   const Margins margins(g, domain, rule, criteria, home);
   WorkspaceMap map;

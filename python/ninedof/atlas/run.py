@@ -13,10 +13,10 @@ from ninedof import _core
 from ninedof.atlas import sample
 from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
-from ninedof.chunks import Arrays, Progress, chunk_argument, kept, run
+from ninedof.chunks import Arrays, chunk_argument, kept, run
 from ninedof.chunks.crew import Executors, check_executor
-from ninedof.chunks.run import check_progress
 from ninedof.support.arguments import whole
+from ninedof.support.progress import Progress, progress_argument
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.work import versions
 
@@ -60,7 +60,7 @@ def atlas(
     chunk : int, optional
         Designs a chunk. The result does not depend on it.
     progress : callable, optional
-        Called as progress(designs done, designs in all, seconds to go).
+        Called as progress(designs done, designs in all, None).
 
     Returns
     -------
@@ -86,7 +86,7 @@ def atlas(
     """
     drawn = Sample(whole("seed", seed, 0), bounds_of(bounds))
     check_executor(executor)
-    check_progress(progress)
+    progress_argument(progress)
     work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
     total = Tally()
     with kept(work, out) as (store, agreed):

@@ -4,8 +4,8 @@
 caller calls; `npz` keeps what came of it all.
 """
 
-from ninedof.chunks.run import Progress, chunk_argument, kept, run
+from ninedof.chunks.run import chunk_argument, kept, run
 from ninedof.chunks.store import Store
 from ninedof.chunks.work import Arrays, Work
 
-__all__ = ["Arrays", "Progress", "Store", "Work", "chunk_argument", "kept", "run"]
+__all__ = ["Arrays", "Store", "Work", "chunk_argument", "kept", "run"]

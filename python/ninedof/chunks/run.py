@@ -6,26 +6,17 @@ import os
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
-from time import perf_counter
 from typing import TypeVar
 
 from ninedof.chunks.crew import Crew, Executors
 from ninedof.chunks.store import Store
 from ninedof.chunks.work import Arrays, Work, as_arrays, bounds, chunks_of
 from ninedof.support.arguments import shown, whole
+from ninedof.support.progress import Progress
 
-__all__ = ["Progress", "check_progress", "chunk_argument", "kept", "run"]
+__all__ = ["chunk_argument", "kept", "run"]
 
 MOST_CHUNK = 2**24  # points
-
-Progress = Callable[[int, int, float], object]
-"""Called with (points done, points in all, seconds to go); the last is NaN before anything is known."""
-
-
-def check_progress(progress: object) -> None:
-    """Refuse what cannot be called."""
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: got {shown(progress)}, expected a callable of three arguments")
 
 
 def chunk_argument(chunk: object, default: int) -> int:
@@ -67,23 +58,25 @@ def run(
     executor : Executor or callable, optional
         As `Crew` takes it.
     progress : callable, optional
+        Called as progress(points done, points in all, None), first with what the store holds.
 
     """
-    clock = _Clock(work.points, progress)
+    count = _Count(work.points, progress)
     todo: Sequence[int] = range(chunks_of(work))
     if store is not None:
-        todo = _missing(work, store, deliver, clock)
-    clock.start()
+        todo = _missing(work, store, deliver, count)
+    count.report()
     with closing(_computed(work, todo, executor)) as computed:  # Ctrl-C while keeping a chunk recalls the others too
         for k, arrays in computed:
             first, last = bounds(work, k)
             if store is not None:
                 store.write(k, arrays)
             deliver(first, last, arrays)
-            clock.done(last - first)
+            count.add(last - first)
+            count.report()
 
 
-def _missing(work: Work, store: Store, deliver: Callable[[int, int, Arrays], object], clock: _Clock) -> list[int]:
+def _missing(work: Work, store: Store, deliver: Callable[[int, int, Arrays], object], count: _Count) -> list[int]:
     """Deliver the chunks that are there; return the numbers of the others."""
     missing = []
     for k in range(chunks_of(work)):
@@ -92,7 +85,7 @@ def _missing(work: Work, store: Store, deliver: Callable[[int, int, Arrays], obj
             missing.append(k)
         else:
             deliver(first, last, found)
-            clock.found(last - first)
+            count.add(last - first)
     return missing
 
 
@@ -106,26 +99,15 @@ def _computed(work: Work, todo: Sequence[int], executor: Executors | None) -> Ge
             yield from crew.run(tasks)
 
 
-class _Clock:
-    """Tells how far the work is, and how long the rest will take at the pace of this run."""
+class _Count:
+    """Counts finished points and reports them."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
-        self._total, self._progress = total, progress
-        self._found = self._done = 0
-        self._begin = perf_counter()
+        self._total, self._progress, self._done = total, progress, 0
 
-    def found(self, points: int) -> None:
-        self._found += points
-
-    def start(self) -> None:
-        self._begin = perf_counter()
-        self._tell(float("nan") if self._found < self._total else 0.0)
-
-    def done(self, points: int) -> None:
+    def add(self, points: int) -> None:
         self._done += points
-        left = self._total - self._found - self._done
-        self._tell(left * (perf_counter() - self._begin) / self._done)
 
-    def _tell(self, to_go: float) -> None:
+    def report(self) -> None:
         if self._progress is not None:
-            self._progress(self._found + self._done, self._total, to_go)
+            self._progress(self._done, self._total, None)

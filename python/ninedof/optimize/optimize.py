@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -11,11 +11,9 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Candidate, Result, Status, candidate_of
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
+from ninedof.support.progress import Progress, progress_argument
 
 __all__ = ["Trace", "optimize", "trace"]
-
-Progress = Callable[[int, int, float], object]
-"""Called with (starts done, starts in all, best objective so far)."""
 
 MAX_EVALUATIONS = 500  # of one start; a converging one takes about 30
 
@@ -42,7 +40,8 @@ def optimize(
     threads : int, optional
         One a processor by default. The result is the same, bit for bit, for any number.
     progress : callable, optional
-        Called as progress(starts done, starts in all, best objective so far).
+        Called as progress(starts done, starts in all, best objective so far); infinite before a start has found a
+        design that keeps all limits.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
         Extra starts, tried first: a result of a similar study (its best four candidates), or a design you know. Moved
         inside the bounds.
@@ -67,8 +66,7 @@ def optimize(
     """
     if not isinstance(study, Study):
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
+    progress_argument(progress)
     study = study.with_solver(starts, seed)
     problem = study.problem()
     extra = warm_starts(study, warm)

@@ -16,10 +16,11 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.optimize import Progress, optimize
+from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.progress import Progress
 
 __all__ = ["Comparison", "Row", "Verdict", "compare", "verdicts"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ninedof.design.study import Study
@@ -11,11 +11,9 @@ from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limited import limited
+from ninedof.support.progress import Progress
 
-__all__ = ["Interrupted", "Progress", "Sweep"]
-
-Progress = Callable[[int, int, float], object]
-"""Called with (solved so far, to be solved in all as far as known, last objective)."""
+__all__ = ["Interrupted", "Sweep"]
 
 
 class Interrupted(Exception):  # a way out, not an error
@@ -54,7 +52,8 @@ class Sweep:
             raise Interrupted
         self._solved += 1
         if self._progress is not None:
-            self._progress(self._solved, max(self.planned, self._solved), objective_of(result))
+            value = objective_of(result)
+            self._progress(self._solved, max(self.planned, self._solved), None if math.isnan(value) else value)
         if limit is None:
             self.open_ended = result
             return result

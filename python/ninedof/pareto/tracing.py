@@ -12,10 +12,11 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
 from ninedof.pareto.limited import resolve
-from ninedof.pareto.solving import Interrupted, Progress, Sweep
+from ninedof.pareto.solving import Interrupted, Sweep
 from ninedof.pareto.span import span
 from ninedof.support.arguments import finite, items, shown, whole
 from ninedof.support.arrays import thread_argument
+from ninedof.support.progress import Progress, progress_argument
 
 __all__ = ["pareto"]
 
@@ -57,7 +58,7 @@ def pareto(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     progress : callable, optional
-        Called as progress(solved so far, to be solved as far as known, last objective, NaN without one).
+        Called as progress(solved so far, to be solved as far as known, last objective, None without a design).
 
     Returns
     -------
@@ -79,8 +80,7 @@ def pareto(
     """
     if not isinstance(study, Study):
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: got {shown(progress)}, expected a callable of three arguments")
+    progress_argument(progress)
     thread_argument(threads)
     count = whole("points", points, 2, MOST_POINTS)
     given = None if values is None else _values(values)

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.redundancy.search_arguments import clearance_of, leg_limits, poses_of, starts_of
+from ninedof.redundancy.search_arguments import poses_of, problem_of, starts_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
 
 __all__ = ["InternalPoint", "InternalPointStatus", "best_internal_path", "best_internal_point"]
-
-CHUNK = 256  # poses between two looks at the keyboard
 
 
 class InternalPointStatus(StrEnum):
@@ -35,6 +33,9 @@ class InternalPointStatus(StrEnum):
     """The start lies on a singularity, and so on no side of it."""
     MISSING = "missing"
     """The pose has NaN."""
+
+
+STATUSES = np.array([InternalPointStatus(word) for word in _core.internal_point_statuses], dtype=object)
 
 
 @dataclass(frozen=True)
@@ -117,27 +118,9 @@ def best_internal_point(
 
     """
     shape, p, q = poses_of(geometry, position, rotation)
-    low, high = leg_limits(limits)
-    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
-    starts = starts_of(start, shape)
-    workers = thread_argument(threads)
-    chunks = [
-        _core.best_internal_point(
-            geometry,
-            p[k : k + CHUNK],
-            q[k : k + CHUNK],
-            starts[k : k + CHUNK],
-            criterion,
-            low,
-            high,
-            length,
-            room,
-            workers,
-        )
-        for k in range(0, max(1, len(p)), CHUNK)
-    ]
-    s, value = (np.concatenate([c[k] for c in chunks]) for k in (0, 1))
-    return _result(shape, p, q, s, value, [w for c in chunks for w in c[2]], [n for c in chunks for n in c[3]])
+    problem = problem_of(criterion, limits, characteristic_length, clearance)
+    found = _core.best_internal_point(geometry, p, q, starts_of(start, shape), problem, thread_argument(threads))
+    return InternalPoint(**point_fields(shape, p, q, found))
 
 
 def best_internal_path(
@@ -205,35 +188,25 @@ def best_internal_path(
     shape, p, q = poses_of(geometry, position, rotation)
     if len(shape) != 1:
         raise ValueError(f"position: got shape {(*shape, 3)}, expected a path of shape (n, 3)")
-    low, high = leg_limits(limits)
-    length, room = as_number("characteristic_length", characteristic_length), clearance_of(criterion, clearance)
+    problem = problem_of(criterion, limits, characteristic_length, clearance)
     weight = as_number("smoothness", smoothness)
     first = np.empty((0, 3))
     if start is not None:
         first = as_floats("start", start, (3,))
         if first.ndim != 1:
             raise ValueError(f"start: got shape {first.shape}, expected shape (3,)")
-    s, value, status, active = _core.best_internal_path(
-        geometry, p, q, first, criterion, low, high, length, room, weight
-    )
-    return _result(shape, p, q, s, value, status, active)
+    return InternalPoint(**point_fields(shape, p, q, _core.best_internal_path(geometry, p, q, first, problem, weight)))
 
 
-def _result(
-    shape: tuple[int, ...],
-    p: Floats,
-    q: Floats,
-    s: Floats,
-    value: Floats,
-    status: list[str],
-    active: list[tuple[str, ...]],
-) -> InternalPoint:
-    words = np.array([InternalPointStatus(w) for w in status], dtype=object)
-    names = np.empty(len(active), dtype=object)
-    names[:] = active
-    return InternalPoint(
-        Configuration._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3)),
-        value.reshape(shape)[()],
-        words.reshape(shape)[()],
-        names.reshape(shape)[()],
-    )
+def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, found: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of an InternalPoint from the columns that the core found for flat poses."""
+    keys, inverse = np.unique(found["active"], return_inverse=True)
+    names = np.empty(len(keys), dtype=object)
+    names[:] = [found["active_names"][int(key)] for key in keys]
+    s = found["internal_point"]
+    return {
+        "configuration": Configuration._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3)),
+        "value": found["value"].reshape(shape)[()],
+        "status": STATUSES[found["status"]].reshape(shape)[()],
+        "active": names[inverse.reshape(-1)].reshape(shape)[()],
+    }

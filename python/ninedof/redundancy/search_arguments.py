@@ -1,4 +1,4 @@
-"""What the searches for an internal point are asked: poses, starts, leg limits, clearance."""
+"""Arguments of the searches for an internal point: poses, starts, and the problem as the core takes it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats, as_number
 
-__all__ = ["clearance_of", "leg_limits", "poses_of", "starts_of"]
+__all__ = ["leg_limits", "poses_of", "problem_of", "starts_of"]
 
 CRITERIA = ("condition_number", "singularity", "leg_centring")
 
@@ -35,13 +36,16 @@ def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
         raise ValueError(f"start: got shape {given.shape}, expected one that broadcasts to {(*shape, 3)}") from None
 
 
-def clearance_of(criterion: Any, clearance: float | None) -> float:
-    """Return the clearance of a criterion, its own default where none is given."""
-    if not isinstance(criterion, str):
-        raise ValueError(f"criterion: got {criterion!r}, expected one of {', '.join(CRITERIA)}")
+def problem_of(criterion: Any, limits: Any, characteristic_length: Any, clearance: Any) -> dict[str, Any]:
+    """Return the problem as the core takes it; the default clearance depends on the criterion."""
     if clearance is None:
-        return 1e-2 if criterion == "leg_centring" else 1e-10
-    return as_number("clearance", clearance)
+        clearance = 1e-2 if criterion == "leg_centring" else 1e-10
+    return {
+        "criterion": choice("criterion", criterion, CRITERIA),
+        "limits": leg_limits(limits),
+        "characteristic_length": as_number("characteristic_length", characteristic_length),
+        "clearance": as_number("clearance", clearance),
+    }
 
 
 def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays, Progress, kept, run
+from ninedof.chunks import Arrays, kept, run
 from ninedof.chunks.crew import Executors, check_executor
-from ninedof.chunks.run import check_progress
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Status
@@ -19,6 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
+from ninedof.support.progress import Progress, progress_argument
 from ninedof.sweep.axis import Axis, Grid
 from ninedof.sweep.index import INDICES, Index
 from ninedof.sweep.poses import COORDINATES, TRIPLES
@@ -88,7 +88,7 @@ def sweep_figure(
     """
     which = choice("figure", figure, FIGURES)
     check_executor(executor)
-    check_progress(progress)
+    progress_argument(progress)
     work = _figure_6(_points(points, 201)) if which == "6" else _figure_7(_points(points, 8 * OCTAVES + 1))
     with kept(work, out) as (store, agreed):
         sink = Sink(work.indices, work.grid.shape, None)

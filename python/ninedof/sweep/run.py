@@ -9,14 +9,14 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof import _core
-from ninedof.chunks import Progress, chunk_argument, kept, run
+from ninedof.chunks import chunk_argument, kept, run
 from ninedof.chunks.crew import Executors, check_executor
-from ninedof.chunks.run import check_progress
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, known_keys
 from ninedof.support.arrays import thread_argument
+from ninedof.support.progress import Progress, progress_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.index import OwnIndex, indices_of
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
@@ -88,7 +88,7 @@ def sweep(
     threads : int, optional
         Threads within a chunk; one a processor by default, and one with an executor.
     progress : callable, optional
-        Called as progress(points done, points in all, seconds to go).
+        Called as progress(points done, points in all, None).
 
     Returns
     -------
@@ -207,7 +207,7 @@ def _run(
     progress: Progress | None,
 ) -> SweepResult:
     check_executor(executor)
-    check_progress(progress)
+    progress_argument(progress)
     with kept(work, out) as (store, agreed):
         try:
             sink = Sink(work.indices, work.grid.shape, None if store is None else store.folder)

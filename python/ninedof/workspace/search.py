@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from time import perf_counter
 from typing import Any
 
@@ -15,14 +15,12 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import as_number, thread_argument
+from ninedof.support.progress import Progress, progress_argument
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus
 
 __all__ = ["workspace"]
-
-Progress = Callable[[int, int, float], object]
-"""Called with (poses looked at, poses there will be as far as is known, volume so far)."""
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
@@ -122,7 +120,7 @@ def workspace(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     progress : callable, optional
-        Called as progress(poses done, poses in all as far as is known, volume).
+        Called as progress(poses done, poses in all as far as is known, volume or None).
 
     Returns
     -------
@@ -154,8 +152,7 @@ def workspace(
     """
     if not isinstance(geometry, Geometry):
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: got {progress!r}, expected a callable of three arguments")
+    progress_argument(progress)
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)

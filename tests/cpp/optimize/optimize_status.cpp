@@ -191,11 +191,11 @@ TEST_SUITE("optimize_status") {
 
   TEST_CASE("progress counts every start once, its best never rises, one call at a time") {
     for (const int threads : {1, 3}) {
-      int last = 0;
+      long last = 0;
       double best = infinity;
       std::atomic<int> inside = 0;
       Control control;
-      control.progress = [&](int done, int total, double now) {
+      control.progress = [&](long done, long total, double now) {
         CHECK(++inside == 1);
         CHECK(done == last + 1);
         CHECK(total == 40);
@@ -208,16 +208,16 @@ TEST_SUITE("optimize_status") {
       CHECK(last == 40);
       CHECK(best == doctest::Approx(r.candidates.front().condition_number).epsilon(1e-12));
     }
-    int last = 0, total = 0;
+    long last = 0, total = 0;
     Control control;
-    control.progress = [&](int done, int all, double) { last = done, total = all; };
+    control.progress = [&](long done, long all, double) { last = done, total = all; };
     optimize(fixed_study({0.0, 6.0, 3.0, 0.0, 5.0, 3.0, 0.0}), {}, control);
     CHECK(last == total);
   }
 
   TEST_CASE("an exception in progress ends the run and comes out of it") {
     Control control;
-    control.progress = [](int done, int, double) {
+    control.progress = [](long done, long, double) {
       if (done == 5) throw std::runtime_error("enough");
     };
     CHECK_THROWS_WITH_AS(optimize(paper_study(), {.threads = 2}, control), "enough", std::runtime_error);

@@ -1,6 +1,10 @@
-/// Internal points: no better neighbour, limits kept, what cannot be is named. The search of the whole chamber is in the Python tests.
+/// Internal points: local optimality, limits, reasons of failure, stopping a path. The search of the whole chamber is
+/// in the Python tests.
 
 #include <doctest/doctest.h>
+
+#include <cmath>
+#include <stop_token>
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/redundancy/redundancy_path.hpp"
@@ -22,7 +26,7 @@ const Geometry published = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
 }  // namespace
 
 TEST_SUITE("redundancy") {
-  TEST_CASE("no neighbour is better") {
+  TEST_CASE("no point near an optimum is better") {
     Random random(1);
     int inside = 0;  // away from limits and walls, where all neighbours are allowed
     for (int n = 0; n < 40; ++n) {
@@ -50,7 +54,7 @@ TEST_SUITE("redundancy") {
     CHECK(inside > 40);
   }
 
-  TEST_CASE("a path of one pose is that pose, and a fine path has small steps") {
+  TEST_CASE("a path of one pose has the best point of that pose, and a fine path has small steps") {
     InternalPointProblem problem;
     const Vec3 p(0.4, -0.2, 3.9);
     const InternalPoint alone = best_internal_point(published, p, Mat3::Identity(), problem);
@@ -67,7 +71,7 @@ TEST_SUITE("redundancy") {
     }
   }
 
-  TEST_CASE("what cannot be") {
+  TEST_CASE("a pose without a point says why") {
     InternalPointProblem problem;
     problem.limits.high.setConstant(4.0);
     const InternalPoint legs = best_internal_point(published, {0.0, 0.0, 3.98}, Mat3::Identity(), problem);
@@ -85,5 +89,21 @@ TEST_SUITE("redundancy") {
     problem.characteristic_length = 1.0;
     const std::vector<ninedof::PlatformPose> one{{{0.0, 0.0, 3.98}, Mat3::Identity()}};
     CHECK(refuses("smoothness", [&] { best_internal_path(published, one, problem, 0.0); }));
+  }
+
+  TEST_CASE("a stop ends a path during the searches and during the descent") {
+    const std::vector<ninedof::PlatformPose> poses(40, {{0.4, -0.2, 3.9}, Mat3::Identity()});
+    for (const long last : {3L, 40L}) {
+      std::stop_source source;
+      long reported = 0;
+      const ninedof::Control control{source.get_token(), [&](long done, long total, double value) {
+                                       CHECK(done == ++reported);
+                                       CHECK(total == 40);
+                                       CHECK(std::isnan(value));
+                                       if (done == last) source.request_stop();
+                                     }};
+      CHECK_THROWS_AS(best_internal_path(published, poses, {}, 0.1, {}, control), ninedof::Stopped);
+      CHECK(reported == last);
+    }
   }
 }

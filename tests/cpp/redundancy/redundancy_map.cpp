@@ -1,28 +1,29 @@
-/// Points continued from a neighbour's, and maps of them: against searches of single poses. Symmetry, a search of all O and the audit
-/// are in the Python tests.
+/// Continuation from neighbouring poses, and maps: compared with searches of single poses. The Python tests have
+/// symmetry, a search over all O, and the audit.
 
 #include "ninedof/redundancy/redundancy_map.hpp"
 
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <stop_token>
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "redundancy/map/continuation.hpp"
 #include "redundancy/map/lattice.hpp"
-#include "redundancy/search/nearby.hpp"
 #include "support/support.hpp"
 
 using namespace support;
 using ninedof::best_internal_map;
 using ninedof::best_internal_point;
+using ninedof::Control;
 using ninedof::Criterion;
 using ninedof::InternalPoint;
 using ninedof::InternalPointMap;
 using ninedof::InternalPointProblem;
 using ninedof::InternalPointStatus;
 using ninedof::MapSettings;
-using ninedof::nearby_internal_point;
 using ninedof::PlatformPose;
 
 namespace {
@@ -48,6 +49,15 @@ std::vector<PlatformPose> plane(std::size_t n) {
   return poses;
 }
 
+/// The optimum reached from one guess.
+InternalPoint continued(const Geometry& g, const Vec3& p, const Mat3& q, const InternalPointProblem& problem,
+                        const Vec3& start) {
+  const ninedof::PoseResult before = ninedof::checked_pose(g, p, q, problem);
+  if (before.point.status != InternalPointStatus::singular) return before.point;
+  const std::vector<ninedof::Guess> guess{{start, 0.0}};
+  return ninedof::continued_from(g, {p, q}, problem, start, guess, before).best.point;
+}
+
 bool same_bits(const InternalPoint& a, const InternalPoint& b) {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   bool same = bits(a.value) == bits(b.value) && a.status == b.status && a.active.bits() == b.active.bits();
@@ -58,7 +68,7 @@ bool same_bits(const InternalPoint& a, const InternalPoint& b) {
 }  // namespace
 
 TEST_SUITE("redundancy_map") {
-  TEST_CASE("from a neighbour's point to the one a search finds") {
+  TEST_CASE("continuation from a neighbouring pose finds the optimum of a search") {
     Random random(1);
     int compared = 0;
     for (int n = 0; n < 60; ++n) {
@@ -73,7 +83,7 @@ TEST_SUITE("redundancy_map") {
         const InternalPoint searched = best_internal_point(published, moved, q, problem);
         if (there.status != InternalPointStatus::found || searched.status != InternalPointStatus::found) continue;
         if ((there.s - searched.s).norm() > 0.3) continue;  // another local optimum
-        const InternalPoint near = nearby_internal_point(published, moved, q, problem, there.s);
+        const InternalPoint near = continued(published, moved, q, problem, there.s);
         REQUIRE(near.status == InternalPointStatus::found);
         CHECK(relative_error(near.value, searched.value) < 1e-6);
         CHECK((near.s - searched.s).norm() < 1e-3);
@@ -87,13 +97,13 @@ TEST_SUITE("redundancy_map") {
     CHECK(compared > 100);
   }
 
-  TEST_CASE("no neighbour of a continued point is better, from starts far and near") {
+  TEST_CASE("no point near a continued optimum is better, from starts far and near") {
     Random random(2);
     const InternalPointProblem problem;
     for (int n = 0; n < 30; ++n) {
       const Vec3 p = home + 0.8 * random.unit();
       const Vec3 start = ninedof::default_internal_point(published, p, Mat3::Identity()) + 0.5 * random.unit();
-      const InternalPoint near = nearby_internal_point(published, p, Mat3::Identity(), problem, start);
+      const InternalPoint near = continued(published, p, Mat3::Identity(), problem, start);
       REQUIRE(near.status == InternalPointStatus::found);
       const auto value = [&](const Vec3& s) { return ninedof::condition_number(published, {p, Mat3::Identity(), s}); };
       CHECK(relative_error(near.value, value(near.s)) < 1e-12);
@@ -103,38 +113,33 @@ TEST_SUITE("redundancy_map") {
     }
   }
 
-  TEST_CASE("it stays in the chamber of its start") {
+  TEST_CASE("continuation stays in the chamber of its start") {
     const InternalPointProblem problem;
     for (const double height : {1.5, 6.0}) {
       const InternalPoint near =
-          nearby_internal_point(published, home + Vec3(0.1, 0.0, 0.0), Mat3::Identity(), problem, {0.0, 0.0, height});
+          continued(published, home + Vec3(0.1, 0.0, 0.0), Mat3::Identity(), problem, {0.0, 0.0, height});
       if (near.status == InternalPointStatus::found) CHECK((near.s.z() > 3.98) == (height > 3.98));
     }
   }
 
-  TEST_CASE("what cannot be") {
+  TEST_CASE("continuation names the limits that leave no point") {
     InternalPointProblem problem = with_limits(1.0, 2.0);
     const Vec3 middle(0.0, 0.0, 2.0);
-    const InternalPoint tight = nearby_internal_point(published, {0.0, 0.0, 8.0}, Mat3::Identity(), problem, middle);
+    const InternalPoint tight = continued(published, {0.0, 0.0, 8.0}, Mat3::Identity(), problem, middle);
     CHECK(tight.status == InternalPointStatus::infeasible);
     CHECK(!tight.active.empty());
     CHECK(tight.s.hasNaN());
     problem.limits.high.setConstant(4.0);
-    const InternalPoint legs = nearby_internal_point(published, home, Mat3::Identity(), problem, middle);
+    const InternalPoint legs = continued(published, home, Mat3::Identity(), problem, middle);
     CHECK(legs.active.names() == std::vector<std::string>{"l1 high", "l2 high", "l3 high"});
     problem.limits.high.setConstant(infinity);
-    CHECK(nearby_internal_point(published, home, Mat3::Identity(), problem, {0.1, 0.0, 0.0}).status ==
+    CHECK(continued(published, home, Mat3::Identity(), problem, {0.1, 0.0, 0.0}).status ==
           InternalPointStatus::singular);
-    CHECK(nearby_internal_point(published, home, Mat3::Identity(), problem, {0.1, not_a_number, 0.0}).status ==
+    CHECK(continued(published, {0.0, not_a_number, 4.0}, Mat3::Identity(), problem, middle).status ==
           InternalPointStatus::missing);
-    CHECK(nearby_internal_point(published, {0.0, not_a_number, 4.0}, Mat3::Identity(), problem, middle).status ==
-          InternalPointStatus::missing);
-    problem.characteristic_length = 0.0;
-    CHECK(refuses("characteristic_length",
-                  [&] { nearby_internal_point(published, home, Mat3::Identity(), problem, middle); }));
   }
 
-  TEST_CASE("a map has what searches find, whatever the number of threads") {
+  TEST_CASE("a map has the optima of single searches, for any number of threads") {
     const std::vector<PlatformPose> poses = plane(24);
     for (const InternalPointProblem& problem : {InternalPointProblem{}, with_limits(1.8, 4.6)}) {
       MapSettings settings;
@@ -155,19 +160,22 @@ TEST_SUITE("redundancy_map") {
     }
   }
 
-  TEST_CASE("stopped, a map is what it has") {
+  TEST_CASE("a stopped map returns the poses placed so far") {
     const std::vector<PlatformPose> poses = plane(40);
     MapSettings settings;
     settings.threads = 2;
-    settings.proceed = [](std::size_t done, std::size_t) { return done < 600; };
-    const InternalPointMap map = best_internal_map(published, {poses, {40, 40}, {}}, {}, settings);
+    std::stop_source source;
+    const Control control{source.get_token(), [&](long done, long, double) {
+                            if (done >= 600) source.request_stop();
+                          }};
+    const InternalPointMap map = best_internal_map(published, {poses, {40, 40}, {}}, {}, settings, control);
     CHECK(!map.complete);
     const auto missing = std::ranges::count(map.points, InternalPointStatus::missing, &InternalPoint::status);
     CHECK(missing > 0);
     CHECK(missing <= 1000);
   }
 
-  TEST_CASE("grids that are none") {
+  TEST_CASE("invalid grids and problems are rejected, a start with NaN is missing") {
     const std::vector<PlatformPose> poses = plane(4);
     const std::vector<Vec3> two(2, home);
     CHECK(refuses("shape", [&] { best_internal_map(published, {poses, {4, 5}, {}}, {}); }));
@@ -176,9 +184,15 @@ TEST_SUITE("redundancy_map") {
     settings.seed_every = 0;
     CHECK(refuses("seed_every", [&] { best_internal_map(published, {poses, {16}, {}}, {}, settings); }));
     CHECK(best_internal_map(published, {{}, {0, 4}, {}}, {}).points.empty());
+    InternalPointProblem problem;
+    problem.characteristic_length = 0.0;
+    CHECK(refuses("characteristic_length", [&] { best_internal_map(published, {poses, {16}, {}}, problem); }));
+    const Vec3 not_finite(0.1, not_a_number, 0.0);
+    CHECK(best_internal_map(published, {poses, {16}, {&not_finite, 1}}, {}).points.front().status ==
+          InternalPointStatus::missing);
   }
 
-  TEST_CASE("a lattice ends as the whole grid, and neighbours are mutual") {
+  TEST_CASE("refining a lattice ends with the whole grid, and neighbours are mutual") {
     const std::vector<std::size_t> shape{5, 1, 9};
     ninedof::Lattice lattice(shape, 9);
     const auto size = [&] {

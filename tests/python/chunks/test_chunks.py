@@ -310,7 +310,7 @@ def test_two_stores_of_one_process_do_not_share_a_folder(tmp_path):
 
 
 def test_an_interruption_leaves_what_was_finished(tmp_path, expected):
-    def stop(done, total, to_go):
+    def stop(done, *_):
         if done >= 100:
             raise KeyboardInterrupt
 
@@ -319,12 +319,7 @@ def test_an_interruption_leaves_what_was_finished(tmp_path, expected):
     assert len(chunks(tmp_path)) == 5
     seen = []
     assert asked(tmp_path, progress=lambda *a: seen.append(a)).tobytes() == expected.tobytes()
-    assert seen[0][:2] == (100, 391)
-    assert np.isnan(seen[0][2])
-    assert [done for done, *_ in seen] == [*range(100, 391, 20), 391]
-    assert all(total == 391 for _, total, _ in seen)
-    assert all(to_go >= 0.0 for *_, to_go in seen[1:])
-    assert seen[-1][2] == 0.0
+    assert seen == [(done, 391, None) for done in [*range(100, 391, 20), 391]]
 
 
 def test_control_c_ends_a_run_at_the_next_chunk(tmp_path):

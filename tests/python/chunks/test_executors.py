@@ -200,7 +200,7 @@ def test_an_interruption_recalls_what_waits():
             assert through.wait(60)
         return nd.condition_number(g, c, lc)
 
-    def stop(done, total, to_go):
+    def stop(done, *_):
         if done:
             raise KeyboardInterrupt
 
@@ -262,7 +262,7 @@ def test_dask_loses_a_worker_in_mid_run(cluster, expected, tmp_path):
     assert len(processes) == 2
     killed = []
 
-    def kill(done, total, to_go):
+    def kill(done, *_):
         if done >= 60 and not killed:
             killed.append(processes[0])
             os.kill(processes[0], signal.SIGKILL)

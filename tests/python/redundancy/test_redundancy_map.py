@@ -280,8 +280,9 @@ def test_same_bits_for_any_number_of_threads(published):
 def test_progress_rises_to_the_total(published):
     seen = []
     nd.best_internal_map(published, plane(48), progress=lambda *a: seen.append(a))
-    done, total = zip(*seen, strict=True)
+    done, total, value = zip(*seen, strict=True)
     assert set(total) == {48 * 48}
+    assert set(value) == {None}
     assert all(a < b for a, b in itertools.pairwise(done))
     assert done[-1] == 48 * 48
     assert len(seen) > 5
@@ -289,7 +290,7 @@ def test_progress_rises_to_the_total(published):
 
 @pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3)], ids=repr)
 def test_exception_of_the_callback_arrives(published, error):
-    def fail(done, total):
+    def fail(*_):
         raise error
 
     with pytest.raises(type(error)):
@@ -302,7 +303,7 @@ g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 p = np.zeros((1500, 500, 3))
 p[..., 0], p[..., 1], p[..., 2] = np.linspace(-1, 1, 1500)[:, None], np.linspace(-1, 1, 500), 3.98
 try:
-    nd.best_internal_map(g, p, progress=lambda done, total: done and print(done, flush=True))
+    nd.best_internal_map(g, p, progress=lambda done, *_: done and print(done, flush=True))
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """

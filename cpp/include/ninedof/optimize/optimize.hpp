@@ -7,11 +7,9 @@
 /// code is never believed, every answer is checked here).
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,6 +17,7 @@
 #include "ninedof/design/constraints.hpp"
 #include "ninedof/design/design.hpp"
 #include "ninedof/design/objective.hpp"
+#include "ninedof/math/control.hpp"
 #include "ninedof/math/error.hpp"
 
 namespace ninedof {
@@ -69,13 +68,6 @@ struct Settings {
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;
-};
-
-/// What a long run listens to and reports.
-struct Control {
-  std::stop_token stop;
-  /// (starts done, starts in all, best objective so far); called from one thread at a time.
-  std::function<void(int, int, double)> progress;
 };
 
 /// A local optimum as checked here.

@@ -1,11 +1,12 @@
 #pragma once
-/// Where to put O: the internal point that is best for a pose of the platform, or along a path of poses.
+/// The best internal point O for a pose of the platform.
 ///
-/// The pose (p, Q) fixes the external legs. O is free: with the platform still (ldot = 0), sdot moves it and takes the internal
-/// legs along, qdot = C sdot and rdot = B sdot. Three numbers are therefore left to choose, and this file chooses them.
+/// The pose (p, Q) fixes the external legs. O may still move: with the platform at rest (ldot = 0), qdot = C sdot and
+/// rdot = B sdot. The three coordinates of O are chosen here.
 ///
-/// O stays in its chamber: det B, det C and det M (the three ways to lose the platform or O) keep the signs they have where the
-/// search starts, and O is moved along straight lines on which none of them vanishes. No other chamber is reached.
+/// The surfaces det B = 0, det C = 0 and det M = 0 (the three kinds of singularity) divide space into chambers. A
+/// search stays in the chamber of its start: the three determinants keep their signs, and O moves along straight lines
+/// on which none of them vanishes. The robot can therefore reach the result without passing a singularity.
 
 #include <array>
 #include <cstdint>
@@ -21,14 +22,17 @@
 
 namespace ninedof {
 
-/// What makes an internal point good.
+/// What is optimised over O.
 enum class Criterion {
   condition_number,  ///< least condition number of J', eq. (2)
-  singularity,  ///< greatest least |det| of three matrices of unit rows: e^_i, e~_i and (r_i - s) x (p + Q u_i - s), both unit
+  /// Greatest of the least |det| of three matrices, made free of units: of e^_i, of e~_i, and of (r_i - s) x (p + Q u_i
+  /// - s).
+  singularity,
   leg_centring,  ///< least sum of ((length - middle) / half range)^2 over the internal legs; needs finite limits
 };
 
-/// Least and greatest lengths, in the order of leg_lengths. Those of l decide whether a pose can be had, the others where O may be.
+/// Least and greatest lengths, in the order of leg_lengths. Those of l decide whether a pose is possible, the others
+/// where O may be.
 struct LegLimits {
   Vec9 low = Vec9::Zero();
   Vec9 high = Vec9::Constant(std::numeric_limits<double>::infinity());
@@ -38,15 +42,15 @@ struct InternalPointProblem {
   Criterion criterion = Criterion::condition_number;
   LegLimits limits;
   double characteristic_length = 1.0;  ///< of the condition number alone
-  double clearance =
-      1e-10;  ///< each of the three |det| of Criterion::singularity stays above it, whatever the criterion
+  double clearance = 1e-10;  ///< lower bound of each |det| of Criterion::singularity, for every criterion
 };
 
 enum class InternalPointStatus : std::uint8_t {
-  found,  ///< feasible and stationary by our own checks
-  stopped,  ///< feasible, but our checks did not pass: the best point looked at
-  infeasible,  ///< an external leg is out of its limits, or no point of the chamber keeps the internal ones; `active` names them
-  unbounded,  ///< the criterion keeps improving as O runs away
+  found,  ///< within the limits and stationary by independent checks
+  stopped,  ///< within the limits, but the checks failed: the best point evaluated
+  /// An external leg is out of its limits, or no point of the chamber keeps the internal ones; `active` names them.
+  infeasible,
+  unbounded,  ///< the criterion improves without end as O moves away or into a joint
   singular,  ///< the start lies on a singularity, and so in no chamber
   missing,  ///< the pose has NaN
 };
@@ -54,7 +58,7 @@ enum class InternalPointStatus : std::uint8_t {
 /// "found", "stopped", "infeasible", "unbounded", "singular", "missing".
 const char* to_string(InternalPointStatus status);
 
-/// What holds an internal point in place, or what made it impossible: a set of bounds.
+/// A set of bounds: those that hold an internal point in place, or that leave none.
 class ActiveBounds {
  public:
   static constexpr int count = 21;
@@ -81,8 +85,8 @@ struct InternalPoint {
   ActiveBounds active;
 };
 
-/// Throws InvalidArgument naming the limit, the characteristic length or the clearance that makes no sense, or the limits that
-/// leg_centring lacks.
+/// Throws InvalidArgument naming the limit, the characteristic length or the clearance that is not valid, or the limits
+/// that leg_centring lacks.
 void validate(const InternalPointProblem& problem);
 
 /// Midway between the centroids of the lower and of the upper internal joints.
@@ -90,7 +94,7 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 
 /// The best internal point in the chamber of `start`, by default of default_internal_point.
 ///
-/// A search: local optima are found from many starts and the best is returned. Only `infeasible` for an external leg is a proof.
+/// A multi-start search: the best of the local optima found. Only `infeasible` for an external leg is proved.
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start = {});
 

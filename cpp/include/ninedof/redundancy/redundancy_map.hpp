@@ -1,64 +1,58 @@
 #pragma once
-/// Where to put O at very many poses: a grid of them, each continued from its neighbours.
+/// The best internal points of a grid of poses, each continued from its neighbours.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "ninedof/math/control.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 #include "ninedof/redundancy/redundancy_path.hpp"
 
 namespace ninedof {
 
-/// The local optimum that `start` leads to, in the chamber of `start`: five to twenty times less work than best_internal_point, whose
-/// statuses it has and whose checks it passes.
-///
-/// `infeasible` for an internal leg says that no point near the start keeps the limits.
-InternalPoint nearby_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
-                                    const InternalPointProblem& problem, const Vec3& start);
-
 /// Poses on a grid, neighbours along each axis near each other; the last axis runs fastest.
 struct PoseGrid {
   std::span<const PlatformPose> poses;
   std::vector<std::size_t> shape;
-  std::span<const Vec3> starts;  ///< of the chambers meant: none for default_internal_point, one for all, or one each
+  /// Points of the chambers to search: empty for default_internal_point, one for all poses, or one for each.
+  std::span<const Vec3> starts;
 };
 
 struct MapSettings {
   std::size_t seed_every = 256;  ///< about one pose in so many is searched with best_internal_point
-  std::size_t audit_every = 512;  ///< so is one in so many of the others, 32 at least, once all are placed
-  std::uint64_t audit_seed = 0;  ///< which ones
-  int threads = 0;  ///< 0: one a processor. The result does not depend on it.
-  /// Called with the number of poses placed so far, and of all, from the calling thread, several times a second; false stops.
-  std::function<bool(std::size_t done, std::size_t total)> proceed;
+  std::size_t audit_every = 512;  ///< at the end one in so many of the others, 32 at least, is searched as well
+  std::uint64_t audit_seed = 0;  ///< selects them
+  int threads = 0;  ///< 0: one for each processor. The result does not depend on it.
 };
 
-/// How often following neighbours missed a better point, by searching poses drawn at random.
+/// How often continuation missed a better point, from searches of poses drawn at random.
 struct MapAudit {
   std::size_t poses = 0;  ///< searched
   std::size_t missed = 0;  ///< of them, those where the search found a point better by more than 1e-6 of the value
-  double largest = 0.0;  ///< by how much, as a part of the better value; infinite where the map had no point at all
+  double largest =
+      0.0;  ///< greatest such difference, relative to the better value; infinite where the map had no point
 };
 
 struct InternalPointMap {
   std::vector<InternalPoint> points;
-  MapAudit audit;  ///< of the map before what the audit found better went into it
+  MapAudit audit;  ///< of the map before improvements found by the audit were entered
   std::size_t searched = 0;  ///< poses given to best_internal_point, those of the audit included
-  std::size_t followed = 0;  ///< local optima sought from a neighbour's
-  bool complete = true;  ///< false where `proceed` stopped it: poses not placed are `missing`
+  std::size_t followed = 0;  ///< local optima continued from a neighbour's
+  bool complete = true;  ///< false after a stop: poses not reached are `missing`
 };
 
 /// The best internal point of every pose of a grid, each in the chamber of its own start.
 ///
-/// A coarse lattice of poses is searched; from there the others are reached in waves, each pose continuing the points of its
-/// neighbours, ahead along the line of two where there are two. Wherever the point of a neighbour, continued, is better than what
-/// a pose has, it takes its place and is passed on: what remains is the lower envelope of all branches found. What no wave
-/// reaches is searched on ever finer lattices. At last an audit searches poses drawn at random; what it finds is passed on too.
+/// The poses of a coarse lattice are searched. The others are reached by wavefront propagation: each pose continues the
+/// points of its neighbours, extrapolated where two lie on one line. A better point replaces that of a pose and is
+/// passed on, so that the result is the lower envelope of all branches found. Poses that no front reaches are searched
+/// on ever finer lattices. Finally an audit searches poses drawn at random; its improvements are passed on too.
 ///
-/// Each wave reads the one before only. Throws InvalidArgument as best_internal_point does, and if the shape or the starts do not fit the
-/// poses, or a share is none.
+/// Each front reads only the one before, so that the result does not depend on the number of threads. Reports the poses
+/// placed. Throws InvalidArgument as best_internal_point does, if shape or starts do not fit the poses, or for a zero
+/// seed_every or audit_every.
 InternalPointMap best_internal_map(const Geometry& g, const PoseGrid& grid, const InternalPointProblem& problem,
-                                   const MapSettings& settings = {});
+                                   const MapSettings& settings = {}, const Control& control = {});
 
 }  // namespace ninedof

@@ -6,13 +6,12 @@
 /// matters, and that they are nearly linear close to it.
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "ninedof/math/control.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 #include "ninedof/redundancy/redundancy_map.hpp"
 #include "ninedof/robot/configuration.hpp"
@@ -90,12 +89,6 @@ struct WorkspaceSettings {
   int shifts = 16;
   std::uint64_t seed = 0;
   int threads = 0;
-};
-
-/// Leave, and news: evaluations so far, how many there will be by what is known, volume.
-struct WorkspaceControl {
-  std::stop_token stop;
-  std::function<void(long, long, double)> progress;
 };
 
 enum class WorkspaceStatus : std::uint8_t {
@@ -187,6 +180,6 @@ std::vector<Mat3> spread_rotations(int count, double angle = 3.14159265358979323
 /// Throws InvalidArgument naming what makes no sense. The same bits for any number of threads.
 WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                        const WorkspaceCriteria& criteria, const WorkspaceSettings& settings = {},
-                       const std::optional<Configuration>& home = {}, const WorkspaceControl& control = {});
+                       const std::optional<Configuration>& home = {}, const Control& control = {});
 
 }  // namespace ninedof

@@ -1,5 +1,5 @@
 #pragma once
-/// A grid of any number of axes, and lattices in it.
+/// A grid of any number of axes, and coarser lattices of its points.
 
 #include <cstddef>
 #include <vector>
@@ -8,16 +8,17 @@ namespace ninedof {
 
 class Lattice {
  public:
-  /// About one point in `every` of a grid of this shape, the last axis running fastest; two or more along each axis that has them.
+  /// About one point in `every` of a grid of this shape, the last axis running fastest; two or more along each axis of
+  /// two or more.
   Lattice(std::vector<std::size_t> shape, std::size_t every);
 
   /// Whether point k of the grid is on the lattice.
   bool has(std::size_t k) const;
 
-  /// Halves the distances; false where the lattice was the whole grid.
+  /// Halves the distances; false if the lattice was the whole grid.
   bool refine();
 
-  /// Calls visit(j, beyond) with each neighbour j of point k, and with the point beyond j on the same line, `none` where there is none.
+  /// Calls visit(j, beyond) for each neighbour j of point k; `beyond` is the next point on the same line, or `none`.
   template <class Visit>
   void neighbours(std::size_t k, Visit visit) const {
     std::size_t stride = 1;

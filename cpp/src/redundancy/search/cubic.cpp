@@ -19,7 +19,7 @@ std::array<double, 2> turning_points(const std::array<double, 4>& c) {
   return {std::min(one, other), std::max(one, other)};
 }
 
-/// The zero in (low, high] of a cubic that is monotone there and changes sign: halving, down to neighbouring numbers.
+/// The zero in (low, high] of a cubic that is monotone there and changes sign: bisection down to neighbouring numbers.
 double between(const std::array<double, 4>& c, double low, double high) {
   for (int k = 0; k < 200; ++k) {
     const double middle = 0.5 * (low + high);

@@ -11,23 +11,23 @@ namespace {
 
 // Lengths here are in sizes of the robot.
 constexpr double next_to_joint = 1e-4;
-constexpr double longest_step = 0.5;  // near the robot
-constexpr double short_of_wall = 0.9;  // part of the clear way that a step may take
+constexpr double longest_step = 0.5;  // for O near the middle; grows with its distance
+constexpr double short_of_wall = 0.9;  // part of the way to a singularity that a step may take
 constexpr int most_steps = 40;         // for one epsilon
 constexpr double rounding = 8.0 * eps;
 
-/// Decrements, in epsilons, at which the next epsilon may come, and at which the last one has been served.
+/// Decrements, in epsilons, that end the descent for one epsilon, and for the last one.
 constexpr double nearly = 1e-3, fully = 1e-12;
 
-/// Curvature, as a part of the largest, below which a direction is taken to lead down from a saddle, and how far that is tried.
+/// Curvature, relative to the largest, below which a point counts as a saddle, and the first step away from it.
 constexpr double falling = -1e-6, first_try = 0.1;
 
-/// The local model: which way to go, and what it promises.
+/// The quadratic model at a point.
 struct Model {
-  Vec3 way;            ///< the Newton step, curvatures taken by their size, whatever their sign
-  double decrement;    ///< twice the fall it promises
-  Vec3 ridge;          ///< the direction that curves down most
-  bool saddle;         ///< whether it does
+  Vec3 way;            ///< the Newton step, with absolute curvatures
+  double decrement;    ///< twice the predicted decrease
+  Vec3 ridge;          ///< the direction of least curvature
+  bool saddle;         ///< whether that curvature is negative
 };
 
 Model model_of(const Jet& f) {
@@ -43,12 +43,12 @@ Model model_of(const Jet& f) {
   return m;
 }
 
-/// Takes `way` or part of it if that goes down by part of what the gradient promises; false if no part of it does.
-bool step(const Scene& scene, const Soft& f, double epsilon, Vec3 way, Descent& d) {
+/// Takes `way`, halved until the decrease is sufficient (Armijo); false if no part of it is.
+bool step(const ScaledPose& pose, const Smoothed& f, double epsilon, Vec3 way, Descent& d) {
   const double longest = longest_step * (1.0 + d.x.norm());
   if (way.norm() > longest) way *= longest / way.norm();
   const double promise = std::max(0.0, -way.dot(d.at.gradient)), slack = rounding * (1.0 + std::abs(d.at.value));
-  double part = std::min(1.0, short_of_wall * scene.clear_way(d.x, way, 2.0));
+  double part = std::min(1.0, short_of_wall * pose.step_to_singularity(d.x, way, 2.0));
   for (int halving = 0; halving < 30; ++halving, part *= 0.5) {
     Jet next;
     const Vec3 x = d.x + part * way;
@@ -60,25 +60,25 @@ bool step(const Scene& scene, const Soft& f, double epsilon, Vec3 way, Descent& 
   return false;
 }
 
-/// Leaves a saddle to the side that is lower.
-bool leave_saddle(const Scene& scene, const Soft& f, double epsilon, const Vec3& ridge, Descent& d) {
+/// Leaves a saddle along `ridge`, to the lower side.
+bool leave_saddle(const ScaledPose& pose, const Smoothed& f, double epsilon, const Vec3& ridge, Descent& d) {
   Descent one = d, other = d;
   const double worth = 10.0 * rounding * (1.0 + std::abs(d.at.value));
-  const bool forth = step(scene, f, epsilon, first_try * ridge, one) && one.at.value < d.at.value - worth;
-  const bool back = step(scene, f, epsilon, -first_try * ridge, other) && other.at.value < d.at.value - worth;
+  const bool forth = step(pose, f, epsilon, first_try * ridge, one) && one.at.value < d.at.value - worth;
+  const bool back = step(pose, f, epsilon, -first_try * ridge, other) && other.at.value < d.at.value - worth;
   if (!forth && !back) return false;
   d = forth && (!back || one.at.value <= other.at.value) ? one : other;
   return true;
 }
 
-/// Whether x is no longer where minima are.
-bool gone(const Scene& scene, Descent& d) {
+/// Whether O is lost: far away or in a joint.
+bool lost(const ScaledPose& pose, Descent& d) {
   if (d.x.norm() > far_away) {
     d.ending = Ending::away;
     return true;
   }
   for (int k = 0; k < 6; ++k)
-    if ((d.x - scene.joint(k)).norm() < next_to_joint) {
+    if ((d.x - pose.joint(k)).norm() < next_to_joint) {
       d.ending = Ending::in_joint;
       d.leg = k;
       return true;
@@ -88,18 +88,18 @@ bool gone(const Scene& scene, Descent& d) {
 
 }  // namespace
 
-bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, Descent& d) {
+bool settle(const ScaledPose& pose, const Smoothed& f, double epsilon, double enough, Descent& d) {
   d.ending = Ending::stuck;
   for (int k = 0; k < most_steps; ++k) {
     const Model m = model_of(d.at);
     d.decrement = m.decrement;
     const bool flat = m.decrement <= nearly * epsilon;
     d.ending = flat && !m.saddle ? Ending::minimum : Ending::stuck;
-    const bool moved = flat && m.saddle                  ? leave_saddle(scene, f, epsilon, m.ridge, d)
+    const bool moved = flat && m.saddle                  ? leave_saddle(pose, f, epsilon, m.ridge, d)
                        : m.decrement <= enough * epsilon ? false
-                                                         : step(scene, f, epsilon, m.way, d);
+                                                         : step(pose, f, epsilon, m.way, d);
     if (!moved) return true;
-    if (gone(scene, d)) return false;
+    if (lost(pose, d)) return false;
   }
   return true;
 }
@@ -108,7 +108,7 @@ Vec3 newton_step(const Jet& f) {
   return model_of(f).way;
 }
 
-Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons) {
+Descent descend(const ScaledPose& pose, const Smoothed& f, const Vec3& start, std::span<const double> epsilons) {
   Descent d;
   d.x = d.limit = start;
   Vec3 before = start;
@@ -123,13 +123,14 @@ Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<
       const double on = (epsilon - epsilons[k - 1]) / (epsilons[k - 1] - epsilons[k - 2]);
       const Vec3 ahead = d.x + on * (d.x - before);
       Jet there;
-      if (scene.clear_way(d.x, ahead - d.x, 1.0) >= 1.0 && f(ahead, epsilon, there) && there.value <= d.at.value) {
+      if (pose.step_to_singularity(d.x, ahead - d.x, 1.0) >= 1.0 && f(ahead, epsilon, there) &&
+          there.value <= d.at.value) {
         d.x = ahead;
         d.at = there;
       }
     }
     before = last;
-    if (!settle(scene, f, epsilon, k + 1 < epsilons.size() ? nearly : fully, d)) return d;
+    if (!settle(pose, f, epsilon, k + 1 < epsilons.size() ? nearly : fully, d)) return d;
     d.limit = k == 0 ? d.x : Vec3(d.x - (d.x - before) * (epsilon / (epsilon - epsilons[k - 1])));
   }
   return d;

@@ -1,46 +1,46 @@
 #pragma once
-/// Newton's method along a path of ever sharper functions, from one start to one local minimum.
+/// Newton's method on a sequence of ever less smoothed functions, from one start to one local minimum.
 
 #include <functional>
 #include <span>
 
 #include "redundancy/search/jet.hpp"
-#include "redundancy/search/scene.hpp"
+#include "redundancy/search/scaled_pose.hpp"
 
 namespace ninedof {
 
-/// O farther away than this, in sizes of the robot, has left it.
+/// O farther away than this, in sizes of the robot, counts as lost.
 constexpr double far_away = 100.0;
 
-/// A function of O softened by epsilon; false where it is not defined.
-using Soft = std::function<bool(const Vec3& x, double epsilon, Jet& out)>;
+/// A function of O smoothed by epsilon; false where it is not defined.
+using Smoothed = std::function<bool(const Vec3& x, double epsilon, Jet& out)>;
 
 /// How a descent may end.
 enum class Ending {
   minimum,   ///< the last decrement is small in epsilons, and no direction curves down
-  stuck,     ///< one of the two is not so
-  away,      ///< O has left the surroundings of the robot
-  in_joint,  ///< a leg has shrunk to nothing: without a direction the function has no value there
+  stuck,     ///< one of the two conditions fails
+  away,      ///< O is farther than far_away
+  in_joint,  ///< an internal leg has length zero: its direction, and the function, are undefined
 };
 
 struct Descent {
   Vec3 x;                          ///< the minimum at the last epsilon
-  Vec3 limit;                      ///< where it goes as epsilon goes to zero
+  Vec3 limit;                      ///< the minimum extrapolated to epsilon = 0
   Jet at;                          ///< the function at x
-  double decrement = 0.0;          ///< what a Newton step from x would still take off, twice over
+  double decrement = 0.0;          ///< twice the decrease that a Newton step from x predicts
   Ending ending = Ending::stuck;
-  int leg = -1;                    ///< the internal leg that has shrunk
+  int leg = -1;                    ///< the internal leg of length zero
 };
 
-/// The step to the least value of the second-order model, curvatures taken by their size, whatever their sign.
+/// The Newton step with the absolute values of the Hessian's eigenvalues: always a descent direction.
 Vec3 newton_step(const Jet& f);
 
-/// As a descent ends for one epsilon: minimises from d.x, where the function is d.at, down to a decrement of `enough` epsilons; false
-/// if O has left.
-bool settle(const Scene& scene, const Soft& f, double epsilon, double enough, Descent& d);
+/// Minimises for one epsilon from d.x, where the function is d.at, until the decrement is below `enough` epsilons;
+/// false if O is lost.
+bool settle(const ScaledPose& pose, const Smoothed& f, double epsilon, double enough, Descent& d);
 
-/// Minimises from `start`, where the function must be defined, for each epsilon in turn. From one to the next the minimum moves
-/// almost along a line, which is followed ahead.
-Descent descend(const Scene& scene, const Soft& f, const Vec3& start, std::span<const double> epsilons);
+/// Minimises from `start`, where the function must be defined, for each epsilon in turn. The minimum is nearly linear
+/// in epsilon, so that each next start is extrapolated.
+Descent descend(const ScaledPose& pose, const Smoothed& f, const Vec3& start, std::span<const double> epsilons);
 
 }  // namespace ninedof

@@ -1,5 +1,5 @@
 #pragma once
-/// A function of O to second order: value, gradient, Hessian.
+/// A function of O to second order: value, gradient and Hessian at one point.
 
 #include "ninedof/math/types.hpp"
 

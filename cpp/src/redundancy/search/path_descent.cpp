@@ -7,16 +7,17 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "ninedof/math/control.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr std::array path_epsilons{3e-2, 3e-3, 1e-4, 1e-6, 1e-8};
-constexpr int most_path_steps = 60;         // for one epsilon
-constexpr double path_nearly = 1e-3, path_fully = 1e-9;  // decrements, in path_epsilons and a pose, as in descent.cpp
+constexpr int most_path_steps = 60;  // for one epsilon
+constexpr double path_nearly = 1e-3, path_fully = 1e-9;  // decrements for each pose, in epsilons, as in descent.cpp
 constexpr double least_curvature = 1e-9;
 
-/// Eigenvalues by their size: every step goes down.
+/// The Hessian with the absolute values of its eigenvalues, at least `floor`: every step is a descent step.
 Mat3 convex(const Mat3& hessian, double floor) {
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(hessian);
   const Vec3 size = eigen.eigenvalues().cwiseAbs();
@@ -26,7 +27,8 @@ Mat3 convex(const Mat3& hessian, double floor) {
 
 class Path {
  public:
-  Path(std::span<Stop> stops, double coupling) : stops_(stops), coupling_(coupling), s_(points()) {}
+  Path(std::span<PathPoint> points, double coupling, const std::stop_token& stop)
+      : points_(points), coupling_(coupling), stop_(stop), s_(lengths()) {}
 
   bool settle(double epsilon, double enough) {
     double value = evaluate(s_, epsilon, jets_);
@@ -40,24 +42,25 @@ class Path {
   }
 
   void keep() {
-    for (std::size_t k = 0; k < s_.size(); ++k) stops_[k].x = stops_[k].merit->scene().inward(s_[k]);
+    for (std::size_t k = 0; k < s_.size(); ++k) points_[k].x = points_[k].objective->pose().scaled(s_[k]);
   }
 
  private:
-  std::vector<Vec3> points() const {
+  std::vector<Vec3> lengths() const {
     std::vector<Vec3> out;
-    for (const Stop& stop : stops_) out.push_back(stop.merit->scene().outward(stop.x));
+    for (const PathPoint& point : points_) out.push_back(point.objective->pose().unscaled(point.x));
     return out;
   }
 
-  /// The sum, infinite where a point is outside; jets are by s.
+  /// The sum, infinite where a point is outside; derivatives in `jets` are by s.
   double evaluate(const std::vector<Vec3>& s, double epsilon, std::vector<Jet>& jets) const {
     jets.resize(s.size());
     double sum = 0.0;
     for (std::size_t k = 0; k < s.size(); ++k) {
-      const Merit& merit = *stops_[k].merit;
-      const double unit = merit.scene().unit();
-      if (!merit.soft(merit.scene().inward(s[k]), epsilon, jets[k])) return infinity;
+      if (stop_.stop_requested()) throw Stopped{};
+      const PoseObjective& objective = *points_[k].objective;
+      const double unit = objective.pose().unit();
+      if (!objective.soft(objective.pose().scaled(s[k]), epsilon, jets[k])) return infinity;
       jets[k].gradient /= unit;
       jets[k].hessian /= unit * unit;
       sum += jets[k].value;
@@ -66,7 +69,7 @@ class Path {
     return sum;
   }
 
-  /// Block elimination forwards, substitution backwards; off-diagonal blocks are -2 coupling 1.
+  /// The Newton step by block elimination; off-diagonal blocks are -2 coupling times the identity.
   std::vector<Vec3> newton_step() {
     const std::size_t n = s_.size();
     std::vector<Vec3> gradient(n), out(n);
@@ -74,7 +77,7 @@ class Path {
     for (std::size_t k = 0; k < n; ++k) {
       Mat3 block = convex(jets_[k].hessian, std::max(least_curvature, 1e-10 * coupling_));
       gradient[k] = jets_[k].gradient;
-      for (const std::size_t other : {k - 1, k + 1})  // before the first is no number below n
+      for (const std::size_t other : {k - 1, k + 1})  // k - 1 wraps around for k = 0
         if (other < n) {
           gradient[k] += 2.0 * coupling_ * (s_[k] - s_[other]);
           block.diagonal().array() += 2.0 * coupling_;
@@ -97,9 +100,9 @@ class Path {
 
   bool step(const std::vector<Vec3>& way, double epsilon, double& value) {
     double part = 1.0;
-    for (std::size_t k = 0; k < s_.size(); ++k) {  // no point through a wall of its chamber
-      const Scene& scene = stops_[k].merit->scene();
-      part = std::min(part, 0.9 * scene.clear_way(scene.inward(s_[k]), way[k] / scene.unit(), 2.0));
+    for (std::size_t k = 0; k < s_.size(); ++k) {  // no point may leave its chamber
+      const ScaledPose& pose = points_[k].objective->pose();
+      part = std::min(part, 0.9 * pose.step_to_singularity(pose.scaled(s_[k]), way[k] / pose.unit(), 2.0));
     }
     const double slack = 8.0 * eps * (1.0 + std::abs(value));
     std::vector<Vec3> next(s_.size());
@@ -115,8 +118,9 @@ class Path {
     return false;
   }
 
-  std::span<Stop> stops_;
+  std::span<PathPoint> points_;
   double coupling_;
+  const std::stop_token& stop_;
   std::vector<Vec3> s_;
   std::vector<Jet> jets_, trial_;
   double decrement_ = 0.0;
@@ -124,8 +128,8 @@ class Path {
 
 }  // namespace
 
-bool settle_path(std::span<Stop> stops, double coupling) {
-  Path path(stops, coupling);
+bool minimize_path(std::span<PathPoint> points, double coupling, const std::stop_token& stop) {
+  Path path(points, coupling, stop);
   bool settled = true;
   for (const double epsilon : path_epsilons)
     settled = path.settle(epsilon, epsilon == path_epsilons.back() ? path_fully : path_nearly);

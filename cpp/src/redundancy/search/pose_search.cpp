@@ -10,24 +10,25 @@ namespace ninedof {
 namespace {
 
 // Lengths are in sizes of the robot.
-constexpr double on_wall = 1e-12;      // |det| that is rounding
-constexpr double contact = 1e-7;       // of a limit that is touched
-constexpr double broken_alike = 1e-6;  // of limits broken by the same amount
-constexpr std::array nudges{0.02, 0.1};
+constexpr double on_singularity = 1e-12;  // |det| below which its sign is rounding
+constexpr double contact = 1e-7;  // distance from a limit that counts as touching
+constexpr double broken_alike = 1e-6;  // violations closer than this count as equal
+constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det M = 0
 
-/// The criterion as it is reported.
-double criterion_value(const Merit& merit, const Vec3& x) {
-  const InternalPointProblem& problem = merit.problem();
+/// The criterion as reported to the caller.
+double criterion_value(const PoseObjective& objective, const Vec3& x) {
+  const InternalPointProblem& problem = objective.problem();
   switch (problem.criterion) {
     case Criterion::condition_number:
-      return condition_number(merit.scene().geometry(), merit.scene().configuration(x), problem.characteristic_length);
-    case Criterion::singularity: return merit.scene().determinants(x).cwiseAbs().minCoeff();
-    case Criterion::leg_centring: return merit.exact(x);
+      return condition_number(objective.pose().geometry(), objective.pose().configuration(x),
+                              problem.characteristic_length);
+    case Criterion::singularity: return objective.pose().determinants(x).cwiseAbs().minCoeff();
+    case Criterion::leg_centring: return objective.exact(x);
   }
   return not_a_number;
 }
 
-InternalPoint unbounded(const Local& local) {
+InternalPoint unbounded(const LocalMinimum& local) {
   InternalPoint out;
   out.status = InternalPointStatus::unbounded;
   if (local.ending == Ending::in_joint) out.active.add(ActiveBounds::low(3 + local.leg));
@@ -49,46 +50,45 @@ ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, con
   return out;
 }
 
-bool in_a_chamber(const Scene& scene, const InternalPointProblem& problem, const Vec3& x) {
-  return (scene.determinants(x).cwiseAbs().array() > std::max(problem.clearance, on_wall)).all();
+bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x) {
+  return (pose.determinants(x).cwiseAbs().array() > std::max(problem.clearance, on_singularity)).all();
 }
 
-std::vector<Vec3> chamber_starts(const Scene& scene, const InternalPointProblem& problem,
+std::vector<Vec3> chamber_starts(const ScaledPose& pose, const InternalPointProblem& problem,
                                  const std::optional<Vec3>& start) {
-  const Vec3 x =
-      scene.inward(start.value_or(default_internal_point(scene.geometry(), scene.position(), scene.rotation())));
-  if (in_a_chamber(scene, problem, x)) return {x};
+  const Vec3 x = pose.scaled(start.value_or(default_internal_point(pose.geometry(), pose.position(), pose.rotation())));
+  if (in_some_chamber(pose, problem, x)) return {x};
   std::vector<Vec3> out;
   if (start) return out;
-  const Vec3 sides = scene.volumes(x).cwiseSign();
+  const Vec3 signs = pose.volumes(x).cwiseSign();
   for (const double side : {1.0, -1.0}) {
     const std::size_t before = out.size();
     for (const double nudge : nudges)
       for (int k = 0; k < 6 && out.size() == before; ++k) {
         const Vec3 y = x + (k < 3 ? nudge : -nudge) * Vec3::Unit(k % 3);
-        const Vec3 there = scene.volumes(y).cwiseSign();
-        if (in_a_chamber(scene, problem, y) && there[0] == sides[0] && there[1] == sides[1] && there[2] == side)
+        const Vec3 there = pose.volumes(y).cwiseSign();
+        if (in_some_chamber(pose, problem, y) && there[0] == signs[0] && there[1] == signs[1] && there[2] == side)
           out.push_back(y);
       }
   }
   return out;
 }
 
-InternalPoint internal_point(const Merit& merit, const Vec3& x, InternalPointStatus status) {
-  return {merit.scene().outward(x), criterion_value(merit, x), status, merit.touched(x, contact)};
+InternalPoint internal_point(const PoseObjective& objective, const Vec3& x, InternalPointStatus status) {
+  return {objective.pose().unscaled(x), criterion_value(objective, x), status, objective.touched(x, contact)};
 }
 
-InternalPoint answer(const Merit& merit, const Minima& minima) {
+InternalPoint internal_point(const PoseObjective& objective, const Minima& minima) {
   InternalPoint out;
   if (minima.found.empty()) {
     out.status = InternalPointStatus::infeasible;
-    out.active = merit.broken(minima.nearest, broken_alike);
+    out.active = objective.broken(minima.nearest, broken_alike);
     return out;
   }
-  const Local& best = minima.found.front();
+  const LocalMinimum& best = minima.found.front();
   switch (best.ending) {
-    case Ending::minimum: return internal_point(merit, best.x, InternalPointStatus::found);
-    case Ending::stuck: return internal_point(merit, best.x, InternalPointStatus::stopped);
+    case Ending::minimum: return internal_point(objective, best.x, InternalPointStatus::found);
+    case Ending::stuck: return internal_point(objective, best.x, InternalPointStatus::stopped);
     case Ending::away:
     case Ending::in_joint: return unbounded(best);
   }
@@ -103,34 +103,34 @@ bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b)
   return criterion == Criterion::singularity ? a.value > b.value : a.value < b.value;
 }
 
-Finding finding(const Merit& merit, const Minima& minima) {
-  Finding out{answer(merit, minima), {}, merit.sides()};
+PoseResult pose_result(const PoseObjective& objective, const Minima& minima) {
+  PoseResult out{internal_point(objective, minima), {}, objective.signs()};
   const bool none = minima.found.empty();
-  out.s = merit.scene().outward(none ? minima.nearest : minima.found.front().x);
+  out.s = objective.pose().unscaled(none ? minima.nearest : minima.found.front().x);
   if (!none) out.value = minima.found.front().value;
   return out;
 }
 
-Finding before_search(const Geometry& g, const Vec3& position, const Mat3& rotation,
-                      const InternalPointProblem& problem) {
-  Finding out;
+PoseResult checked_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                        const InternalPointProblem& problem) {
+  PoseResult out;
   if (position.hasNaN() || rotation.hasNaN()) return out;
   out.point.active = external_out_of_limits(g, position, rotation, problem);
   out.point.status = out.point.active.empty() ? InternalPointStatus::singular : InternalPointStatus::infeasible;
   return out;
 }
 
-Finding search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem,
-                    const std::optional<Vec3>& start) {
-  Finding out = before_search(g, position, rotation, problem);
+PoseResult search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                       const InternalPointProblem& problem, const std::optional<Vec3>& start) {
+  PoseResult out = checked_pose(g, position, rotation, problem);
   if (start && start->hasNaN()) return {};
   if (out.point.status != InternalPointStatus::singular) return out;
-  const Scene scene(g, position, rotation, problem);
-  Merit merit(scene, problem);
+  const ScaledPose pose(g, position, rotation, problem);
+  PoseObjective objective(pose, problem);
   bool first = true;
-  for (const Vec3& x : chamber_starts(scene, problem, start)) {
-    merit.enter(x);
-    const Finding found = finding(merit, local_minima(merit, x));
+  for (const Vec3& x : chamber_starts(pose, problem, start)) {
+    objective.enter_chamber(x);
+    const PoseResult found = pose_result(objective, local_minima(objective, x));
     if (first || better(problem.criterion, found.point, out.point)) out = found;
     first = false;
   }

@@ -1,51 +1,52 @@
 #pragma once
-/// The ends of a search at one pose: what is settled before it begins, and what its outcome means.
+/// The search at one pose: checks before it, chambers to search, and the result as the caller sees it.
 
 #include <optional>
 #include <vector>
 
 #include "math/numbers.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
-#include "redundancy/search/search.hpp"
+#include "redundancy/search/multi_start.hpp"
 
 namespace ninedof {
 
-/// The limits of external legs that a pose breaks: no internal point can help that.
+/// The limits of external legs that a pose breaks; they do not depend on O.
 ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                     const InternalPointProblem& problem);
 
 /// Whether x is off every singularity, so that it lies in a chamber.
-bool in_a_chamber(const Scene& scene, const InternalPointProblem& problem, const Vec3& x);
+bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x);
 
-/// Where to start, one point a chamber; none if the start is singular. The default start may happen to lie on det M = 0, the wall
-/// between two chambers of which neither is meant: it is then moved to both sides.
-std::vector<Vec3> chamber_starts(const Scene& scene, const InternalPointProblem& problem,
+/// One point in each chamber to search; none if the start is singular. The default start may happen to lie on det M =
+/// 0, between two chambers: both are then searched.
+std::vector<Vec3> chamber_starts(const ScaledPose& pose, const InternalPointProblem& problem,
                                  const std::optional<Vec3>& start);
 
-/// The internal point at x of the scene, with the bounds it touches.
-InternalPoint internal_point(const Merit& merit, const Vec3& x, InternalPointStatus status);
+/// The internal point at x, with the bounds it touches.
+InternalPoint internal_point(const PoseObjective& objective, const Vec3& x, InternalPointStatus status);
 
-/// What a search of one chamber comes to.
-InternalPoint answer(const Merit& merit, const Minima& minima);
+/// The internal point that the search of one chamber leads to.
+InternalPoint internal_point(const PoseObjective& objective, const Minima& minima);
 
-/// An answer, and what it takes to go on from it and to compare it.
-struct Finding {
+/// An internal point with what is needed to continue it and to compare it.
+struct PoseResult {
   InternalPoint point;
-  Vec3 s = Vec3::Zero();      ///< where O is, or where it was lost, or least out of the limits
-  Vec3 sides = Vec3::Zero();  ///< of the chamber; zero where the pose alone rules a point out
-  double value = infinity;  ///< of Merit::exact
+  Vec3 s = Vec3::Zero();  ///< O: at the optimum, where the descent was lost, or where the limits are broken least
+  Vec3 signs = Vec3::Zero();  ///< of the chamber's determinants; zero where the pose alone excludes a point
+  double value = infinity;  ///< of PoseObjective::exact
 };
-Finding finding(const Merit& merit, const Minima& minima);
+PoseResult pose_result(const PoseObjective& objective, const Minima& minima);
 
-/// What the pose alone has to say: missing, or infeasible for its external legs; else `singular`, so far.
-Finding before_search(const Geometry& g, const Vec3& position, const Mat3& rotation,
-                      const InternalPointProblem& problem);
+/// The result as far as the pose alone decides it: missing, or infeasible for its external legs; `singular` if
+/// undecided.
+PoseResult checked_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                        const InternalPointProblem& problem);
 
-/// best_internal_point without its checks of arguments.
-Finding search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem,
-                    const std::optional<Vec3>& start);
+/// best_internal_point with arguments already checked.
+PoseResult search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                       const InternalPointProblem& problem, const std::optional<Vec3>& start);
 
-/// Whether `a` is the better of two answers for one pose.
+/// Whether `a` is the better of two results for one pose.
 bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b);
 
 }  // namespace ninedof

@@ -8,10 +8,10 @@
 namespace ninedof {
 namespace {
 
-constexpr double weightless = 1e-17;  // below rounding of the sum
+constexpr double weightless = 1e-17;  // smaller terms are below the rounding of the sum
 
-/// One internal leg, its direction turning with O, for the six singular vectors: rates and what of the velocity is across the leg,
-/// each divided by its singular value.
+/// One internal leg and, for each of the six singular vectors, its rate and the velocity across it, divided by the
+/// singular value.
 struct Leg {
   Vec3 direction;
   double length;
@@ -40,15 +40,15 @@ std::array<Leg, 6> internal_legs(const Points& at, const NineLegs& legs, const S
   return out;
 }
 
-/// d(v_a^T M^T M v_b) / (sigma_a sigma_b), both vectors held.
+/// d(v_a^T M^T M v_b) / (sigma_a sigma_b), both vectors fixed.
 Vec3 mixed_slope(const std::array<Leg, 6>& legs, int a, int b) {
   Vec3 out = Vec3::Zero();
   for (const Leg& leg : legs) out += (leg.rate[a] * leg.across.col(b) + leg.rate[b] * leg.across.col(a)) / leg.length;
   return out;
 }
 
-/// Second derivatives of v_a^T M^T M v_a over sigma_a^2, the vector held: a least sum of squares over the velocity of O, so that
-/// the velocity's own freedom takes its part away again. `inverse`: of B^T B + C^T C.
+/// Second derivatives of v_a^T M^T M v_a over sigma_a^2, the vector fixed. The form is a minimum over the velocity of
+/// O, whose response is the last term. `inverse` is that of B^T B + C^T C.
 Mat3 curvature(const std::array<Leg, 6>& legs, int a, const Mat3& inverse) {
   Mat3 held = Mat3::Zero(), mixed = Mat3::Zero();
   for (const Leg& leg : legs) {
@@ -63,7 +63,7 @@ Mat3 curvature(const std::array<Leg, 6>& legs, int a, const Mat3& inverse) {
   return held - 0.5 * mixed * inverse * mixed.transpose();
 }
 
-/// Shares of the six in a soft largest value of `logs`; returns that value.
+/// The smoothed maximum of `logs`, and the share of each of the six in it.
 double soft_largest(const Vec6& logs, double epsilon, Vec6& share) {
   const double largest = logs.maxCoeff();
   share = ((logs.array() - largest) / epsilon).exp();
@@ -102,7 +102,7 @@ Jet soft_condition(const Points& at, const NineLegs& nine, const Spectrum& s, do
     out.hessian += 0.5 * share * curvature(legs, a, inverse);
     out.hessian += ((top[a] + bottom[a]) / epsilon - 2.0 * share) * (g * g.transpose());
   }
-  // Singular vectors turn into each other. Descending order: a is the larger, x = log(lambda_b / lambda_a) <= 0.
+  // Rotation of the singular vectors among each other. In descending order x = log(lambda_b / lambda_a) <= 0.
   const double power = 0.5 / epsilon;
   for (int a = 0; a < 6; ++a)
     for (int b = a + 1; b < 6; ++b) {

@@ -51,16 +51,16 @@ InternalPoint BestPoints::between(const Anchors& from, const Vec3& x, std::size_
   const auto& [a, b] = from;
   const Vec3 &s = kept(a.number, r), &t = kept(b.number, r);
   const double reach = branch_reach(margins_.size(), std::max(distance(x, a.x), distance(x, b.x)));
-  std::vector<Lead> leads;
+  std::vector<Guess> guesses;
   if ((s - t).norm() < 2.0 * reach) {
     const Vec3 way = b.x - a.x;
-    leads.push_back({s + std::clamp((x - a.x).dot(way) / way.squaredNorm(), 0.0, 1.0) * (t - s), reach});
+    guesses.push_back({s + std::clamp((x - a.x).dot(way) / way.squaredNorm(), 0.0, 1.0) * (t - s), reach});
   } else {
     for (const Vec3& lead : {s, t})
-      if (!lead.hasNaN()) leads.push_back({lead, reach});
+      if (!lead.hasNaN()) guesses.push_back({lead, reach});
   }
-  const InternalPoint followed = margins_.placement().best(pose, leads);
-  if (leads.empty() || !drawn(x, r) || followed.s.hasNaN()) return followed;
+  const InternalPoint followed = margins_.placement().best(pose, guesses);
+  if (guesses.empty() || !drawn(x, r) || followed.s.hasNaN()) return followed;
   const InternalPoint searched = margins_.placement().best(pose);
   note(followed, searched);
   return searched.value < followed.value ? searched : followed;

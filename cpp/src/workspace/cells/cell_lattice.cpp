@@ -97,7 +97,7 @@ std::vector<NinePoints> CellLattice::points_of(const std::vector<Cell>& cells, c
   return out;
 }
 
-void CellLattice::evaluate(const WorkspaceControl& control, long expected, double volume) {
+void CellLattice::evaluate(const Control& control, long expected, double volume) {
   const long first = evaluations(), count = static_cast<long>(table_.size()) - first;
   if (best_.needed()) {
     best_.reserve(table_.size());

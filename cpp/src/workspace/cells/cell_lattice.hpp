@@ -62,7 +62,7 @@ class CellLattice {
 
   /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0. Throws Stopped.
   std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
-  void evaluate(const WorkspaceControl& control, long expected, double volume);
+  void evaluate(const Control& control, long expected, double volume);
   long evaluations() const { return evaluations_; }
   const MapAudit& audit() const { return best_.audit(); }
 

@@ -5,21 +5,19 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/parallel.hpp"
-#include "workspace/cells/tetrahedra.hpp"
+#include "workspace/measures/pieces.hpp"
 #include "workspace/methods/audit.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr double curvature_room =
-    2.0;  // how much more than the corners and the centre show a margin may curve between them
-constexpr double guard = 0.1;
+constexpr double guard = 0.1;  // least error estimate, relative to the last change
 constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and corners shared with neighbours
 
-class Grower {
+class OctreeBuilder {
  public:
-  Grower(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-         const std::optional<Vec3>& home, const WorkspaceControl& control)
+  OctreeBuilder(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
+         const std::optional<Vec3>& home, const Control& control)
       : m_(margins), settings_(settings), home_(home), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
@@ -30,15 +28,15 @@ class Grower {
       Audit audit;
       std::vector<Cell> open = roots();
       for (int level = 0;; ++level) {
-        std::vector<Leaf> now = judged(open);
+        std::vector<Leaf> now = leaves_of(open);
         if (level == 0) {
           audit.begin(now, lattice_, m_, settings_, control_);
           evaluations_ = audit.count();
           tree.unseen = audit.unseen();
         }
-        tree.doubt = audit.open(now);
+        tree.disagreement = audit.open(now);
         open_home(now);
-        if (tree.doubt.coarse) open_all(now);
+        if (tree.disagreement.coarse) open_all(now);
         keep(now);
         measure(first_piece_alone, audit);
         if (const std::optional<WorkspaceStatus> end = finished(level)) return *end;
@@ -62,22 +60,19 @@ class Grower {
     return out;
   }
 
-  std::vector<Leaf> judged(const std::vector<Cell>& cells) {
+  std::vector<Leaf> leaves_of(const std::vector<Cell>& cells) {
     const std::vector<NinePoints> points = lattice_.points_of(cells, control_.stop);
     lattice_.evaluate(control_, expected_, volume_);
     std::vector<Leaf> out(cells.size());
     parallel_for(static_cast<long>(cells.size()), 256, settings_.threads, [&](long from, long to) {
       if (control_.stop.stop_requested()) throw Stopped{};
       for (auto n = static_cast<std::size_t>(from); n < static_cast<std::size_t>(to); ++n)
-        out[n] = judge(cells[n], points[n]);
+        out[n] = leaf_of(cells[n], points[n], lattice_, m_);
     });
     return out;
   }
 
-  Leaf judge(const Cell& cell, const NinePoints& points) const;
-  void weigh(Leaf& leaf, const NinePoints& points) const;
-
-  /// The home pose is to be found in a cell with an allowed corner.
+  /// Divides the cell of an allowed home pose as long as it has no allowed corner.
   void open_home(std::vector<Leaf>& leaves) {
     if (!home_allowed_) return;
     for (Leaf& leaf : leaves) {
@@ -85,12 +80,12 @@ class Grower {
                  half = 0.5 * lattice_.size(leaf.cell.level);
       if ((away.array() > half.array()).any() || leaf.inside != 0 || leaf.proved) continue;
       leaf.state = CellState::boundary;
-      tree.doubt.measure += leaf.measure;
-      tree.doubt.coarse = true;
+      tree.disagreement.measure += leaf.measure;
+      tree.disagreement.coarse = true;
     }
   }
 
-  /// Cells that miss most of the set where they can be checked say nothing about where it is not.
+  /// Opens all cells outside: cells that miss most audit poses are too coarse to exclude any.
   static void open_all(std::vector<Leaf>& leaves) {
     for (Leaf& leaf : leaves)
       if (leaf.state == CellState::outside && !leaf.proved) leaf.state = CellState::boundary;
@@ -102,7 +97,7 @@ class Grower {
     tree.leaves.insert(tree.leaves.end(), now.begin(), now.end());
   }
 
-  /// Settled cells stay, children of the others are next.
+  /// Keeps settled cells; returns the children of the others.
   std::vector<Cell> divided(const std::vector<Leaf>& now, Audit& audit) {
     std::vector<Cell> next;
     std::vector<long> rank(now.size(), -1);
@@ -127,95 +122,16 @@ class Grower {
   const WorkspaceSettings& settings_;
   std::optional<Vec3> home_;
   bool home_allowed_ = false;
-  const WorkspaceControl& control_;
+  const Control& control_;
   CellLattice& lattice_;
-  std::vector<Leaf> settled_;  // the tree itself stays as it was after the last whole level
+  std::vector<Leaf> settled_;  // the tree itself holds the state after the last complete level
   std::vector<double> parents_;
   long evaluations_ = 0, expected_ = 0;
-  double moved_ = 0.0;  // the last change of the extrapolated volume
+  double moved_ = 0.0;  // last change of the extrapolated volume
   double volume_ = not_a_number, error_ = volume_;
 };
 
-Leaf Grower::judge(const Cell& cell, const NinePoints& points) const {
-  Leaf leaf;
-  leaf.cell = cell;
-  const int groups = m_.groups();
-  Corners corners;
-  for (std::size_t n = 0; n < 8; ++n) corners[n] = &lattice_.margins(points[n]);
-  const PointMargins& centre = lattice_.margins(points[8]);
-  CutCell cut(corners, groups);
-  leaf.inside = static_cast<std::uint8_t>(cut.inside());
-  leaf.fraction = cut.fraction();
-  leaf.condition_number = centre.condition_number;
-
-  const double reach = m_.leg_speed() * 0.5 * lattice_.size(cell.level).norm();
-  bool all_in = leaf.inside == 255, all_out = false;
-  for (int g = 0; g < groups; ++g) {
-    const auto k = static_cast<std::size_t>(g);
-    double least = centre.margin[k], most = least, mean = 0.0;
-    for (const PointMargins* corner : corners) {
-      least = std::min(least, corner->margin[k]);
-      most = std::max(most, corner->margin[k]);
-      mean += 0.125 * corner->margin[k];
-    }
-    const double curve = std::isfinite(mean) ? curvature_room * std::abs(mean - centre.margin[k]) : 0.0;
-    if (!(least >= curve)) all_in = false;
-    if (most < -curve) all_out = true;
-  }
-  leaf.proved = centre.proof < -reach || (m_.legs_alone() && centre.proof > reach);
-  if (leaf.proved) {
-    all_in = centre.proof > 0.0;
-    all_out = !all_in;
-    leaf.inside = all_in ? 255 : 0;
-    leaf.fraction = all_in ? 1.0 : 0.0;
-  }
-  leaf.state = all_in ? CellState::inside : all_out ? CellState::outside : CellState::boundary;
-  if (leaf.state == CellState::outside) leaf.limit = static_cast<std::int16_t>(m_.violated(centre));
-  if (leaf.state == CellState::boundary && leaf.inside != 0 && leaf.inside != 255) {
-    std::vector<CutCell::Piece> pieces;
-    cut.boundary(Vec3::Ones(), pieces);
-    std::array<double, 64> area{};
-    for (const CutCell::Piece& piece : pieces) area[static_cast<std::size_t>(piece.limit)] += piece.area;
-    leaf.limit = static_cast<std::int16_t>(std::max_element(area.begin(), area.end()) - area.begin());
-  } else if (leaf.state == CellState::boundary) {
-    leaf.limit = static_cast<std::int16_t>(m_.violated(centre));
-  }
-  weigh(leaf, points);
-  return leaf;
-}
-
-/// Measure, and integrals by the corners and the centre: trapezium and midpoint rule together are exact for cubics.
-void Grower::weigh(Leaf& leaf, const NinePoints& points) const {
-  const Chart& chart = m_.chart();
-  const double volume = lattice_.size(leaf.cell.level).prod();
-  double corner_density = 0.0, corner_sum = 0.0, corner_weight = 0.0;
-  const auto inverse = [](double kappa) { return std::isnan(kappa) ? 0.0 : 1.0 / kappa; };
-  for (std::size_t n = 0; n < 9; ++n) {
-    const PointMargins& at = lattice_.margins(points[n]);
-    const double density = chart.positional() ? 1.0 : chart.density(lattice_.point(points[n]));
-    const bool allowed = at.allowed(m_.groups());
-    if (allowed && at.condition_number > leaf.worst) {
-      leaf.worst = at.condition_number;
-      leaf.worst_point = points[n];
-    }
-    if (n == 8) {
-      leaf.measure = volume * (2.0 * density + corner_density) / 3.0;
-      const double centre = allowed ? density * inverse(at.condition_number) : 0.0;
-      const double mean = corner_weight > 0.0 ? corner_sum / corner_weight : centre / density;
-      leaf.conditioning_coarse = leaf.fraction * leaf.measure * mean;
-      leaf.conditioning = leaf.inside == 255 && allowed
-                              ? volume * (2.0 * centre + corner_sum / 8.0) / 3.0 * leaf.fraction
-                              : leaf.conditioning_coarse;
-      break;
-    }
-    corner_density += 0.125 * density;
-    if (!allowed) continue;
-    corner_sum += density * inverse(at.condition_number);
-    corner_weight += density;
-  }
-}
-
-void Grower::measure(bool first_piece_alone, const Audit& audit) {
+void OctreeBuilder::measure(bool first_piece_alone, const Audit& audit) {
   if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
   const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   double volume = 0.0, undecided = 0.0, change = 0.0;
@@ -236,30 +152,31 @@ void Grower::measure(bool first_piece_alone, const Audit& audit) {
     if (!any) continue;
     change += held - parents_[p];
   }
-  // The error falls fourfold from level to level: what is left of it is a third of the last change. Two such extrapolations
-  // tell how well that holds. A share of the change, and of how they differed before, guard against their agreeing by chance.
+  // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference of
+  // two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds of the
+  // estimate: two extrapolations may agree by chance.
   const double better = parents_.empty() ? volume : volume + change / 3.0;
   const double moved = std::abs(better - volume_);
   error_ = parents_.empty()         ? 0.5 * undecided
            : tree.levels.size() < 2 ? std::abs(change) / 3.0
                                     : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
   moved_ = tree.levels.size() < 2 ? 0.0 : moved;
-  error_ = tree.doubt.coarse ? std::max(error_, undecided) : error_ + tree.doubt.measure;
+  error_ = tree.disagreement.coarse ? std::max(error_, undecided) : error_ + tree.disagreement.measure;
   volume_ = std::clamp(better, 0.0, m_.chart().volume());
-  // Of one piece among several the poses only know that it is not the larger.
+  // For one piece of several the audit gives only an upper bound of the volume.
   error_ = std::max(error_, audit.contradicts(volume_, first_piece_alone));
   tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
 }
 
-std::optional<WorkspaceStatus> Grower::finished(int level) {
+std::optional<WorkspaceStatus> OctreeBuilder::finished(int level) {
   long open = 0;
   for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
     open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
   if (open == 0) return WorkspaceStatus::converged;
-  if (level > 0 && !tree.doubt.coarse && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
+  if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
   if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
     return WorkspaceStatus::limited;
-  // Both the error and, upside down, the work change fourfold from level to level.
+  // From level to level the error falls and the work grows by a factor of four.
   long more = evaluations_a_cell * open;
   expected_ = evaluations() + more;
   for (double e = error_ / 4.0; e > settings_.tolerance * volume_ && expected_ < settings_.most_evaluations; e /= 4.0) {
@@ -272,11 +189,11 @@ std::optional<WorkspaceStatus> Grower::finished(int level) {
 }  // namespace
 
 Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                   bool first_piece_alone, const std::optional<Vec3>& home, const WorkspaceControl& control) {
-  Grower grower(margins, lattice, settings, home, control);
-  grower.tree.status = grower.run(first_piece_alone);
-  grower.tree.evaluations = grower.evaluations();
-  return std::move(grower.tree);
+                   bool first_piece_alone, const std::optional<Vec3>& home, const Control& control) {
+  OctreeBuilder builder(margins, lattice, settings, home, control);
+  builder.tree.status = builder.run(first_piece_alone);
+  builder.tree.evaluations = builder.evaluations();
+  return std::move(builder.tree);
 }
 
 }  // namespace ninedof

@@ -35,18 +35,17 @@ InternalPoint Placement::best(const PlatformPose& pose) const {
   return best_internal_point(g_, pose.position, pose.rotation, problem_);
 }
 
-InternalPoint Placement::best(const PlatformPose& pose, std::span<const Lead> leads) const {
-  const InternalPoint before = before_search(g_, pose.position, pose.rotation, problem_).point;
+InternalPoint Placement::best(const PlatformPose& pose, std::span<const Guess> guesses) const {
+  const InternalPoint before = checked_pose(g_, pose.position, pose.rotation, problem_).point;
   if (before.status != InternalPointStatus::singular) return before;
-  const Followed followed = follow(g_, pose, problem_, {}, leads, {});
+  const Continuation followed = continued_from(g_, pose, problem_, {}, guesses, {});
   return followed.best.point.status == InternalPointStatus::found ? followed.best.point : best(pose);
 }
 
 InternalPointMap Placement::best(const PoseGrid& grid, int threads, const std::stop_token& stop) const {
   MapSettings settings;
   settings.threads = threads;
-  settings.proceed = [&](std::size_t, std::size_t) { return !stop.stop_requested(); };
-  return best_internal_map(g_, grid, problem_, settings);
+  return best_internal_map(g_, grid, problem_, settings, {stop, {}});
 }
 
 InternalPoint Placement::found_before(const PlatformPose& pose, const Vec3& s) const {

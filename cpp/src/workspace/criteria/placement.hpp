@@ -6,7 +6,7 @@
 
 #include "ninedof/redundancy/redundancy_map.hpp"
 #include "ninedof/workspace/workspace.hpp"
-#include "redundancy/map/follow.hpp"
+#include "redundancy/map/continuation.hpp"
 
 namespace ninedof {
 
@@ -20,7 +20,7 @@ class Placement {
   /// The best point of the chamber between the plates, and its condition number. NaN where there is none.
   InternalPoint best(const PlatformPose& pose) const;
   /// The same, by going on from what is known nearby; by a search where that comes to nothing.
-  InternalPoint best(const PlatformPose& pose, std::span<const Lead> leads) const;
+  InternalPoint best(const PlatformPose& pose, std::span<const Guess> guesses) const;
   /// The same at all poses of a grid.
   InternalPointMap best(const PoseGrid& grid, int threads, const std::stop_token& stop) const;
   /// What there is to say of a point that was found before; s may be NaN.

@@ -13,9 +13,6 @@
 
 namespace ninedof {
 
-/// Thrown inside the search when a stop is requested; never leaves workspace().
-struct Stopped {};
-
 constexpr int most_groups = 9 + 6 + 6 + 1 + 1 + 3 + 1;  // legs, cones, clearance, condition, singularities, region
 
 /// What is known of one point. Allowed means that every margin is at least zero.

@@ -1,4 +1,4 @@
-/// Declared in workspace/measures/surface.hpp.
+#include "workspace/measures/inscribed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include "math/numbers.hpp"
 #include "workspace/measures/near_points.hpp"
 #include "workspace/measures/solid_box.hpp"
-#include "workspace/measures/surface.hpp"
 
 namespace ninedof {
 namespace {
@@ -59,7 +58,7 @@ InscribedBall settled(const Room& room, InscribedBall ball, double step) {
   return ball;
 }
 
-std::vector<char> allowed_at(const Margins& margins, const std::vector<Vec3>& x, const WorkspaceControl& control) {
+std::vector<char> allowed_at(const Margins& margins, const std::vector<Vec3>& x, const Control& control) {
   std::vector<PointMargins> out(x.size());
   margins.evaluate(x.data(), static_cast<long>(x.size()), out.data(), control.stop);
   std::vector<char> allowed;
@@ -74,7 +73,7 @@ Vec3 ray(int n) {
   return {r * std::cos(golden * n), r * std::sin(golden * n), z};
 }
 
-void check(InscribedBall& ball, const Margins& margins, const WorkspaceControl& control) {
+void check(InscribedBall& ball, const Margins& margins, const Control& control) {
   double low = 0.9 * ball.radius, high = ball.radius;
   const auto fits = [&](double radius) {
     std::vector<Vec3> x;
@@ -87,7 +86,7 @@ void check(InscribedBall& ball, const Margins& margins, const WorkspaceControl& 
   ball.radius = low;
 }
 
-void check(InscribedBox& box, const Margins& margins, const WorkspaceControl& control) {
+void check(InscribedBox& box, const Margins& margins, const Control& control) {
   constexpr int steps = 9;
   const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const auto fits = [&](double scale) {
@@ -112,7 +111,7 @@ void check(InscribedBox& box, const Margins& margins, const WorkspaceControl& co
 }  // namespace
 
 void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
-              const Surface& surface, bool first_piece_alone, const WorkspaceControl& control, WorkspaceMap& map) {
+              const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map) {
   const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   const std::vector<Vec3> points = thinned(surface.points);
   const Room room(margins.chart(), points);

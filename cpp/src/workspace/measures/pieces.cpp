@@ -1,9 +1,7 @@
-/// Declared in workspace/cells/octree.hpp.
+#include "workspace/measures/pieces.hpp"
 
 #include <algorithm>
 #include <numeric>
-
-#include "workspace/cells/octree.hpp"
 
 namespace ninedof {
 namespace {

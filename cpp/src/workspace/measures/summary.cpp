@@ -1,4 +1,4 @@
-/// Declared in workspace/measures/surface.hpp.
+#include "workspace/measures/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "math/numbers.hpp"
 #include "workspace/cells/tetrahedra.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/measures/surface.hpp"
 
 namespace ninedof {
 namespace {

@@ -14,7 +14,7 @@ constexpr double too_many = 0.05;  // share of the allowed poses in cells that d
 }  // namespace
 
 void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m,
-                  const WorkspaceSettings& settings, const WorkspaceControl& control) {
+                  const WorkspaceSettings& settings, const Control& control) {
   std::vector<long> judged;
   for (std::size_t n = 0; n < roots.size(); ++n)
     if (!roots[n].proved) judged.push_back(static_cast<long>(n));
@@ -54,8 +54,8 @@ double Audit::contradicts(double volume, bool only_if_less) const {
   return away > 3.0 * std::sqrt(squares_) + unseen_ ? away : 0.0;
 }
 
-Doubt Audit::open(std::vector<Leaf>& leaves) const {
-  Doubt doubt;
+Disagreement Audit::open(std::vector<Leaf>& leaves) const {
+  Disagreement out;
   long allowed = 0;
   std::vector<char> counted(leaves.size());
   for (std::size_t n = 0; n < at_.size(); ++n) {
@@ -66,12 +66,12 @@ Doubt Audit::open(std::vector<Leaf>& leaves) const {
     if (leaf.proved || leaf.inside == (allowed_[n] != 0 ? 255 : 0)) continue;
     leaf.state = CellState::boundary;
     if (leaf.inside != 0 && leaf.inside != 255) continue;
-    ++doubt.poses;
-    if (counted[at] == 0) doubt.measure += leaf.measure;
+    ++out.poses;
+    if (counted[at] == 0) out.measure += leaf.measure;
     counted[at] = 1;
   }
-  doubt.coarse = static_cast<double>(doubt.poses) > too_many * static_cast<double>(allowed);
-  return doubt;
+  out.coarse = static_cast<double>(out.poses) > too_many * static_cast<double>(allowed);
+  return out;
 }
 
 void Audit::descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice) {

@@ -10,7 +10,7 @@ class Audit {
  public:
   /// Draws the poses and judges them. Throws Stopped.
   void begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings,
-             const WorkspaceControl& control);
+             const Control& control);
 
   long count() const { return static_cast<long>(at_.size()); }
   /// See WorkspaceMap.
@@ -20,7 +20,7 @@ class Audit {
   double contradicts(double volume, bool only_if_less) const;
 
   /// Opens every cell that one of the poses disagrees with.
-  Doubt open(std::vector<Leaf>& leaves) const;
+  Disagreement open(std::vector<Leaf>& leaves) const;
 
   /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
   void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice);

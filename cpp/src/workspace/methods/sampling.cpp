@@ -1,4 +1,4 @@
-/// Declared in workspace/measures/surface.hpp.
+#include "workspace/methods/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 #include "ninedof/math/parallel.hpp"
 #include "workspace/cells/best_points.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/measures/surface.hpp"
+#include "workspace/measures/inscribed.hpp"
+#include "workspace/measures/pieces.hpp"
 #include "workspace/sequence.hpp"
 
 namespace ninedof {
@@ -21,9 +22,8 @@ double missed(const Margins& m, long count) {
 }
 
 /// Evaluates `count` points in order, with news between pieces of work.
-std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads,
-                                    const WorkspaceControl& control, long before, long total,
-                                    const BestPoints* mapped = nullptr) {
+std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads, const Control& control,
+                                    long before, long total, const BestPoints* mapped = nullptr) {
   std::vector<PointMargins> out(x.size());
   const long count = static_cast<long>(x.size()), piece = 64 * m.block();
   for (long done = 0; done < count; done += piece) {
@@ -42,7 +42,7 @@ std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x
   return out;
 }
 
-Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
+Leaf point_leaf(const PointMargins& at, const Margins& m, double measure) {
   Leaf leaf;
   const bool allowed = at.allowed(m.groups());
   leaf.state = allowed ? CellState::inside : CellState::outside;
@@ -60,8 +60,8 @@ Leaf leaf_of(const PointMargins& at, const Margins& m, double measure) {
 
 }  // namespace
 
-void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone,
-                 const WorkspaceControl& control, WorkspaceMap& map) {
+void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first_piece_alone, const Control& control,
+                 WorkspaceMap& map) {
   const int n = settings.resolution;
   if (static_cast<double>(n) * n * n > static_cast<double>(settings.most_evaluations))
     throw InvalidArgument(
@@ -91,7 +91,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
       evaluated(m, x, settings.threads, control, 0, static_cast<long>(x.size()), best.needed() ? &best : nullptr);
   std::vector<Leaf> leaves;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    leaves.push_back(leaf_of(known[c], m, size.prod() * m.chart().density(x[c])));
+    leaves.push_back(point_leaf(known[c], m, size.prod() * m.chart().density(x[c])));
     leaves.back().cell = cells[c];
   }
   map.pieces = find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt);
@@ -139,8 +139,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
 }
 
-void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const WorkspaceControl& control,
-                   WorkspaceMap& map) {
+void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Control& control, WorkspaceMap& map) {
   const Chart& chart = m.chart();
   const Vec3 side = chart.high() - chart.low();
   const double measure = chart.box_volume() / static_cast<double>(settings.points);
@@ -155,7 +154,7 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Wo
     const std::vector<PointMargins> known = evaluated(m, x, settings.threads, control, shift * settings.points, total);
     double held = 0.0, conditioning = 0.0;
     for (std::size_t n = 0; n < x.size(); ++n) {
-      leaves.push_back(leaf_of(known[n], m, measure / settings.shifts * chart.density(x[n])));
+      leaves.push_back(point_leaf(known[n], m, measure / settings.shifts * chart.density(x[n])));
       held += leaves.back().fraction * leaves.back().measure * settings.shifts;
       conditioning += leaves.back().conditioning * settings.shifts;
     }

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from ninedof.optimize.result import Result, Status
 from ninedof.runs.records import to_json
@@ -65,7 +64,8 @@ class Screen:
             TextColumn("{task.description}"),
             BarColumn(bar_width=24),
             TextColumn("{task.percentage:>3.0f} %"),
-            TextColumn("{task.fields[left]}"),
+            TimeRemainingColumn(),
+            TextColumn("to go"),
             TimeElapsedColumn(),
         )
         with from_first_news(Progress(*columns, console=self.progress_console)) as shown:
@@ -88,18 +88,12 @@ class PointBar:
     def __init__(self, shown: Progress, title: str) -> None:
         """Begin at nothing."""
         self._shown = shown
-        self._task = shown.add_task(title, total=None, left="")
+        self._task = shown.add_task(title, total=None)
 
-    def show(self, done: int, total: int, to_go: float) -> None:
-        """Take the progress of a sweep."""
-        left = "" if math.isnan(to_go) or done == total else f"{_clock(to_go)} to go"
+    def show(self, done: int, total: int, _: float | None) -> None:
+        """Show the progress of a sweep."""
         self._shown.start()
-        self._shown.update(self._task, completed=done, total=total, left=left)
-
-
-def _clock(seconds: float) -> str:
-    whole = math.ceil(seconds)
-    return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}"
+        self._shown.update(self._task, completed=done, total=total)
 
 
 class Bar:
@@ -110,6 +104,7 @@ class Bar:
         self._shown = shown
         self._task = shown.add_task(title, total=None, best="")
 
-    def starts(self, done: int, total: int, best: float) -> None:
+    def starts(self, done: int, total: int, best: float | None) -> None:
         """Take the progress of an optimization."""
-        self._shown.update(self._task, completed=done, total=total, best=f"best {best:.6f}")
+        words = "no design" if best is None else f"best {best:.6f}"
+        self._shown.update(self._task, completed=done, total=total, best=words)

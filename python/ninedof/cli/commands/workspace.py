@@ -154,8 +154,8 @@ def _bar(screen: Screen, title: str) -> Iterator[Any]:
     with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
         task = shown.add_task(title, total=None, volume="")
 
-        def progress(done: int, expected: int, volume: float) -> None:
-            words = "" if math.isnan(volume) else f", volume {volume:.4g}"
+        def progress(done: int, expected: int, volume: float | None) -> None:
+            words = "" if volume is None else f", volume {volume:.4g}"
             shown.start()
             shown.update(task, completed=done, total=expected, volume=words)
 

@@ -1,4 +1,4 @@
-#include "redundancy/search/merit.hpp"
+#include "redundancy/search/pose_objective.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace ninedof {
 namespace {
 
-constexpr double wall_contact = 1e-4;  // of the logarithm of the clearance: the wall in front of it is soft
+constexpr double wall_contact = 1e-4;  // of the logarithm of the clearance, whose barrier is smooth
 
 /// Distance of x from a joint.
 Jet distance(const Vec3& x, const Vec3& joint) {
@@ -21,12 +21,12 @@ Jet distance(const Vec3& x, const Vec3& joint) {
   return out;
 }
 
-/// Adds a wall that `room`, positive inside, leaves: -epsilon log room; d room = slope d f.
-void add_wall(double room, double slope, double epsilon, const Jet& f, Jet& out) {
+/// Adds the barrier -epsilon log room of a bound at distance `room`, positive inside; d room = slope d f.
+void add_barrier(double room, double slope, double epsilon, const Jet& f, Jet& out) {
   out.add_function(-epsilon * std::log(room), -epsilon * slope / room, epsilon * slope * slope / (room * room), f);
 }
 
-/// Adds epsilon log sum exp(jet / epsilon): what is `count` jets' largest but for its kinks.
+/// Adds epsilon log sum exp(jet / epsilon), the smoothed maximum of the first `count` jets.
 template <std::size_t N>
 void add_soft_largest(const std::array<Jet, N>& jets, std::size_t count, double epsilon, Jet& out) {
   double largest = -infinity, sum = 0.0;
@@ -46,30 +46,29 @@ void add_soft_largest(const std::array<Jet, N>& jets, std::size_t count, double 
 
 }  // namespace
 
-bool Merit::in_chamber(const Vec3& x) const {
-  return (sides_.cwiseProduct(scene_.determinants(x)).array() > problem_.clearance).all();
+bool PoseObjective::in_chamber(const Vec3& x) const {
+  return (signs_.cwiseProduct(pose_.determinants(x)).array() > problem_.clearance).all();
 }
 
-double Merit::violation(const Vec3& x) const {
+double PoseObjective::violation(const Vec3& x) const {
   double worst = -infinity;
   for (int k = 0; k < 6; ++k) {
-    const double length = (x - scene_.joint(k)).norm();
-    worst = std::max({worst, scene_.low()[k] - length, length - scene_.high()[k]});
+    const double length = (x - pose_.joint(k)).norm();
+    worst = std::max({worst, pose_.low()[k] - length, length - pose_.high()[k]});
   }
   return worst;
 }
 
-double Merit::exact(const Vec3& x) const {
+double PoseObjective::exact(const Vec3& x) const {
   switch (problem_.criterion) {
     case Criterion::condition_number:
-      return std::log(condition_number(scene_.geometry(), scene_.configuration(x), problem_.characteristic_length));
-    case Criterion::singularity: return -std::log(scene_.determinants(x).cwiseAbs().minCoeff());
+      return std::log(condition_number(pose_.geometry(), pose_.configuration(x), problem_.characteristic_length));
+    case Criterion::singularity: return -std::log(pose_.determinants(x).cwiseAbs().minCoeff());
     case Criterion::leg_centring: {
       double sum = 0.0;
       for (int k = 0; k < 6; ++k) {
-        const double middle = 0.5 * (scene_.low()[k] + scene_.high()[k]),
-                     half = 0.5 * (scene_.high()[k] - scene_.low()[k]);
-        const double z = ((x - scene_.joint(k)).norm() - middle) / half;
+        const double middle = 0.5 * (pose_.low()[k] + pose_.high()[k]), half = 0.5 * (pose_.high()[k] - pose_.low()[k]);
+        const double z = ((x - pose_.joint(k)).norm() - middle) / half;
         sum += z * z;
       }
       return sum;
@@ -78,29 +77,29 @@ double Merit::exact(const Vec3& x) const {
   return infinity;
 }
 
-bool Merit::add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const {
+bool PoseObjective::add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const {
   const double least = std::log(problem_.clearance);
   for (const Jet& f : logs) {
     if (!(f.value > least)) return false;
-    add_wall(f.value - least, 1.0, epsilon, f, out);
+    add_barrier(f.value - least, 1.0, epsilon, f, out);
   }
   return true;
 }
 
-bool Merit::soft(const Vec3& x, double epsilon, Jet& out) const {
+bool PoseObjective::soft(const Vec3& x, double epsilon, Jet& out) const {
   out = Jet{};
-  if ((scene_.volumes(x).cwiseSign().array() != sides_.array()).any()) return false;
-  const std::array<Jet, 3> logs = scene_.log_determinants(x);
+  if ((pose_.volumes(x).cwiseSign().array() != signs_.array()).any()) return false;
+  const std::array<Jet, 3> logs = pose_.log_determinants(x);
   if (!add_clearance(logs, epsilon, out)) return false;
   for (int k = 0; k < 6; ++k) {
-    const double low = scene_.low()[k], high = scene_.high()[k];
+    const double low = pose_.low()[k], high = pose_.high()[k];
     const bool finite = std::isfinite(high);
     if (!(low > 0.0) && !finite) continue;
-    const Jet length = distance(x, scene_.joint(k));
+    const Jet length = distance(x, pose_.joint(k));
     const double above = length.value - low + limit_tolerance, below = high - length.value + limit_tolerance;
     if (!(above > 0.0) || !(below > 0.0)) return false;
-    if (low > 0.0) add_wall(above, 1.0, epsilon, length, out);
-    if (finite) add_wall(below, -1.0, epsilon, length, out);
+    if (low > 0.0) add_barrier(above, 1.0, epsilon, length, out);
+    if (finite) add_barrier(below, -1.0, epsilon, length, out);
     if (problem_.criterion != Criterion::leg_centring) continue;
     const double half = 0.5 * (high - low), z = (length.value - 0.5 * (low + high)) / half;
     out.add_function(z * z, 2.0 * z / half, 2.0 / (half * half), length);
@@ -111,24 +110,24 @@ bool Merit::soft(const Vec3& x, double epsilon, Jet& out) const {
     add_soft_largest(negative, 3, epsilon, out);
   }
   if (problem_.criterion == Criterion::condition_number) {
-    const Points at = scene_.points(x);
+    const Points at = pose_.points(x);
     const NineLegs legs = nine_legs(at);
-    const Spectrum s = spectrum(at, legs, scene_.characteristic_length());
+    const Spectrum s = spectrum(at, legs, pose_.characteristic_length());
     if (!(s.sigma[5] > 0.0)) return false;
     out.add(1.0, soft_condition(at, legs, s, epsilon));
   }
   return out.gradient.allFinite() && out.hessian.allFinite();
 }
 
-bool Merit::soft_violation(const Vec3& x, double epsilon, Jet& out) const {
+bool PoseObjective::soft_violation(const Vec3& x, double epsilon, Jet& out) const {
   out = Jet{};
-  if ((scene_.volumes(x).cwiseSign().array() != sides_.array()).any()) return false;
-  if (!add_clearance(scene_.log_determinants(x), epsilon, out)) return false;
+  if ((pose_.volumes(x).cwiseSign().array() != signs_.array()).any()) return false;
+  if (!add_clearance(pose_.log_determinants(x), epsilon, out)) return false;
   std::array<Jet, 12> broken;
   std::size_t count = 0;
   for (int k = 0; k < 6; ++k) {
-    const double low = scene_.low()[k], high = scene_.high()[k];
-    const Jet length = distance(x, scene_.joint(k));
+    const double low = pose_.low()[k], high = pose_.high()[k];
+    const Jet length = distance(x, pose_.joint(k));
     if (low > 0.0) broken[count++].add_function(low - length.value, -1.0, 0.0, length);
     if (std::isfinite(high)) broken[count++].add_function(length.value - high, 1.0, 0.0, length);
   }
@@ -136,26 +135,26 @@ bool Merit::soft_violation(const Vec3& x, double epsilon, Jet& out) const {
   return out.gradient.allFinite() && out.hessian.allFinite();
 }
 
-ActiveBounds Merit::touched(const Vec3& x, double contact) const {
+ActiveBounds PoseObjective::touched(const Vec3& x, double contact) const {
   ActiveBounds out;
   for (int k = 0; k < 6; ++k) {
-    const double length = (x - scene_.joint(k)).norm();
-    if (scene_.low()[k] > 0.0 && length - scene_.low()[k] <= contact) out.add(ActiveBounds::low(3 + k));
-    if (scene_.high()[k] - length <= contact) out.add(ActiveBounds::high(3 + k));
+    const double length = (x - pose_.joint(k)).norm();
+    if (pose_.low()[k] > 0.0 && length - pose_.low()[k] <= contact) out.add(ActiveBounds::low(3 + k));
+    if (pose_.high()[k] - length <= contact) out.add(ActiveBounds::high(3 + k));
   }
-  const Vec3 determinants = scene_.determinants(x).cwiseAbs();
+  const Vec3 determinants = pose_.determinants(x).cwiseAbs();
   for (int k = 0; k < 3; ++k)
     if (std::log(determinants[k] / problem_.clearance) <= wall_contact) out.add(ActiveBounds::clearance(k));
   return out;
 }
 
-ActiveBounds Merit::broken(const Vec3& x, double contact) const {
+ActiveBounds PoseObjective::broken(const Vec3& x, double contact) const {
   ActiveBounds out;
   const double worst = violation(x) - contact;
   for (int k = 0; k < 6; ++k) {
-    const double length = (x - scene_.joint(k)).norm();
-    if (scene_.low()[k] - length >= worst) out.add(ActiveBounds::low(3 + k));
-    if (length - scene_.high()[k] >= worst) out.add(ActiveBounds::high(3 + k));
+    const double length = (x - pose_.joint(k)).norm();
+    if (pose_.low()[k] - length >= worst) out.add(ActiveBounds::low(3 + k));
+    if (length - pose_.high()[k] >= worst) out.add(ActiveBounds::high(3 + k));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-#include "redundancy/search/scene.hpp"
+#include "redundancy/search/scaled_pose.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -26,8 +26,9 @@ void subtract_log_distance(const Vec3& x, const Vec3& a, Jet& out) {
   out.hessian -= (Mat3::Identity() - (2.0 / squared) * (v * v.transpose())) / squared;
 }
 
-/// Half the sum of the squared distances of x from the ends of external leg i. The area behind a row of M divided by it is at most
-/// 1, and 0 only where O is on the line of that leg: at its very ends too, unlike the sine of the angle under which O sees it.
+/// Half the sum of the squared distances of x from the ends of external leg i. The area behind a row of M divided by it
+/// is at most 1, and 0 only where O is on the line of that leg: at its very ends too, unlike the sine of the angle
+/// under which O sees it.
 double leg_square(const Vec3& x, const Vec3& r, const Vec3& u) {
   return 0.5 * ((r - x).squaredNorm() + (u - x).squaredNorm());
 }
@@ -52,13 +53,14 @@ Jet log_volume(double volume, const Vec3& gradient, const Mat3& hessian) {
 
 }  // namespace
 
-Scene::Scene(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem)
+ScaledPose::ScaledPose(const Geometry& g, const Vec3& position, const Mat3& rotation,
+                       const InternalPointProblem& problem)
     : geometry_(g), position_(position), rotation_(rotation) {
   at_ = ninedof::points(g, {position, rotation, Vec3::Zero()});
   for (int k = 0; k < 12; ++k) origin_ += at_[at_index(k)] / 12.0;
   unit_ = 0.0;
   for (int k = 0; k < 12; ++k) unit_ = std::max(unit_, (at_[at_index(k)] - origin_).norm());
-  for (Vec3& point : at_) point = inward(point);
+  for (Vec3& point : at_) point = scaled(point);
   characteristic_length_ = problem.characteristic_length / unit_;
   low_ = problem.limits.low.tail<6>() / unit_;
   high_ = problem.limits.high.tail<6>() / unit_;
@@ -74,18 +76,18 @@ Scene::Scene(const Geometry& g, const Vec3& position, const Mat3& rotation, cons
   normal_ = {normal(point_r_hat), normal(point_u_tilde)};
 }
 
-Points Scene::points(const Vec3& x) const {
+Points ScaledPose::points(const Vec3& x) const {
   Points out = at_;
   out[point_s] = x;
   return out;
 }
 
-Vec3 Scene::volumes(const Vec3& x) const {
+Vec3 ScaledPose::volumes(const Vec3& x) const {
   return {normal_[0].dot(x - at_[point_r_hat]), normal_[1].dot(x - at_[point_u_tilde]),
           triple_product(turning_row(0, x), turning_row(1, x), turning_row(2, x))};
 }
 
-Vec3 Scene::determinants(const Vec3& x) const {
+Vec3 ScaledPose::determinants(const Vec3& x) const {
   Vec3 rows = Vec3::Ones();
   for (int i = 0; i < 3; ++i) {
     rows[0] *= (x - at_[at_index(point_r_hat + i)]).norm();
@@ -98,7 +100,7 @@ Vec3 Scene::determinants(const Vec3& x) const {
   return out;
 }
 
-std::array<Jet, 3> Scene::log_determinants(const Vec3& x) const {
+std::array<Jet, 3> ScaledPose::log_determinants(const Vec3& x) const {
   const Vec3 v = volumes(x);
   std::array<Vec3, 3> row;
   for (int i = 0; i < 3; ++i) row[at_index(i)] = turning_row(i, x);
@@ -120,7 +122,7 @@ std::array<Jet, 3> Scene::log_determinants(const Vec3& x) const {
   return out;
 }
 
-double Scene::clear_way(const Vec3& x, const Vec3& d, double most) const {
+double ScaledPose::step_to_singularity(const Vec3& x, const Vec3& d, double most) const {
   const Vec3 v = volumes(x);
   double way = most;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
-/// One pose of the platform as O sees it: fixed points around it, and the surfaces it must not cross.
+/// One pose of the platform in scaled coordinates: the fixed joints, and the singularity surfaces that O must not
+/// cross.
 
 #include <array>
 
@@ -10,21 +11,22 @@
 
 namespace ninedof {
 
-/// Lengths in here are in units of the robot's own size, seen from the middle of its joints: all numbers below mean the same for
-/// every robot.
-class Scene {
+/// Coordinates x of O have their origin at the middle of the joints and the robot's size as unit, so that one set of
+/// tolerances serves every robot.
+class ScaledPose {
  public:
-  Scene(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem);
+  ScaledPose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem);
 
   /// The configuration with O at x, in the caller's units.
-  Configuration configuration(const Vec3& x) const { return {position_, rotation_, outward(x)}; }
+  Configuration configuration(const Vec3& x) const { return {position_, rotation_, unscaled(x)}; }
   const Geometry& geometry() const { return geometry_; }
   const Vec3& position() const { return position_; }
   const Mat3& rotation() const { return rotation_; }
 
+  /// The size of the robot, and coordinates in lengths (s) and in that unit (x).
   double unit() const { return unit_; }
-  Vec3 inward(const Vec3& s) const { return (s - origin_) / unit_; }
-  Vec3 outward(const Vec3& x) const { return origin_ + unit_ * x; }
+  Vec3 scaled(const Vec3& s) const { return (s - origin_) / unit_; }
+  Vec3 unscaled(const Vec3& x) const { return origin_ + unit_ * x; }
 
   double characteristic_length() const { return characteristic_length_; }
   /// Limits of q1 q2 q3 r1 r2 r3.
@@ -38,18 +40,18 @@ class Scene {
   /// All points with O at x.
   Points points(const Vec3& x) const;
 
-  /// Determinants of B, C and M times the lengths their rows were divided by: of first, first and third degree in x.
+  /// The three determinants before normalization: polynomials in x of first, first and third degree.
   Vec3 volumes(const Vec3& x) const;
 
-  /// The three determinants themselves.
+  /// The three determinants, normalized.
   Vec3 determinants(const Vec3& x) const;
 
   /// Logarithms of the three |det|, with derivatives.
   std::array<Jet, 3> log_determinants(const Vec3& x) const;
 
-  /// The first t of (0, most] at which x + t d meets a singularity; `most` where none is met. Along a line two determinants are
-  /// of first degree and one of third, so that nothing is stepped over.
-  double clear_way(const Vec3& x, const Vec3& d, double most) const;
+  /// The first t of (0, most] at which x + t d meets a singularity, `most` where there is none. The roots are those of
+  /// the polynomials along the line, so that no singularity is stepped over.
+  double step_to_singularity(const Vec3& x, const Vec3& d, double most) const;
 
  private:
   /// Row i of the matrix behind det M: (r_i - x) x (u_i - x), of first degree in x.
@@ -64,9 +66,9 @@ class Scene {
   Vec3 origin_ = Vec3::Zero();
   double unit_ = 1.0, characteristic_length_ = 1.0;
   Vec6 low_, high_;
-  Triple moment_, span_;      ///< r_i x u_i and u_i - r_i
-  std::array<Vec3, 2>
-      normal_;  ///< of the planes of the lower and of the upper joints, as long as the parallelogram is large
+  Triple moment_, span_;  ///< r_i x u_i and u_i - r_i
+  /// Normals of the planes of the lower and of the upper joints; their length is the area of the parallelogram.
+  std::array<Vec3, 2> normal_;
 };
 
 }  // namespace ninedof

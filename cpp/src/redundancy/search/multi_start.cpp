@@ -1,4 +1,4 @@
-#include "redundancy/search/search.hpp"
+#include "redundancy/search/multi_start.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,19 +18,19 @@ constexpr std::array into_corners{1e-2, 1e-4, 1e-6, 1e-8};
 // Lengths are in sizes of the robot.
 constexpr std::array reaches{0.15, 0.5, 1.5, 10.0};  // of points on rays
 constexpr double apart = 0.3;        // least distance of two starts
-constexpr double same = 1e-2;        // of two ends of coarse descents that are one
-constexpr double same_minimum = 1e-6;  // of two minima that are one
+constexpr double same = 1e-2;  // greatest distance of two ends of coarse descents that count as one
+constexpr double same_minimum = 1e-6;  // greatest distance of two minima that count as one
 constexpr std::size_t first_starts = 8, more_starts = 8, limit_starts = 6;
-constexpr std::size_t looked_from = 5;  // minima that are looked around from again
+constexpr std::size_t sampled_from = 5;  // best ends from which rays are sampled again
 constexpr int most_rounds = 4;
-constexpr double hopeless = 0.5;  // of the criterion: coarse descents that end this much above the best are left
+constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
 
 struct Sample {
   Vec3 x;
   double value;
 };
 
-/// Where a coarse descent ended, and the softened criterion there.
+/// The end of a coarse descent, and the smoothed criterion there.
 struct End {
   Vec3 start, x;
   double value;
@@ -40,7 +40,7 @@ bool far_from(const std::vector<Vec3>& others, const Vec3& x, double distance) {
   return std::ranges::all_of(others, [&](const Vec3& y) { return (y - x).norm() > distance; });
 }
 
-/// The best samples with `distance` between each other and from `taken`, at most `count`; they join `taken`.
+/// The best samples at least `apart` from each other and from `taken`, at most `count`; adds them to `taken`.
 std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count, std::vector<Vec3>& taken) {
   std::ranges::stable_sort(samples, {}, &Sample::value);
   std::vector<Vec3> out;
@@ -55,84 +55,86 @@ std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count, st
 
 class Search {
  public:
-  explicit Search(const Merit& merit)
-      : merit_(merit),
-        scene_(merit.scene()),
-        soft_([this](const Vec3& x, double epsilon, Jet& out) { return merit_.soft(x, epsilon, out); }) {}
+  explicit Search(const PoseObjective& objective)
+      : objective_(objective),
+        pose_(objective.pose()),
+        soft_([this](const Vec3& x, double epsilon, Jet& out) { return objective_.soft(x, epsilon, out); }) {}
 
+  /// Rotates the directions of the rays.
   void turn() { turn_ = exp_rotation(Vec3(0.4, 0.3, 0.2)) * turn_; }
 
-  /// Points on rays from x, each with nothing singular on the way to it.
-  void look_around(const Vec3& x) {
-    note(x);
+  /// Samples points on rays from x, none of them beyond a singularity.
+  void sample_around(const Vec3& x) {
+    add_sample(x);
     for (int a = -1; a <= 1; ++a)
       for (int b = -1; b <= 1; ++b)
         for (int c = -1; c <= 1; ++c) {
           if (a == 0 && b == 0 && c == 0) continue;
           const Vec3 direction = turn_ * Vec3(a, b, c).normalized();
-          const double way = scene_.clear_way(x, direction, far_away);
-          // Near the robot, and never beyond the way.
-          for (const double reach : reaches) note(x + direction * (way * reach / (way + reach)));
+          const double way = pose_.step_to_singularity(x, direction, far_away);
+          // Near the robot, and always closer than the singularity.
+          for (const double reach : reaches) add_sample(x + direction * (way * reach / (way + reach)));
         }
   }
 
-  /// Starts in the limits from points outside, as far as there are any.
+  /// Adds starts within the limits from samples outside them.
   void enter_limits() {
     for (const Vec3& start : best_apart(outside_, limit_starts, taken_outside_)) {
       Vec3 x = start;
-      if (ninedof::enter_limits(merit_, x, minima_)) note(x);
+      if (ninedof::enter_limits(objective_, x, minima_)) add_sample(x);
     }
   }
 
-  /// Coarse descents from the best samples not near an earlier start; whether one ended somewhere new.
+  /// Runs coarse descents from the best samples not near an earlier start; true if one ended at a new place.
   bool descend_from_best(std::size_t count) {
-    bool fresh = false;
+    bool is_new = false;
     for (const Vec3& start : best_apart(inside_, count, taken_)) {
-      const Descent d = descend(scene_, soft_, start, coarse);
+      const Descent d = descend(pose_, soft_, start, coarse);
       if (!far_from(ends_, d.x, same)) continue;
       ends_.push_back(d.x);
       rough_.push_back({start, d.x, d.at.value});
-      fresh = true;
+      is_new = true;
     }
-    return fresh;
+    return is_new;
   }
 
   /// Ends of coarse descents, best first.
   void sort_ends() { std::ranges::stable_sort(rough_, {}, &End::value); }
   const std::vector<End>& ends() const { return rough_; }
 
-  /// Coarse ends made sharp.
+  /// Refines the coarse ends to minima.
   Minima finish() {
     sort_ends();
     for (const End& end : rough_) {
       if (end.value > rough_.front().value + hopeless) break;
-      Descent d = descend(scene_, soft_, end.x, fine);
-      if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(scene_, soft_, end.start, fine);
-      const Local found = local_end(merit_, d);
-      if (std::ranges::none_of(minima_.found, [&](const Local& o) { return (o.x - found.x).norm() < same_minimum; }))
+      Descent d = descend(pose_, soft_, end.x, fine);
+      if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(pose_, soft_, end.start, fine);
+      const LocalMinimum found = end_of(objective_, d);
+      if (std::ranges::none_of(minima_.found,
+                               [&](const LocalMinimum& o) { return (o.x - found.x).norm() < same_minimum; }))
         minima_.found.push_back(found);
     }
-    std::ranges::stable_sort(minima_.found, {}, &Local::value);
+    std::ranges::stable_sort(minima_.found, {}, &LocalMinimum::value);
     return std::move(minima_);
   }
 
   bool inside() const { return !inside_.empty(); }
 
  private:
-  void note(const Vec3& x) {
-    if (!merit_.in_chamber(x)) return;
-    const double broken = merit_.violation(x);
+  void add_sample(const Vec3& x) {
+    if (!objective_.in_chamber(x)) return;
+    const double broken = objective_.violation(x);
     if (broken < limit_tolerance) {
-      if (!far_from(taken_, x, apart)) return;  // would never be a start
-      inside_.push_back({x, merit_.exact(x)});
+      if (!far_from(taken_, x, apart)) return;  // too near a start to become one
+      inside_.push_back({x, objective_.exact(x)});
     } else {
       outside_.push_back({x, broken});
     }
   }
 
-  const Merit& merit_;
-  const Scene& scene_;
-  Soft soft_;
+  const PoseObjective& objective_;
+  const ScaledPose& pose_;
+  Smoothed soft_;
   std::vector<Sample> inside_, outside_;
   std::vector<Vec3> taken_, taken_outside_, ends_;
   std::vector<End> rough_;
@@ -142,49 +144,49 @@ class Search {
 
 }  // namespace
 
-Local local_end(const Merit& merit, const Descent& d) {
-  const double soft = merit.exact(d.x);
-  if (merit.violation(d.limit) <= limit_tolerance && merit.in_chamber(d.limit)) {
-    const double sharp = merit.exact(d.limit);
+LocalMinimum end_of(const PoseObjective& objective, const Descent& d) {
+  const double soft = objective.exact(d.x);
+  if (objective.violation(d.limit) <= limit_tolerance && objective.in_chamber(d.limit)) {
+    const double sharp = objective.exact(d.limit);
     if (sharp <= soft) return {d.limit, sharp, d.ending, d.leg};
   }
   return {d.x, soft, d.ending, d.leg};
 }
 
-bool enter_limits(const Merit& merit, Vec3& x, Minima& minima) {
-  const Soft violation = [&merit](const Vec3& at, double epsilon, Jet& out) {
-    return merit.soft_violation(at, epsilon, out);
+bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima) {
+  const Smoothed violation = [&objective](const Vec3& at, double epsilon, Jet& out) {
+    return objective.soft_violation(at, epsilon, out);
   };
-  Descent d = descend(merit.scene(), violation, x, into_limits);
-  if (merit.violation(d.x) >= 0.0) d = descend(merit.scene(), violation, d.x, into_corners);
+  Descent d = descend(objective.pose(), violation, x, into_limits);
+  if (objective.violation(d.x) >= 0.0) d = descend(objective.pose(), violation, d.x, into_corners);
   for (const Vec3& end : {d.x, d.limit}) {
-    const double broken = merit.violation(end);
+    const double broken = objective.violation(end);
     if (broken < minima.violation) {
       minima.violation = broken;
       minima.nearest = end;
     }
   }
   x = d.x;
-  return merit.violation(x) < limit_tolerance;
+  return objective.violation(x) < limit_tolerance;
 }
 
-std::span<const double> sharpening() {
+std::span<const double> final_epsilons() {
   return fine;
 }
 
-Minima local_minima(const Merit& merit, const Vec3& start) {
-  Search search(merit);
-  search.look_around(start);
+Minima local_minima(const PoseObjective& objective, const Vec3& start) {
+  Search search(objective);
+  search.sample_around(start);
   search.enter_limits();
   if (!search.inside()) return search.finish();
   search.descend_from_best(first_starts);
   for (int round = 1; round < most_rounds; ++round) {
     search.sort_ends();
-    const std::size_t count = std::min(looked_from, search.ends().size());
+    const std::size_t count = std::min(sampled_from, search.ends().size());
     search.turn();
     std::vector<Vec3> from;
     for (std::size_t k = 0; k < count; ++k) from.push_back(search.ends()[k].x);
-    for (const Vec3& x : from) search.look_around(x);
+    for (const Vec3& x : from) search.sample_around(x);
     if (!search.descend_from_best(more_starts)) break;
   }
   return search.finish();

@@ -1,0 +1,124 @@
+#pragma once
+/// Calls of the core that Ctrl-C can end: one long call with a stop token, or a loop over many short items.
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <type_traits>
+
+#include "ninedof/math/control.hpp"
+#include "ninedof/math/parallel.hpp"
+
+namespace ninedof::python {
+
+namespace py = pybind11;
+
+/// Returns work(control), called on a new thread and without the GIL. The calling thread meanwhile checks for signals
+/// and calls `progress`, None or a Python callable, as progress(done, total, value) with None for a value of NaN. An
+/// exception of `progress` or of a signal handler stops the work and goes on to the caller. After Ctrl-C, though, a
+/// partial result is returned: is_partial(result) tells whether it is one.
+template <class Work, class IsPartial>
+auto interruptible(const py::object& progress, const Work& work, const IsPartial& is_partial) {
+  struct {
+    std::mutex guard;
+    std::condition_variable changed;
+    bool finished = false;
+    long done = 0, total = 0;
+    double value = 0.0;
+  } shared;
+  std::optional<std::invoke_result_t<Work, Control>> result;
+  std::exception_ptr failure;
+  std::jthread worker([&](const std::stop_token& stop) {
+    try {
+      result = work(Control{stop, [&](long done, long total, double value) {
+                              const std::lock_guard lock(shared.guard);
+                              shared.done = done;
+                              shared.total = total;
+                              shared.value = value;
+                            }});
+    } catch (const Stopped&) {  // no result: the exception that asked for the stop says why
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(shared.guard);
+    shared.finished = true;
+    shared.changed.notify_one();
+  });
+  const auto join = [&] {
+    const py::gil_scoped_release nogil;
+    worker.join();
+  };
+  long reported = 0;
+  for (bool finished = false; !finished;) {
+    long done = 0, total = 0;
+    double value = 0.0;
+    {
+      const py::gil_scoped_release nogil;
+      std::unique_lock lock(shared.guard);
+      shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.finished; });
+      finished = shared.finished;
+      done = shared.done;
+      total = shared.total;
+      value = shared.value;
+    }
+    try {
+      if (!progress.is_none() && done > reported)
+        progress(done, total, std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value)));
+      reported = done;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (const py::error_already_set& error) {
+      worker.request_stop();
+      join();
+      // A complete result cannot show that there was an interruption, so the exception is raised.
+      const bool returned = failure || (result && is_partial(*result));
+      if (!error.matches(PyExc_KeyboardInterrupt) || !returned) throw;
+      break;
+    }
+  }
+  if (worker.joinable()) join();
+  if (failure) std::rethrow_exception(failure);
+  return std::move(*result);
+}
+
+/// The same for work whose partial results are of no use: Ctrl-C always raises.
+template <class Work>
+auto interruptible(const py::object& progress, const Work& work) {
+  return interruptible(progress, work, [](const auto&) { return false; });
+}
+
+/// Calls work(first, last) on blocks of [0, count) of at most `block` items each, on `threads` threads and without the
+/// GIL. For items so short that a thread for a single one would cost more than the item. Signals are checked between
+/// slices of about 30 ms; more than one thread is used only for work worth it.
+template <class Work>
+void in_slices(long count, long block, int threads, const Work& work) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double slice_seconds = 0.03, worth_a_thread = 0.5e-3;
+  const long most = std::max(1L, count);
+  long length = std::min(block, most);
+  int workers = 1;
+  for (long first = 0; first < count;) {
+    const long last = std::min(count, first + length);
+    const auto start = Clock::now();
+    {
+      const py::gil_scoped_release nogil;
+      parallel_for(last - first, block, workers, [&](long a, long b) { work(first + a, first + b); });
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double each = std::max(seconds / static_cast<double>(last - first), 1e-10);
+    first = last;
+    if (first < count && PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (workers == 1 && each * static_cast<double>(count - first) > worth_a_thread) workers = thread_count(threads);
+    const double fitting = std::min(slice_seconds / each, static_cast<double>(most));
+    length = std::clamp(static_cast<long>(fitting), std::min(block, most), std::max(2 * length, block * workers));
+  }
+}
+
+}  // namespace ninedof::python

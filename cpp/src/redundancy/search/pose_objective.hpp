@@ -1,0 +1,56 @@
+#pragma once
+/// The function minimised over O at one pose: the smoothed criterion plus a logarithmic barrier for every bound.
+
+#include "redundancy/search/jet.hpp"
+#include "redundancy/search/scaled_pose.hpp"
+
+namespace ninedof {
+
+/// Lengths may break their limits by this much, in sizes of the robot.
+constexpr double limit_tolerance = 1e-10;
+
+/// The criterion as a quantity to minimise (the logarithm of the condition number, minus the logarithm of the least
+/// |det|, the sum of squares) and the bounds, for one pose and one chamber.
+class PoseObjective {
+ public:
+  PoseObjective(const ScaledPose& pose, const InternalPointProblem& problem) : pose_(pose), problem_(problem) {}
+
+  const ScaledPose& pose() const { return pose_; }
+  const InternalPointProblem& problem() const { return problem_; }
+
+  /// Selects the chamber of x by the signs of the three volumes.
+  void enter_chamber(const Vec3& x) { signs_ = pose_.volumes(x).cwiseSign(); }
+  const Vec3& signs() const { return signs_; }
+  /// Whether the three determinants have the signs of the chamber and are greater than the clearance.
+  bool in_chamber(const Vec3& x) const;
+
+  /// The largest violation of a limit at x, in sizes of the robot; negative inside.
+  double violation(const Vec3& x) const;
+
+  /// The criterion without smoothing; infinite where singular.
+  double exact(const Vec3& x) const;
+
+  /// Criterion and barriers smoothed by epsilon: the minimum lies within O(epsilon) of the exact one. False where x is
+  /// outside; `out` is then undefined.
+  bool soft(const Vec3& x, double epsilon, Jet& out) const;
+
+  /// A smoothed largest violation of the limits, with the barriers of the chamber: its minimum is an allowed point if
+  /// any is.
+  bool soft_violation(const Vec3& x, double epsilon, Jet& out) const;
+
+  /// The bounds that x touches: within `contact` of a limit, in sizes of the robot, or of the logarithm of the
+  /// clearance.
+  ActiveBounds touched(const Vec3& x, double contact) const;
+
+  /// The limits that x breaks most, all of those within `contact` of the worst.
+  ActiveBounds broken(const Vec3& x, double contact) const;
+
+ private:
+  bool add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const;
+
+  const ScaledPose& pose_;
+  const InternalPointProblem& problem_;
+  Vec3 signs_ = Vec3::Ones();
+};
+
+}  // namespace ninedof

@@ -1,0 +1,29 @@
+#pragma once
+/// One cell of the octree, classified and measured by its corners and its centre.
+
+#include "workspace/cells/cell_lattice.hpp"
+
+namespace ninedof {
+
+/// A cell that is not divided further.
+struct Leaf {
+  Cell cell;
+  CellState state = CellState::outside;
+  bool proved = false;            ///< the state follows from leg lengths alone
+  std::uint8_t inside = 0;        ///< which corners are allowed
+  std::int16_t limit = -1;
+  double fraction = 0.0;          ///< allowed share
+  double measure = 0.0;           ///< of the whole cell
+  double conditioning = 0.0;      ///< integral of 1 / condition number over the allowed part, by corners and centre
+  double conditioning_coarse = 0.0;  ///< the same by the corners alone
+  double worst = 0.0;             ///< greatest condition number at an allowed point of the nine
+  double condition_number = 0.0;  ///< at the centre
+  std::uint32_t worst_point = KeyTable::absent;  ///< of the lattice; absent for the centre
+  std::int32_t piece = -1;
+};
+
+/// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or if
+/// leg lengths prove it; else on the boundary.
+Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
+
+}  // namespace ninedof
