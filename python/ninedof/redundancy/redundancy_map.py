@@ -134,7 +134,7 @@ def best_internal_map(
     )
     return InternalPointMap(
         **point_fields(shape, p, q, found),
-        audit=MapAudit(*found["audit"]),
+        audit=MapAudit(**found["audit"]),
         searched=found["searched"],
         followed=found["followed"],
     )

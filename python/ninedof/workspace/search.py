@@ -16,9 +16,10 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.workspace.cells import LIMITS, WorkspaceCells
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
-from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus
+from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 
 __all__ = ["workspace"]
 
@@ -186,8 +187,6 @@ def _map(
     cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
     names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
     home_limit, audit = found.pop("home_limit"), found.pop("internal_point_audit")
-    if not found["percentiles"].size:  # stopped before the first level
-        found["percentiles"] = np.full(101, np.nan)
     return WorkspaceMap(
         **found | {"status": WorkspaceStatus(found["status"])},
         cells=WorkspaceCells(**cells),
@@ -196,5 +195,5 @@ def _map(
         archetype=archetype,
         method=method,
         seconds=seconds,
-        internal_point_audit=MapAudit(*audit),
+        internal_point_audit=MapAudit(**audit),
     )
