@@ -81,8 +81,8 @@ def best_internal_point(
         Q, platform frame to base frame. The identity by default. Broadcasts against the position.
     criterion : {"condition_number", "singularity", "leg_centring"}
         "condition_number" minimises that of J' (eq. 2). "singularity" maximises the least of |det B|, |det C| and
-        |det M|, which are free of units. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over the
-        internal legs, and needs finite limits.
+        |det M|, which are free of units. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over
+        the internal legs, and needs finite limits.
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
     characteristic_length : float
