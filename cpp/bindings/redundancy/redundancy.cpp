@@ -9,6 +9,7 @@
 #include "ninedof/redundancy/redundancy_path.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
+#include "support/map_audit.hpp"
 #include "support/module.hpp"
 
 namespace ninedof::python {
@@ -122,7 +123,7 @@ py::dict best_map(const Geometry& g, const Array& position, const Array& rotatio
     return best_internal_map(g, {poses, shape, starts}, problem, how, control);
   });
   py::dict out = columns_of(map.points);
-  out["audit"] = py::make_tuple(map.audit.poses, map.audit.missed, map.audit.largest);
+  out["audit"] = dict_of(map.audit);
   out["searched"] = map.searched;
   out["followed"] = map.followed;
   return out;

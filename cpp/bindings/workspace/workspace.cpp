@@ -4,6 +4,7 @@
 
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
+#include "support/map_audit.hpp"
 #include "support/module.hpp"
 
 namespace ninedof::python {
@@ -144,8 +145,7 @@ py::dict dict_of(const WorkspaceMap& m) {
   out["low"] = array_from(m.low);
   out["high"] = array_from(m.high);
   out["evaluations"] = m.evaluations;
-  out["internal_point_audit"] =
-      std::tuple(m.internal_points.poses, m.internal_points.missed, m.internal_points.largest);
+  out["internal_point_audit"] = dict_of(m.internal_points);
   return out;
 }
 

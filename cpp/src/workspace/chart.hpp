@@ -1,5 +1,5 @@
 #pragma once
-/// The three coordinates that a workspace is a set of, the poses they stand for and their measure.
+/// The chart of a workspace: three coordinates, the poses they represent, and their measure.
 
 #include "ninedof/workspace/workspace.hpp"
 
@@ -14,17 +14,18 @@ class Chart {
   const Vec3& high() const { return high_; }
   double box_volume() const { return (high_ - low_).prod(); }
 
-  /// Volume by unit of the coordinates: 1, or Haar's measure with 8 pi^2 for all of SO(3).
+  /// Volume per unit of the coordinates: 1, or Haar's measure with 8 pi^2 for all of SO(3).
   double density(const Vec3& x) const;
   double volume() const;
 
-  /// Whether the box holds points that are not of the region, and how far x is inside.
+  /// Whether the region is smaller than its box, and the distance of x from its boundary, positive inside.
   bool has_region() const { return !positional_; }
   double region_margin(const Vec3& x) const;
-  /// The first axis at whose ends the box is a wall: all for positions, torsion alone, none (3) for rotation vectors.
+  /// The first axis on which the faces of the box limit the workspace: 0 for positions, 2 (torsion), 3 (none) for
+  /// rotation vectors.
   int first_wall() const;
 
-  /// How fast the rotation can turn, radians by unit of the coordinates.
+  /// Greatest rotation, in radians, per unit of the coordinates.
   double turning() const;
 
   Mat3 rotation(const Vec3& x) const;

@@ -73,7 +73,7 @@ void require_workspace(const WorkspaceDomain& domain, const InternalPointRule& r
   using Method = WorkspaceSettings::Method;
   if (settings.method == Method::sample && criteria.singularity_free)
     throw InvalidArgument("method", "\"sample\" with singularity_free",
-                          "\"octree\" or \"grid\": points do not know their neighbours");
+                          "\"octree\" or \"grid\": a sample has no neighbouring cells");
   require_whole("resolution", settings.resolution, 2, settings.method == Method::grid ? 512 : 128);
   require_whole("points", settings.points, 1, 100'000'000);
   require_whole("shifts", settings.shifts, 2, 1000);

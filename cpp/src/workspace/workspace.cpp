@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "workspace/cells/octree.hpp"
 #include "workspace/checks.hpp"
 #include "workspace/limits.hpp"
-#include "workspace/cells/octree.hpp"
 #include "workspace/measures/inscribed.hpp"
 #include "workspace/measures/pieces.hpp"
 #include "workspace/methods/sampling.hpp"
@@ -39,11 +39,11 @@ void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bo
   map.evaluations = tree.evaluations;
   map.resolution = settings.resolution;
   map.internal_points = lattice.audit();
-  if (tree.levels.empty()) return;  // stopped before anything was known
+  if (tree.levels.empty()) return;  // stopped before the first level
   map.volume = tree.levels.back().volume;
   map.error = tree.levels.back().error;
   map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(), home);
-  // What was extrapolated in all is shared by the pieces.
+  // The extrapolated volume is distributed over the pieces.
   double found = 0.0;
   for (std::size_t n = 0; n < (connected ? std::min<std::size_t>(1, map.pieces.size()) : map.pieces.size()); ++n)
     found += map.pieces[n];

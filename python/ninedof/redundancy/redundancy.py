@@ -1,4 +1,4 @@
-"""Where to put the internal point: what nine legs for six coordinates leave free."""
+"""The best internal point: the three degrees of freedom that nine legs leave for six coordinates."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class InternalPointStatus(StrEnum):
     """How the search for an internal point ended."""
 
     FOUND = "found"
-    """Within the limits and stationary by our own checks."""
+    """Within the limits and stationary by independent checks."""
     STOPPED = "stopped"
-    """Within the limits, but our checks did not pass: the best point looked at."""
+    """Within the limits, but the checks failed: the best point evaluated."""
     INFEASIBLE = "infeasible"
     """An external leg is out of its limits, or no point keeps the internal ones; `active` names them."""
     UNBOUNDED = "unbounded"
-    """The criterion keeps improving as O runs away, or into a joint; `active` names the legs."""
+    """The criterion improves without end as O moves away, or into a joint; `active` names the legs."""
     SINGULAR = "singular"
-    """The start lies on a singularity, and so on no side of it."""
+    """The start lies on a singularity, and so in no chamber."""
     MISSING = "missing"
     """The pose has NaN."""
 
@@ -40,18 +40,18 @@ STATUSES = np.array([InternalPointStatus(word) for word in _core.internal_point_
 
 @dataclass(frozen=True)
 class InternalPoint:
-    """Internal points found, one for each pose."""
+    """Internal points, one for each pose."""
 
     configuration: Configuration
-    """The poses with O in its place, shape (...); NaN where there is none."""
+    """The poses with their O, shape (...); NaN where there is none."""
     value: Any
     """Condition number, least |det| or sum of squares, by criterion: float or shape (...). NaN where there is none."""
     status: Any
     """An InternalPointStatus, or an array of them, shape (...)."""
     active: Any
-    """Names of what holds O where it is, or of what leaves it no place: a tuple, or an array of tuples, shape (...).
+    """Names of the bounds that hold O, or that leave no point: a tuple, or an array of tuples, shape (...).
 
-    "q1 low" and "r3 high" are limits of legs, "det B" the distance kept from a singularity."""
+    "q1 low" and "r3 high" are limits of legs, "det B" the clearance from a singularity."""
 
 
 def best_internal_point(
@@ -65,12 +65,12 @@ def best_internal_point(
     clearance: float | None = None,
     threads: int | None = None,
 ) -> InternalPoint:
-    """Return the internal point that is best for a pose of the platform.
+    """Return the best internal point for a pose of the platform.
 
-    The pose fixes the external legs. O is free in three directions (`null_motion`): moving it takes the six internal
-    legs along and leaves the platform where it is. It is sought in the chamber of `start`, where det B, det C and det M
-    keep their signs, so that the robot can get there without passing a singularity. Local optima are found by Newton's
-    method from many starts; the best is returned.
+    The pose fixes the external legs. O is free in three directions (`null_motion`): the six internal legs move it while
+    the platform stays at rest. The search stays in the chamber of `start`, the region in which det B, det C and det M
+    keep their signs: the robot can reach the result without passing a singularity. Newton's method finds local optima
+    from many starts; the best is returned.
 
     Parameters
     ----------
@@ -80,21 +80,21 @@ def best_internal_point(
     rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
         Q, platform frame to base frame. The identity by default. Broadcasts against the position.
     criterion : {"condition_number", "singularity", "leg_centring"}
-        "condition_number" makes that of J' least (eq. 2). "singularity" makes the smallest of |det B|, |det C| and the
-        like of M largest, all of them free of units. "leg_centring" makes the sum of ((length - middle) / half range)^2
-        over the internal legs least, and needs finite limits.
+        "condition_number" minimises that of J' (eq. 2). "singularity" maximises the least of |det B|, |det C| and
+        |det M|, which are free of units. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over
+        the internal legs, and needs finite limits.
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
     characteristic_length : float
         Of the condition number.
     start : array_like, shape (..., 3), optional
-        A point of the chamber meant. By default midway between the centroids of the internal joints of base and
+        A point of the chamber to search. By default midway between the centroids of the internal joints of base and
         platform.
     clearance : float, optional
-        Each of the three |det| of "singularity" stays above it; "det B" in `active` says that it binds. By default 0.01
-        for "leg_centring", which does not mind a singularity by itself, and 1e-10 for the others, which do.
+        Lower bound of each of the three |det| of "singularity", for every criterion; "det B" in `active` means that it
+        is active. By default 0.01 for "leg_centring", which would allow singular points, and 1e-10 for the others.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        One for each processor by default. The result does not depend on it.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def best_internal_point(
     Raises
     ------
     ValueError
-        If an argument has another shape, a limit, the length or the criterion makes no sense, or leg_centring lacks
+        If an argument has a wrong shape, a limit, the length or the criterion is not valid, or leg_centring lacks
         limits.
 
     Examples
@@ -136,13 +136,13 @@ def best_internal_path(
 ) -> InternalPoint:
     """Return internal points along a path of the platform: good at every pose, and smooth.
 
-    Made least is the mean of f along the path plus `smoothness` times the mean square of the speed of O along it,
+    Minimises the mean of f along the path plus `smoothness` times the mean square of the speed of O along it,
 
         mean f(s_k) + smoothness (n - 1) sum |s_(k+1) - s_k|^2 / size^2,
 
-    f being the logarithm of the condition number, minus the logarithm of the least |det|, or the sum of squares, and
-    size the robot's. Which local optimum to be in at which pose is decided for the whole path; all points then settle
-    together. O stays in one chamber, except where a gap divides the path.
+    where f is the logarithm of the condition number, minus the logarithm of the least |det|, or the sum of squares, and
+    size that of the robot. Dynamic programming selects one local optimum at each pose for the whole path; Newton's
+    method then moves all points together. O stays in one chamber, except where a gap divides the path.
 
     Parameters
     ----------
@@ -156,22 +156,22 @@ def best_internal_path(
     characteristic_length : float
         As in `best_internal_point`.
     start : array_like, shape (3,), optional
-        A point of the chamber meant, at the first pose.
+        A point of the chamber to search, at the first pose.
     clearance : float, optional
         As in `best_internal_point`.
     smoothness : float
-        Greater than zero: O moves less, and is worth less. With little of it O moves as the best points do.
+        Greater than zero. With a large value O moves less and f is worse; with a small one O follows the best points.
 
     Returns
     -------
     InternalPoint
-        Shape (n,). Poses that allow no point divide the path: on their two sides O is placed independently, in the
-        chamber it was in before if the poses behind the gap have it, else in that of the default start.
+        Shape (n,). Poses that allow no point divide the path: on their two sides O is placed independently. After such
+        a gap O stays in its chamber if the next pose has a point there, else in that of the default start.
 
     Raises
     ------
     ValueError
-        As `best_internal_point`, and if the path is no (n, 3) array or the smoothness not finite and positive.
+        As `best_internal_point`, and unless the path is an (n, 3) array and the smoothness finite and positive.
 
     Examples
     --------

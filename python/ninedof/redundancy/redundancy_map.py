@@ -1,4 +1,4 @@
-"""Where to put the internal point at very many poses: a grid of them, each continued from its neighbours."""
+"""The best internal points of a grid of poses, each continued from its neighbours."""
 
 from __future__ import annotations
 
@@ -20,28 +20,27 @@ __all__ = ["InternalPointMap", "MapAudit", "best_internal_map"]
 
 @dataclass(frozen=True)
 class MapAudit:
-    """How often following neighbours missed a better point: poses drawn at random and searched one by one."""
+    """How often continuation missed a better point, from searches of poses drawn at random."""
 
     poses: int
     """Number of poses searched, none of them a seed."""
     missed: int
     """Those of them where the search found a point better by more than 1e-6 of the value."""
     largest: float
-    """By how much at most, as a part of the better value; infinite where the map had no point and the search had one.
-
-    For "leg_centring" the difference of the sums of squares."""
+    """Greatest such difference, relative to the better value; infinite where the map had no point and the search had
+    one. For "leg_centring" the difference of the sums of squares."""
 
 
 @dataclass(frozen=True)
 class InternalPointMap(InternalPoint):
-    """Internal points of a grid of poses, and what they rest on."""
+    """Internal points of a grid of poses, with the audit of the map."""
 
     audit: MapAudit
-    """Of the map before what the audit found better went into it: the rest of the map is as good or better."""
+    """Of the map before improvements found by the audit were entered; the map returned is as good or better."""
     searched: int
     """Poses given to the search of `best_internal_point`, those of the audit included."""
     followed: int
-    """Local optima sought from a neighbour's."""
+    """Local optima continued from a neighbour's."""
 
 
 def best_internal_map(
@@ -61,20 +60,20 @@ def best_internal_map(
 ) -> InternalPointMap:
     """Return the best internal point of every pose of a grid, five to twenty times faster than one by one.
 
-    A coarse lattice of poses is searched as `best_internal_point` does it. From there the others are reached in waves:
-    each pose continues the points of its neighbours, ahead along the line of two where there are two, by Newton's
-    method. Wherever the point of a neighbour, continued, is better than what a pose has, it takes its place and is
-    passed on. What remains is the lower envelope of all branches of local optima that were found, not an accident of
-    the order; a branch that no seed met is missed, and `audit` says how often that is seen to happen.
+    The poses of a coarse lattice are searched as by `best_internal_point`. The others are reached by wavefront
+    propagation: Newton's method continues the points of neighbours to each pose, extrapolated where two lie on one
+    line. A better point replaces that of a pose and is passed on. The result is the lower envelope of all branches of
+    local optima found and does not depend on the order. A branch that no seed has found is missed; `audit` estimates
+    how often that happens.
 
     Parameters
     ----------
     geometry : Geometry
     position : array_like, shape (n0, ..., nk, 3)
         The grid: poses next to each other along an axis are near each other, in position and rotation. A list (n, 3) is
-        a grid of one axis, in the order given. More seeds are wanted where neighbours are far apart.
+        a grid of one axis, in the order given. Use more seeds if neighbours are far apart.
     rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
-        The identity by default. Broadcasts against the position: a grid may have axes of orientation too.
+        The identity by default. Broadcasts against the position: a grid may also have axes of orientation.
     criterion : {"condition_number", "singularity", "leg_centring"}
     limits : (low, high), optional
     characteristic_length : float
@@ -83,12 +82,11 @@ def best_internal_map(
     threads : int, optional
         As in `best_internal_point`.
     seed_every : int
-        About one pose in so many is a seed, on a lattice of equal steps along all axes. 1 searches every pose.
+        About one pose in so many is a seed, on a lattice with equal steps along all axes. 1 searches every pose.
     audit_every : int
-        One pose in so many of the others, but no fewer than 32, is searched at the end. What that finds is passed on as
-        well.
+        At the end one pose in so many of the others, but at least 32, is searched too. Improvements are passed on.
     audit_seed : int
-        Which ones.
+        Selects them.
     progress : callable, optional
         Called as progress(poses placed, poses in all, None). An exception it raises ends the map and goes on to the
         caller.
@@ -97,17 +95,16 @@ def best_internal_map(
     -------
     InternalPointMap
         Statuses as of `best_internal_point`; "infeasible" for an internal leg says here that no point near those of the
-        neighbours keeps the limits. A pose with NaN is "missing" and concerns no other.
+        neighbours keeps the limits. A pose with NaN is "missing" and does not affect others.
 
     Raises
     ------
     ValueError
-        As `best_internal_point`, and for a share or a seed that is no such number.
+        As `best_internal_point`, and for numbers of poses or a seed that are not valid.
 
     Notes
     -----
-    The result does not depend on the number of threads: each wave reads the one before only. Ctrl-C ends the map within
-    a fraction of a second.
+    The result does not depend on the number of threads. Ctrl-C ends the map within a fraction of a second.
 
     Examples
     --------
@@ -134,7 +131,7 @@ def best_internal_map(
     )
     return InternalPointMap(
         **point_fields(shape, p, q, found),
-        audit=MapAudit(*found["audit"]),
+        audit=MapAudit(**found["audit"]),
         searched=found["searched"],
         followed=found["followed"],
     )

@@ -26,7 +26,7 @@ def poses_of(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tu
 
 
 def starts_of(start: ArrayLike | None, shape: tuple[int, ...]) -> Floats:
-    """Return one start a pose, or no rows where there is none."""
+    """Return one start for each pose, or no rows for the default."""
     if start is None:
         return np.empty((0, 3))
     given = as_floats("start", start, (3,))

@@ -1,7 +1,8 @@
-"""Workspaces: which positions or orientations are allowed, how large the set is and what ends it."""
+"""Workspaces: the allowed positions or orientations, their volume, and the limits that bound them."""
 
+from ninedof.workspace.cells import WorkspaceCells, WorkspaceSlice
 from ninedof.workspace.domain import spread_rotations
-from ninedof.workspace.map import WorkspaceCells, WorkspaceMap, WorkspaceSlice, WorkspaceStatus
+from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 from ninedof.workspace.search import workspace
 
 __all__ = ["WorkspaceCells", "WorkspaceMap", "WorkspaceSlice", "WorkspaceStatus", "spread_rotations", "workspace"]

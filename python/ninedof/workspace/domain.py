@@ -1,4 +1,4 @@
-"""Which set of poses is meant, as the core takes it."""
+"""The set of poses of a workspace, its home and the rule for O, as the core takes them."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ MOST_ROTATIONS = 100_000
 def spread_rotations(count: int, angle: float = math.pi) -> Floats:
     """Return rotations that cover a ball of SO(3) evenly: all of it, or those within an angle of the identity.
 
-    The identity, then a low-discrepancy sequence by Haar's measure. Where the ball is not all of SO(3), every other
-    rotation lies on its rim, where most limits are met first.
+    The identity, then a low-discrepancy sequence by Haar's measure. Unless the ball is all of SO(3), every second
+    rotation lies on its boundary, where most limits are met first.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def spread_rotations(count: int, angle: float = math.pi) -> Floats:
     Raises
     ------
     ValueError
-        If the count is not positive or the angle beyond its range.
+        If the count is not positive or the angle outside its range.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def spread_rotations(count: int, angle: float = math.pi) -> Floats:
 
 
 def domain_of(archetype: str, box: Any, position: Any, rotation: Any, region: Any, orientations: Any) -> dict[str, Any]:
-    """Check what belongs to an archetype, refuse what does not."""
+    """Return the set of poses of an archetype; raise for arguments that it does not take."""
     choice("archetype", archetype, ARCHETYPES)
     is_set = archetype in ("reachable", "inclusive", "dexterous")
     takes = {
@@ -100,7 +100,7 @@ def _vector(name: str, value: Any) -> Floats:
 
 
 def _rotations(rotation: Any) -> Floats:
-    """Return one rotation or a stack of them, checked as a configuration checks them."""
+    """Return one rotation as a stack, checked as in a configuration."""
     c = Configuration(np.zeros(3), rotation, np.zeros(3))
     if len(c.shape) > 0:
         raise ValueError(f"rotation: got a stack of shape {c.shape}, expected one")
@@ -151,7 +151,7 @@ def home_of(home: Configuration | None) -> tuple[Floats, Floats, Floats] | None:
 
 
 def rule_of(rule: Any) -> tuple[str, float, Floats]:
-    """Return where O is: "best", a fraction, a point of the base, or {"platform": point}."""
+    """Return the rule for O: "best", a fraction, a point of the base, or {"platform": point}."""
     if isinstance(rule, str):
         choice("internal_point", rule, ("best",))
         return "best", 0.5, np.zeros(3)

@@ -1,4 +1,4 @@
-"""What a workspace turned out to be: numbers, cells, slices, files."""
+"""The result of a search for a workspace."""
 
 from __future__ import annotations
 
@@ -7,71 +7,33 @@ import os
 from dataclasses import asdict, dataclass, fields
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ninedof import _core
 from ninedof.chunks import Arrays
 from ninedof.chunks.npz import read_npz, write_npz
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats
+from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
 
-__all__ = ["WorkspaceCells", "WorkspaceMap", "WorkspaceSlice", "WorkspaceStatus"]
+__all__ = ["WorkspaceMap", "WorkspaceStatus"]
 
 FORMAT = "ninedof-workspace-2"
-LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
-GROUPS = ("base_cone", "platform_cone", "leg_clearance")
 
 
 class WorkspaceStatus(StrEnum):
     """How the search for a workspace ended."""
 
     CONVERGED = "converged"
-    """The error asked for is reached; always so for a grid or a sample, whose error is what it is."""
+    """The wanted error is reached; always the status of a grid or a sample, whose error is not controlled."""
     LIMITED = "limited"
-    """`most_evaluations` came first: `error` says how far it got."""
+    """`most_evaluations` was reached first; see `error`."""
     EMPTY = "empty"
-    """No allowed pose was found, or none connected with home where that is asked for; `unseen` says how sure."""
+    """No allowed pose was found, or none connected with home under "singularity_free"; see `unseen`."""
     STOPPED = "stopped"
-    """Interrupted: what was known after the last whole level, NaN if there was none."""
-
-
-class WorkspaceCells(NamedTuple):
-    """The cells a map is made of, those outside included; of a sample its points. All of n rows."""
-
-    centre: Floats
-    """Shape (n, 3): positions, or coordinates of a region of orientations."""
-    size: Floats
-    """Shape (n, 3): the sides; zero for the points of a sample."""
-    state: NDArray[np.uint8]
-    """0 outside, 1 on the boundary, 2 inside."""
-    limit: NDArray[np.int16]
-    """What ends the workspace in a boundary cell, what forbids the middle of one outside: index into
-    `WorkspaceMap.limit_names`; -1 inside."""
-    fraction: Floats
-    """Share of the cell that is allowed."""
-    condition_number: Floats
-    """At the centre."""
-    piece: NDArray[np.int32]
-    """Which connected piece it belongs to, as numbered in `WorkspaceMap.pieces`; -1 outside."""
-
-
-class WorkspaceSlice(NamedTuple):
-    """A plane through a map, on a square raster. Arrays have the shape (len(vertical), len(horizontal))."""
-
-    axes: tuple[str, str]
-    """Names of the horizontal and the vertical coordinate."""
-    plane: tuple[str, float]
-    """Name and value of the coordinate that is fixed."""
-    horizontal: Floats
-    vertical: Floats
-    state: NDArray[np.uint8]
-    limit: NDArray[np.int16]
-    condition_number: Floats
-    """NaN where no allowed pose is."""
+    """Interrupted: the state after the last complete level, NaN if there was none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,19 +44,19 @@ class WorkspaceMap:
     volume: float
     """Length unit cubed; of orientations by Haar's measure, radians cubed, 8 pi^2 being all of SO(3)."""
     error: float
-    """Estimate of the error of the volume. Octree: by comparing levels. Grid: as if each boundary cell were right by
-    chance. Sample: the standard error of the shifts."""
+    """Estimate of the error of the volume. Octree: from the difference of levels. Grid: from random errors of the
+    boundary cells. Sample: the standard error over the shifts."""
     unseen: float
-    """Bound, at 95 % confidence, for the volume of what the octree did not see: features too thin for every cell and
-    every audit pose. Zero where lengths of legs alone prove everything."""
+    """Upper bound, at 95 % confidence, of the volume of features that the octree missed: too thin for all cells and all
+    audit poses. Zero if leg lengths alone prove the result."""
     chart_volume: float
-    """Of the whole box or region."""
+    """Volume of the whole box or region."""
     box_limits: bool
-    """The workspace runs to the box or the region asked for: in a larger one it would be larger."""
+    """Whether the workspace reaches the faces of the box or region; it would then be larger in a larger one."""
     home_allowed: bool
     """Whether the home pose is allowed and in the box."""
     home_limit: str
-    """What forbids the home pose; "" where nothing does."""
+    """The limit that the home pose breaks; "" if none."""
     pieces: Floats
     """Volumes of the connected pieces, the largest first; with "singularity_free" the one of home first."""
     ball_centre: Floats
@@ -108,15 +70,15 @@ class WorkspaceMap:
     conditioning_index_error: float
     worst_condition_number: float
     worst_at: Floats
-    """The largest condition number at any allowed pose looked at, and where."""
+    """The largest condition number at an allowed pose evaluated, and where."""
     percentiles: Floats
     """Of the condition number over the volume: at 0, 1, ..., 100 per cent, shape (101,)."""
     boundary_area: float
     """In the coordinates of the map."""
     limit_area: Floats
-    """The part of it that each of `limit_names` makes; none is known for a sample."""
+    """The part of it due to each of `limit_names`; unknown for a sample."""
     levels: Floats
-    """What an octree knew after each level, shape (n, 4): cells, evaluations, volume, error."""
+    """After each level of an octree, shape (n, 4): cells, evaluations, volume, error."""
     cells: WorkspaceCells
     low: Floats
     high: Floats
@@ -128,8 +90,8 @@ class WorkspaceMap:
     evaluations: int
     seconds: float
     internal_point_audit: MapAudit
-    """Of the best O: how often continuing it from nearby poses missed a better one. A miss at a pose audited is mended,
-    elsewhere it stands: the workspace is then too small there. No poses where O is by a rule, or each is searched."""
+    """Of the best O: how often continuation from nearby poses missed a better one. An audited pose takes the better O;
+    at other poses a miss makes the workspace too small. No poses if O follows a rule or every pose is searched."""
 
     limit_names = LIMITS
 
@@ -144,7 +106,7 @@ class WorkspaceMap:
         return self.volume / self.chart_volume
 
     def limits(self, grouped: bool = False) -> dict[str, float]:
-        """Return the share of the boundary that each limit makes, the largest first.
+        """Return the share of the boundary due to each limit, the largest first.
 
         Parameters
         ----------
@@ -154,19 +116,19 @@ class WorkspaceMap:
         Returns
         -------
         dict of str to float
-            Shares that sum to one; "box" is where the workspace runs to the box. Empty for a sample.
+            Shares that sum to one; "box" is the part on the faces of the box. Empty for a sample.
 
         """
         total = float(self.limit_area.sum())
         found: dict[str, float] = {}
         for name, area in zip(LIMITS, self.limit_area.tolist(), strict=True):
             if area > 0.0:
-                key = _group(name) if grouped else name
+                key = group_of(name) if grouped else name
                 found[key] = found.get(key, 0.0) + area / total
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
 
     def slice(self, axis: str, at: float, pixels: int = 240) -> WorkspaceSlice:
-        """Return a plane through the map for drawing.
+        """Return a plane section of the map for drawing.
 
         Parameters
         ----------
@@ -184,7 +146,7 @@ class WorkspaceMap:
         Raises
         ------
         ValueError
-            If there is no such coordinate, the value is beyond the box, or the map is a sample.
+            If there is no such coordinate, the value is outside the box, or the map is a sample.
 
         """
         fixed = self.coordinates.index(choice("axis", axis, self.coordinates))
@@ -192,38 +154,10 @@ class WorkspaceMap:
         whole("pixels", pixels, 2, 10_000)
         if self.method == "sample":
             raise ValueError("slice: got a sample, expected a map of cells")
-        h, v = (k for k in range(3) if k != fixed)
-        state = np.zeros((pixels, pixels), dtype=np.uint8)
-        limit = np.full((pixels, pixels), -1, dtype=np.int16)
-        kappa = np.full((pixels, pixels), np.nan)
-        c = self.cells
-        # Half open, so that a plane between two layers belongs to one of them.
-        away = (at - c.centre[:, fixed]) / c.size[:, fixed]
-        hit = np.flatnonzero((away >= -0.5) & ((away < 0.5) | (at >= self.high[fixed])) & (away <= 0.5 + 1e-9))
-        scale = pixels / (self.high - self.low)
-
-        def pixel(x: Floats) -> Any:
-            """Return the first pixel whose middle is not below x; neighbours must agree, whatever the rounding."""
-            return np.ceil(np.round((x - self.low) * scale - 0.5, 6)).astype(int)
-
-        first, last = pixel(c.centre[hit] - 0.5 * c.size[hit]), pixel(c.centre[hit] + 0.5 * c.size[hit])
-        for n, a, b in zip(hit.tolist(), first, last, strict=True):
-            there = (slice(a[v], b[v]), slice(a[h], b[h]))
-            state[there], limit[there] = c.state[n], c.limit[n]
-            kappa[there] = c.condition_number[n] if c.state[n] else np.nan
-        middle = (np.arange(pixels) + 0.5)[:, None] / scale + self.low
-        return WorkspaceSlice(
-            (self.coordinates[h], self.coordinates[v]),
-            (axis, float(at)),
-            middle[:, h],
-            middle[:, v],
-            state,
-            limit,
-            kappa,
-        )
+        return slice_of(self.cells, (self.low, self.high), self.coordinates, fixed, float(at), pixels)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return every number but the cells, as plain values."""
+        """Return all fields except the cells as plain values."""
         out: dict[str, Any] = {}
         for field in fields(self):
             value = getattr(self, field.name)
@@ -268,7 +202,7 @@ class WorkspaceMap:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> WorkspaceMap:
-        """Read a map that `save` has written.
+        """Read a map written by `save`.
 
         Parameters
         ----------
@@ -284,7 +218,7 @@ class WorkspaceMap:
 
     @classmethod
     def _made(cls, contents: Arrays) -> WorkspaceMap:
-        """Return the map that arrays of a file make; those of another file lack something."""
+        """Return the map stored as these arrays; raise for arrays of another file."""
         data: dict[str, Any] = dict(contents)
         words = json.loads(str(data.pop("words")))
         if words.pop("format") != FORMAT or tuple(words.pop("limit_names")) != LIMITS:
@@ -294,13 +228,3 @@ class WorkspaceMap:
         words["coordinates"] = tuple(words["coordinates"])
         words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
         return cls(cells=cells, **words, **data)
-
-
-def _group(name: str) -> str:
-    """Return the criterion that a limit belongs to."""
-    first = name.split(" ")[0]
-    if first in GROUPS:
-        return first
-    if name.startswith("det "):
-        return "singularity_free"
-    return "leg_limits" if name.endswith((" low", " high")) else name

@@ -16,15 +16,16 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.workspace.cells import LIMITS, WorkspaceCells
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
-from ninedof.workspace.map import LIMITS, WorkspaceCells, WorkspaceMap, WorkspaceStatus
+from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 
 __all__ = ["workspace"]
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
-POINTS_SEARCHED = 1024  # where O is sought at each of them
+POINTS_SEARCHED = 1024  # if the best O is sought at each
 CARTESIAN = ("x", "y", "z")
 ROTATION_VECTOR = ("w_x", "w_y", "w_z")
 TILT_TORSION = ("tilt_x", "tilt_y", "torsion")
@@ -53,85 +54,86 @@ def workspace(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> WorkspaceMap:
-    """Find where the platform can work: the volume, the boundary, and what limits it.
+    """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
-    An octree of cells is divided where the boundary is, so that the work grows with its area. A cell is outside for
-    certain where a leg is further beyond its limits than its length can change within the cell, inside for certain
-    where that holds the other way round and legs are all that is asked for. Otherwise its corners and centre judge it,
-    and poses of a low-discrepancy sequence audit the judgement: a cell in which one disagrees is divided as well.
-    Within the smallest cells the boundary is linear, and what two levels differ by is extrapolated.
+    Cells of an octree are divided at the boundary, so that the work grows with its area. A cell is proved to be outside
+    if a leg at its centre violates a limit by more than its length can change within the cell, and inside by the same
+    argument if leg limits are the only criterion. Other cells are judged by their corners and centre. Poses of a
+    low-discrepancy sequence audit this: a cell that one of them contradicts is divided too. In the smallest cells the
+    boundary is taken as linear, and the volume is extrapolated from two levels.
 
     Parameters
     ----------
     geometry : Geometry
     box : (low, high), each array_like, shape (3,)
-        Positions p of the platform to look at, length units, base frame. Not for "orientation".
+        Positions p of the platform to search, length units, base frame. Not for "orientation".
     archetype : str
         "constant_orientation": positions at a fixed `rotation`. "orientation": rotations of a `region` at a fixed
         `position`. "reachable": positions where some rotation of `orientations` is allowed. "inclusive": positions
-        where all of them are. "dexterous": inclusive of evenly spread rotations of all of SO(3), a statement about
-        those rotations and about no others.
+        where all of them are. "dexterous": inclusive for evenly spread rotations of all of SO(3); rotations between
+        them are not tested.
     criteria : mapping
-        What makes a pose allowed, in any combination; everything is, where nothing is given.
+        The criteria of an allowed pose, in any combination; without any, all poses are allowed.
 
-        - "leg_limits": (low, high), each a number or shape (9,) in the order of `leg_lengths`; infinite ones are open.
+        - "leg_limits": (low, high), each a number or shape (9,) in the order of `leg_lengths`; may be infinite.
         - "base_cone", "platform_cone": greatest angle, radians, between each leg at its joint there and its direction
           at `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
         - "leg_clearance": least distance of the axes of legs that share no joint.
         - "condition_number": its greatest value, at least 1.
-        - "singularity_free": True for poses that are connected with `home` and have det M, det B and det C signed as
-          there, by cells: pieces that meet within one of the smallest are one.
+        - "singularity_free": True for poses that are connected with `home` and where det M, det B and det C have the
+          signs they have there. By cells: pieces closer than one of the smallest cells count as one.
     internal_point : float, array_like, mapping or "best"
-        Where O is. A number: that fraction of the way from the centroid of the lower to that of the upper internal
-        joints, the default being half way. Shape (3,): fixed in the base. {"platform": (3,)}: fixed in the platform.
-        "best": at each pose where the condition number is least within the leg limits: as `best_internal_map` has it
-        at the corners of the first cells, continued from two points around it elsewhere.
+        The rule for O. A number: that fraction of the way from the centroid of the lower to that of the upper internal
+        joints, half by default. Shape (3,): fixed in the base. {"platform": (3,)}: fixed in the platform. "best": the
+        point of least condition number within the leg limits, by `best_internal_map` at the corners of the first cells
+        and by continuation from two points around it elsewhere.
     rotation : array_like, shape (3, 3), or scipy.spatial.transform.Rotation, optional
-        Q of "constant_orientation", or that about which the region of "orientation" lies. The identity by default.
+        Q of "constant_orientation", or the centre of the region of "orientation". The identity by default.
     position : array_like, shape (3,), optional
         p of "orientation".
     region : mapping, optional
         {"angle": a}: rotation vectors of length at most a, in base axes. {"tilt": t, "torsion": (low, high) or number}:
-        the platform's axis tilted by at most t towards any side, after a turn about it. Of "reachable" and
-        "inclusive" the first kind, from which `orientations` are spread.
+        the platform's axis tilted by at most t in any direction, after a torsion about it. For "reachable" and
+        "inclusive" the first kind, over which `orientations` are spread.
     orientations : int, array_like, shape (n, 3, 3), or Rotation, optional
-        The set of "reachable" and "inclusive", or how many are spread over the region (`spread_rotations`); 60 of
-        them over all of SO(3) by default.
+        The set of "reachable" and "inclusive", or the number to spread over the region (`spread_rotations`); 60 over
+        all of SO(3) by default.
     home : Configuration, optional
         The home pose, with its O. The middle of the box or region by default, with O by the rule.
     characteristic_length : float
         Of the condition number, length units.
     method : {"octree", "grid", "sample"}
-        "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence,
-        shifted at random.
+        "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
+        random shifts.
     tolerance : float
-        Error wanted of an octree, as a share of the volume.
+        Wanted error of an octree, relative to the volume.
     resolution : int, optional
-        Cells along each side before any is divided, by default 16 (64 for a grid). What is thinner than such a cell is
-        found by the audit, if at all: `WorkspaceMap.unseen` bounds what was not.
+        Cells along each side before any is divided, by default 16 (64 for a grid). Only the audit may find features
+        thinner than such a cell; `WorkspaceMap.unseen` bounds what it missed.
     points : int, optional
-        Audit poses of an octree, or points of each shift of a sample; 16384 by default, 1024 where O is sought.
+        Audit poses of an octree, or points of each shift of a sample; 16384 by default, 1024 if the best O is sought.
     shifts : int
         Of a sample.
     seed : int
         Of audit and sample.
     most_evaluations : int
-        Poses after which an octree ends; about 350 bytes each are kept, and 24 more for each O that is sought.
+        Greatest number of poses of an octree. Each takes about 350 bytes, and 24 more for each O that is sought.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        One for each processor by default. The result does not depend on it.
     progress : callable, optional
-        Called as progress(poses done, poses in all as far as is known, volume or None).
+        Called as progress(poses evaluated, poses in all as far as known, volume); volume is None before the first level
+        and for a sample.
 
     Returns
     -------
     WorkspaceMap
-        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped"; of
-        millions of cells that takes a second for each million.
+        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped"; the
+        summary takes another second for each million cells.
 
     Raises
     ------
     ValueError
-        If an argument does not fit, naming it.
+        If an argument is not valid; the message names it.
 
     References
     ----------
@@ -186,8 +188,6 @@ def _map(
     cells["size"] = np.zeros_like(cells["centre"]) if method == "sample" else side
     names = {"rotation_vector": ROTATION_VECTOR, "tilt_torsion": TILT_TORSION}[chart]
     home_limit, audit = found.pop("home_limit"), found.pop("internal_point_audit")
-    if not found["percentiles"].size:  # stopped before the first level
-        found["percentiles"] = np.full(101, np.nan)
     return WorkspaceMap(
         **found | {"status": WorkspaceStatus(found["status"])},
         cells=WorkspaceCells(**cells),
@@ -196,5 +196,5 @@ def _map(
         archetype=archetype,
         method=method,
         seconds=seconds,
-        internal_point_audit=MapAudit(*audit),
+        internal_point_audit=MapAudit(**audit),
     )

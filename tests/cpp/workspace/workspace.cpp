@@ -1,5 +1,5 @@
-/// Workspaces: volumes known in closed form, the parts of the search against brute force, same bits for any number of threads.
-/// Whole maps against plain numpy are in the Python tests.
+/// Workspaces: volumes known in closed form, parts of the search compared with brute force, the same bits for any
+/// number of threads. The Python tests compare whole maps with plain numpy.
 
 #include "ninedof/workspace/workspace.hpp"
 
@@ -7,11 +7,11 @@
 
 #include "ninedof/math/rotation.hpp"
 #include "support/support.hpp"
-#include "workspace/cells/octree.hpp"
 #include "workspace/cells/tetrahedra.hpp"
 #include "workspace/chart.hpp"
 #include "workspace/limits.hpp"
 #include "workspace/measures/near_points.hpp"
+#include "workspace/measures/pieces.hpp"
 #include "workspace/sequence.hpp"
 
 using namespace support;
@@ -58,7 +58,7 @@ Corners pointers(const std::array<PointMargins, 8>& m) {
 }  // namespace
 
 TEST_SUITE("workspace") {
-  TEST_CASE("a ball: its volume, surface and the ball and box inside") {
+  TEST_CASE("a ball has the volume, the surface, and the inscribed ball and box of the closed form") {
     const BallOfOneLeg ball(2.0);
     const double exact = 4.0 / 3.0 * pi * 8.0;
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
@@ -83,7 +83,7 @@ TEST_SUITE("workspace") {
     }
   }
 
-  TEST_CASE("the same bits for any number of threads") {
+  TEST_CASE("same bits for any number of threads") {
     const BallOfOneLeg ball(1.5);
     WorkspaceCriteria criteria = ball.criteria;
     criteria.condition_number = 12.0;
@@ -110,7 +110,7 @@ TEST_SUITE("workspace") {
     }
   }
 
-  TEST_CASE("a plane through a cell leaves the volume and the area that it should") {
+  TEST_CASE("a plane through a cell leaves the exact volume and area") {
     Random random(3);
     for (int trial = 0; trial < 200; ++trial) {
       const Vec3 normal = random.unit();
@@ -143,7 +143,7 @@ TEST_SUITE("workspace") {
     }
   }
 
-  TEST_CASE("of two limits the one that is met first makes the boundary") {
+  TEST_CASE("of two limits the one met first makes the boundary") {
     std::array<PointMargins, 8> margins = linear(Vec3(1.0, 0.0, 0.0), -0.25);  // x > 1/4
     for (int n = 0; n < 8; ++n) {
       PointMargins& m = margins[static_cast<std::size_t>(n)];
@@ -160,7 +160,7 @@ TEST_SUITE("workspace") {
     for (const CutCell::Piece& piece : pieces) CHECK(piece.limit == 9);
   }
 
-  TEST_CASE("charts: rotations and back, and Haar's measure of known regions") {
+  TEST_CASE("charts convert rotations both ways, and have the Haar measure of known regions") {
     Random random(4);
     WorkspaceDomain domain;
     domain.archetype = Archetype::orientation;
@@ -172,7 +172,8 @@ TEST_SUITE("workspace") {
         const Vec3 x = 0.6 * random.unit();
         CHECK((c.coordinates(c.rotation(x)) - x).norm() < 1e-12);
       }
-      // Nothing forbids anything: the volume is the region's own, of a closed form that shares nothing with the density.
+      // Nothing forbids anything: the volume is the region's own, of a closed form that shares nothing with the
+      // density.
       const WorkspaceMap map = workspace(published, domain, {}, {});
       CHECK(std::abs(map.volume - c.volume()) <= std::max(map.error, 1e-3 * map.volume));
       CHECK(map.box_limits);
@@ -188,7 +189,7 @@ TEST_SUITE("workspace") {
     CHECK(std::atan2(q(1, 2), q(0, 2)) == doctest::Approx(std::atan2(0.4, 0.3)));
   }
 
-  TEST_CASE("rotations of a set are spread by Haar's measure") {
+  TEST_CASE("rotations of a set are spread by the Haar measure") {
     const std::vector<Mat3> all = spread_rotations(2000);
     CHECK(all.front() == Mat3::Identity());
     Mat3 mean = Mat3::Zero();
@@ -208,7 +209,7 @@ TEST_SUITE("workspace") {
     CHECK(rim == 50);
   }
 
-  TEST_CASE("the nearest of many points") {
+  TEST_CASE("distance to the nearest of many points") {
     Random random(5);
     std::vector<Vec3> points;
     for (int n = 0; n < 300; ++n)
@@ -223,7 +224,7 @@ TEST_SUITE("workspace") {
     CHECK(NearPoints(Vec3::Zero(), Vec3::Ones(), {}).distance(Vec3::Zero()) == infinity);
   }
 
-  TEST_CASE("pieces: cells of different sizes that share a face") {
+  TEST_CASE("cells of different sizes that share a face form one piece") {
     const BallOfOneLeg ball(1.0);
     const Chart chart(ball.domain);
     const auto leaf = [](std::uint32_t i, std::uint32_t j, std::uint32_t k, std::uint8_t level, double measure) {
@@ -248,7 +249,7 @@ TEST_SUITE("workspace") {
     CHECK(find_pieces(leaves, 4, chart, elsewhere).front() == 0.0);
   }
 
-  TEST_CASE("empty, whole, home outside, stopped") {
+  TEST_CASE("an empty and a full box, a home outside, a stop before the first level") {
     BallOfOneLeg ball(2.0);
     ball.criteria.legs->high[1] = 0.01;
     ball.criteria.legs->high[2] = 0.01;
@@ -284,7 +285,7 @@ TEST_SUITE("workspace") {
     CHECK(std::isnan(stopped.volume));
   }
 
-  TEST_CASE("a stop keeps the last whole level") {
+  TEST_CASE("a stop keeps the last complete level") {
     const BallOfOneLeg ball(2.0);
     WorkspaceSettings settings;
     settings.tolerance = 1e-5;
@@ -300,7 +301,7 @@ TEST_SUITE("workspace") {
     CHECK(relative_error(map.volume, 4.0 / 3.0 * pi * 8.0) < 1e-2);
   }
 
-  TEST_CASE("nonsense is refused by name") {
+  TEST_CASE("invalid arguments are named") {
     const BallOfOneLeg ball(2.0);
     const auto with = [&](const auto& change) {
       WorkspaceDomain d = ball.domain;

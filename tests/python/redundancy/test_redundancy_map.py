@@ -1,9 +1,6 @@
-"""Maps of best internal points: against single searches, all O in plain numpy, symmetry, and their own audit."""
+"""Maps of best internal points: compared with single searches and all O in plain numpy; symmetry and the audit."""
 
 import itertools
-import signal
-import subprocess
-import sys
 
 import numpy as np
 import numpy_model
@@ -24,7 +21,7 @@ def plane(n, reach=1.6, height=3.9828):
 
 
 def robots(g, c, s=None):
-    """Give the numpy model of a stack of configurations, O elsewhere if said."""
+    """Return the numpy model of a stack of configurations, with another O if given."""
     n = len(c.position)
     joints = (g.base_external, g.base_internal, g.platform_external, g.platform_internal)
     return numpy_model.Robot(
@@ -33,7 +30,7 @@ def robots(g, c, s=None):
 
 
 def gain(criterion, map_value, value):
-    """By how much `value` is better, as a part of the better value; 0 at least."""
+    """How much better `value` is, relative to the better value; at least 0."""
     a, b = (value, map_value) if criterion == "singularity" else (map_value, value)
     return np.maximum(a / b - 1.0, 0.0)
 
@@ -79,7 +76,7 @@ def test_general_robots_and_axes_of_orientation():
 
 @pytest.mark.slow
 def test_no_point_of_a_fine_grid_is_better(published):
-    """All O in a box around the robot, by plain numpy, where the straight way there meets no singularity."""
+    """All O in a box around the robot that a straight line without singularity reaches, by plain numpy."""
     best = nd.best_internal_map(published, plane(12))
     ticks = [np.linspace(-2.5, 2.5, 26), np.linspace(-2.5, 2.5, 26), np.linspace(0.1, 3.9, 26)]
     box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -115,8 +112,8 @@ def test_value_is_that_of_the_configuration(published):
     assert_allclose(best.value.ravel(), numpy_model.condition_number(robots(published, c), 1.3), rtol=1e-9)
 
 
-def test_no_neighbours_point_is_better(published):
-    """What the envelope means, where the chamber is one: no pose would gain by its neighbour's O."""
+def test_no_point_of_a_neighbour_is_better(published):
+    """The lower envelope within one chamber: no pose would be better with the O of its neighbour."""
     best = nd.best_internal_map(published, plane(30))
     p, s, value = best.configuration.position, best.configuration.internal_point, best.value
     for axis, there in itertools.product((0, 1), (1, -1)):
@@ -126,8 +123,8 @@ def test_no_neighbours_point_is_better(published):
         assert (taken >= value[here] * (1.0 - 1e-9)).all()
 
 
-def test_a_third_of_a_turn_changes_nothing(published):
-    """The robot has three-fold symmetry; the grid has not, so that the two maps are reached on different ways."""
+def test_a_turn_by_a_third_gives_the_same_values(published):
+    """The robot has three-fold symmetry but the grid has not, so that the two maps are computed differently."""
     grid = plane(25)
     one = nd.best_internal_map(published, grid)
     two = nd.best_internal_map(published, TURN.apply(grid.reshape(-1, 3)).reshape(grid.shape)[::-1])
@@ -141,13 +138,13 @@ def test_a_third_of_a_turn_changes_nothing(published):
 
 
 def scattered(n=300):
-    """A list whose neighbours are far apart, against the advice: branches are lost."""
+    """A list whose neighbours are far apart: branches are lost."""
     rng = np.random.default_rng(3)
     p = np.array([0.0, 0.0, 3.2]) + rng.uniform(-1.5, 1.5, size=(n, 3)) * [1.0, 1.0, 0.5]
     return nd.Geometry.hexagonal(0.379, 1.9, 0.652, 1.541), p, Rotation.from_rotvec(0.4 * rng.normal(size=(n, 3)))
 
 
-def test_the_audit_counts_what_was_missed_and_mends_it():
+def test_the_audit_counts_misses_and_corrects_them():
     g, p, q = scattered()
     single = nd.best_internal_point(g, p, q)
     whole = nd.best_internal_map(g, p, q, seed_every=300, audit_every=1)
@@ -157,7 +154,7 @@ def test_the_audit_counts_what_was_missed_and_mends_it():
     assert (whole.value[both] <= single.value[both] * (1.0 + 1e-6)).all()
     assert 0 < whole.audit.missed < whole.audit.poses
     assert whole.audit.largest > 1e-2
-    # An audit of few poses leaves the others as the whole one has judged them.
+    # A small audit corrects some of the misses that the audit of all poses counts.
     seen = set()
     for seed in range(4):
         part = nd.best_internal_map(g, p, q, seed_every=300, audit_every=100, audit_seed=seed)
@@ -167,7 +164,7 @@ def test_the_audit_counts_what_was_missed_and_mends_it():
         assert left + part.audit.missed <= whole.audit.missed
         assert not (lost > whole.audit.largest * (1.0 + 1e-6)).any()
         seen.add((left, part.audit.missed))
-    assert len(seen) > 1  # other seeds look elsewhere
+    assert len(seen) > 1  # other seeds draw other poses
     assert max(left for left, _ in seen) > 0
 
 
@@ -181,7 +178,7 @@ def test_searching_every_pose_is_best_internal_point(published):
     assert best.audit.poses == 0
 
 
-# --- Limits and what cannot be ----------------------------------------------------------------------------------------
+# --- Limits and poses without a point ---------------------------------------------------------------------------------
 
 
 def test_limits_hold_and_are_named(published):
@@ -212,7 +209,7 @@ def test_limits_hold_and_are_named(published):
     assert np.isnan(best.value.ravel()[~found]).all()
 
 
-def test_infeasible_for_internal_legs_as_a_search_says(published):
+def test_infeasible_for_internal_legs_as_in_a_search(published):
     limits = (np.full(9, 1.0), np.r_[np.full(3, 20.0), np.full(6, 4.6)])
     grid = plane(24, 3.0)
     best = nd.best_internal_map(published, grid, limits=limits)
@@ -222,7 +219,7 @@ def test_infeasible_for_internal_legs_as_a_search_says(published):
     assert all(best.active[best.status == "infeasible"])
 
 
-def test_a_pose_with_nan_concerns_no_other(published):
+def test_a_pose_with_nan_does_not_affect_others(published):
     grid = plane(20)
     whole = nd.best_internal_map(published, grid)
     grid[3, 4, 0] = np.nan
@@ -234,7 +231,7 @@ def test_a_pose_with_nan_concerns_no_other(published):
     assert np.isnan(holed.value[missing]).all()
 
 
-def test_islands_no_seed_is_on_are_reached(published):
+def test_islands_without_a_seed_are_reached(published):
     grid = plane(20)
     island = np.zeros((20, 20), dtype=bool)
     island[1, 1] = island[12:14, 17] = True
@@ -256,16 +253,13 @@ def test_other_chambers_and_singular_starts(published):
     assert (best.status == "found").sum() == 63
 
 
-def test_one_pose_and_none(published):
+def test_a_grid_of_one_pose_and_an_empty_grid(published):
     one = nd.best_internal_map(published, [0.3, 0.1, 3.9])
     single = nd.best_internal_point(published, [0.3, 0.1, 3.9])
     assert (one.value, one.status, one.active) == (single.value, "found", ())
     none = nd.best_internal_map(published, np.empty((0, 4, 3)))
     assert none.value.shape == none.status.shape == (0, 4)
     assert none.audit == nd.MapAudit(0, 0, 0.0)
-
-
-# --- Threads, progress, interruption ----------------------------------------------------------------------------------
 
 
 def test_same_bits_for_any_number_of_threads(published):
@@ -275,49 +269,6 @@ def test_same_bits_for_any_number_of_threads(published):
         assert_array_equal(other.configuration.internal_point, maps[0].configuration.internal_point)
         assert_array_equal(other.value, maps[0].value)
         assert (other.audit, other.searched, other.followed) == (maps[0].audit, maps[0].searched, maps[0].followed)
-
-
-def test_progress_rises_to_the_total(published):
-    seen = []
-    nd.best_internal_map(published, plane(48), progress=lambda *a: seen.append(a))
-    done, total, value = zip(*seen, strict=True)
-    assert set(total) == {48 * 48}
-    assert set(value) == {None}
-    assert all(a < b for a, b in itertools.pairwise(done))
-    assert done[-1] == 48 * 48
-    assert len(seen) > 5
-
-
-@pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3)], ids=repr)
-def test_exception_of_the_callback_arrives(published, error):
-    def fail(*_):
-        raise error
-
-    with pytest.raises(type(error)):
-        nd.best_internal_map(published, plane(30), progress=fail)
-
-
-INTERRUPTED = """
-import numpy as np, ninedof as nd
-g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-p = np.zeros((1500, 500, 3))
-p[..., 0], p[..., 1], p[..., 2] = np.linspace(-1, 1, 1500)[:, None], np.linspace(-1, 1, 500), 3.98
-try:
-    nd.best_internal_map(g, p, progress=lambda done, *_: done and print(done, flush=True))
-except KeyboardInterrupt:
-    print("interrupted", flush=True)
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to a process")
-def test_ctrl_c_ends_a_map():
-    with subprocess.Popen([sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True) as run:
-        assert run.stdout.readline().strip().isdigit()
-        run.send_signal(signal.SIGINT)
-        rest, _ = run.communicate(timeout=60)
-    *before, last = rest.split()
-    assert last == "interrupted"
-    assert len(before) < 1000
 
 
 # --- Arguments --------------------------------------------------------------------------------------------------------

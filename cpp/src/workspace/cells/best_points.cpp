@@ -56,8 +56,8 @@ InternalPoint BestPoints::between(const Anchors& from, const Vec3& x, std::size_
     const Vec3 way = b.x - a.x;
     guesses.push_back({s + std::clamp((x - a.x).dot(way) / way.squaredNorm(), 0.0, 1.0) * (t - s), reach});
   } else {
-    for (const Vec3& lead : {s, t})
-      if (!lead.hasNaN()) guesses.push_back({lead, reach});
+    for (const Vec3& known : {s, t})
+      if (!known.hasNaN()) guesses.push_back({known, reach});
   }
   const InternalPoint followed = margins_.placement().best(pose, guesses);
   if (guesses.empty() || !drawn(x, r) || followed.s.hasNaN()) return followed;

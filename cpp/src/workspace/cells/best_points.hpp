@@ -1,5 +1,5 @@
 #pragma once
-/// The best O at many points of a chart, each continued from what was found at two others around it.
+/// The best O at many points of a chart, each continued from two known points around it.
 
 #include <mutex>
 
@@ -14,8 +14,8 @@ struct Anchor {
 };
 using Anchors = std::array<Anchor, 2>;
 
-/// Numbered points and their O, one for each pose of a point. Which anchors a point has must follow from the point alone; then
-/// neither the order of the points nor the number of threads matters.
+/// Numbered points and their O, one for each pose of a point. The anchors of a point may depend on that point only: the
+/// result then does not depend on the order of the points or on the number of threads.
 class BestPoints {
  public:
   explicit BestPoints(const Margins& margins) : margins_(margins) {}
@@ -24,20 +24,20 @@ class BestPoints {
   /// Makes room for numbers below `count`.
   void reserve(std::size_t count);
 
-  /// Places O at a grid of points (the last axis runs fastest) by best_internal_map, and keeps it. Throws Stopped.
+  /// Finds and keeps O on a grid of points (the last axis runs fastest) by best_internal_map. Throws Stopped.
   void map(const std::vector<Vec3>& x, const std::vector<std::size_t>& shape, const std::vector<std::size_t>& numbers,
            int threads, const std::stop_token& stop);
-  /// Whether O was placed so.
+  /// Whether O was found by `map`.
   bool mapped(std::size_t number) const { return mapped_[number] != 0; }
 
   /// O at the r-th pose of a point that was mapped.
   InternalPoint at(std::size_t number, std::size_t r, const PlatformPose& pose) const;
-  /// O at the r-th pose of another point. Where the anchors have O in two places, both are followed. One pose in some hundred is
-  /// searched as well, and takes what is better.
+  /// O at the r-th pose of another point. If the anchors are on two branches, both are continued. About one pose in a
+  /// hundred is searched as well, and the better O is kept.
   InternalPoint between(const Anchors& from, const Vec3& x, std::size_t r, const PlatformPose& pose);
   void keep(std::size_t number, std::size_t r, const Vec3& s) { kept_[number * margins_.poses() + r] = s; }
 
-  /// Of the maps, and of the poses that were searched as well.
+  /// The audit of the maps and of the poses searched as well.
   const MapAudit& audit() const { return audit_; }
 
  private:
@@ -48,7 +48,7 @@ class BestPoints {
   const Margins& margins_;
   std::vector<Vec3> kept_;
   std::vector<char> mapped_;
-  std::mutex guard_;  // of the audit: counts and a maximum, in whatever order they come
+  std::mutex guard_;  // of the audit, whose counts and maximum do not depend on the order
   MapAudit audit_;
 };
 

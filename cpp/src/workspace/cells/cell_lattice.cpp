@@ -103,7 +103,7 @@ void CellLattice::evaluate(const Control& control, long expected, double volume)
     best_.reserve(table_.size());
     if (first == 0) map_corners(control.stop);
   }
-  // News between pieces of work, from this thread alone.
+  // Progress is reported between pieces of work, by this thread alone.
   const long piece = std::max<long>(margins_.block() * 64, 1);
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
@@ -146,7 +146,8 @@ void CellLattice::map_corners(const std::stop_token& stop) {
 
 Anchors CellLattice::around(std::uint64_t key) const {
   const Index3 at = indices(key);
-  const int twos = std::countr_zero(at[0] | at[1] | at[2]);  // odd, and so half way between others, in units of `half`
+  // Some index is an odd multiple of `half`, so that the point lies half way between known ones.
+  const int twos = std::countr_zero(at[0] | at[1] | at[2]);
   const std::uint64_t half = std::uint64_t{1} << twos;
   Index3 a = at, b = at;
   bool centre = true;

@@ -1,8 +1,9 @@
 #pragma once
 /// Cells of an octree on one integer lattice, and the margins at its points, each evaluated once.
 ///
-/// Where O is sought, it is mapped over the corners of level 0. Any later point lies half way between two that are known by then:
-/// the ends of an edge, two opposite corners of a face or of a cell, or a corner and the centre of a larger cell.
+/// If the best O is sought, it is mapped over the corners of level 0. Any later point lies half way between two known
+/// points: the ends of an edge, two opposite corners of a face or of a cell, or a corner and the centre of a larger
+/// cell.
 
 #include <cstdint>
 #include <vector>
@@ -23,7 +24,7 @@ struct Cell {
   }
 };
 
-/// From 64-bit keys to indices 0, 1, 2, ... in the order of their arrival.
+/// From 64-bit keys to indices 0, 1, 2, ... in the order of insertion.
 class KeyTable {
  public:
   KeyTable() : slots_(1024) {}
@@ -60,13 +61,15 @@ class CellLattice {
   Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
   const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
 
-  /// The corners and centres of cells, numbered; evaluate() must follow. The first cells are all those of level 0. Throws Stopped.
+  /// Numbers the corners and centres of cells, to be evaluated next. The first call must be for all cells of level 0.
+  /// Throws Stopped.
   std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
+  /// Evaluates the points numbered since the last call; `expected` and `volume` are reported. Throws Stopped.
   void evaluate(const Control& control, long expected, double volume);
   long evaluations() const { return evaluations_; }
   const MapAudit& audit() const { return best_.audit(); }
 
-  /// The margins at a point of each of some cells of level 0, which are known.
+  /// The margins at one point x in each of some evaluated cells of level 0. Throws Stopped.
   std::vector<PointMargins> within(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
                                    const std::stop_token& stop);
 
@@ -78,11 +81,11 @@ class CellLattice {
 
   const Margins& margins_;
   BestPoints best_;
-  Vec3 low_, step_;  // of the finest lattice, which has the centres of the deepest cells
+  Vec3 low_, step_;  // of the finest lattice, which contains the centres of the deepest cells
   int resolution_, threads_;
   KeyTable table_;
   PointStore known_;
-  long evaluations_ = 0;  // of those that are finished
+  long evaluations_ = 0;  // finished
 };
 
 }  // namespace ninedof

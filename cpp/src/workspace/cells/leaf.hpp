@@ -22,8 +22,8 @@ struct Leaf {
   std::int32_t piece = -1;
 };
 
-/// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or if
-/// leg lengths prove it; else on the boundary.
+/// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or
+/// if leg lengths prove it; else on the boundary.
 Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
 
 }  // namespace ninedof

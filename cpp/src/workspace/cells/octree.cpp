@@ -17,7 +17,7 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 class OctreeBuilder {
  public:
   OctreeBuilder(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-         const std::optional<Vec3>& home, const Control& control)
+                const std::optional<Vec3>& home, const Control& control)
       : m_(margins), settings_(settings), home_(home), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
@@ -152,9 +152,9 @@ void OctreeBuilder::measure(bool first_piece_alone, const Audit& audit) {
     if (!any) continue;
     change += held - parents_[p];
   }
-  // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference of
-  // two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds of the
-  // estimate: two extrapolations may agree by chance.
+  // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference
+  // of two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds
+  // of the estimate: two extrapolations may agree by chance.
   const double better = parents_.empty() ? volume : volume + change / 3.0;
   const double moved = std::abs(better - volume_);
   error_ = parents_.empty()         ? 0.5 * undecided
@@ -173,7 +173,8 @@ std::optional<WorkspaceStatus> OctreeBuilder::finished(int level) {
   for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
     open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
   if (open == 0) return WorkspaceStatus::converged;
-  if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_) return WorkspaceStatus::converged;
+  if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_)
+    return WorkspaceStatus::converged;
   if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
     return WorkspaceStatus::limited;
   // From level to level the error falls and the work grows by a factor of four.

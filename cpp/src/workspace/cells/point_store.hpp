@@ -1,6 +1,6 @@
 #pragma once
-/// What is known of the points of a lattice, by number. Grows without moving what is there: with millions of points a copy would
-/// take seconds in which nothing can be interrupted.
+/// The margins of the points of a lattice, by number. It grows without moving its elements: a copy of millions of
+/// points would take seconds that cannot be interrupted.
 
 #include <memory>
 #include <vector>

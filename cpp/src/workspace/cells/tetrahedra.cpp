@@ -6,7 +6,7 @@
 namespace ninedof {
 namespace {
 
-/// The six ways from corner 0 to corner 7 along edges.
+/// Corners along the six paths of edges from corner 0 to corner 7.
 constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
 
 Vec3 corner_at(int n) {
@@ -61,7 +61,7 @@ double CutCell::fraction() {
     if (s.allowed == 1) {
       sum += at(0, 1) * at(0, 2) * at(0, 3);
     } else if (s.allowed == 2) {
-      // The wedge between the triangles (a, ac, ad) and (b, bc, bd) in three tetrahedra.
+      // The wedge between the triangles (a, ac, ad) and (b, bc, bd), as three tetrahedra.
       const double ac = at(0, 2), ad = at(0, 3), bc = at(1, 2), bd = at(1, 3);
       sum += ac * ad * (1.0 - bd) + ac * (1.0 - bc) * bd + bc * bd;
     } else if (s.allowed == 3) {

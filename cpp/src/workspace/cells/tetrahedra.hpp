@@ -1,5 +1,5 @@
 #pragma once
-/// The allowed part of a cell whose boundary is taken as flat in each of six tetrahedra.
+/// The allowed part of a cell, with a boundary that is plane in each of six tetrahedra.
 
 #include <array>
 #include <vector>
@@ -11,13 +11,13 @@ namespace ninedof {
 /// Corners of a cell by number (bit 0 for x, 1 for y, 2 for z).
 using Corners = std::array<const PointMargins*, 8>;
 
-/// Where the boundary meets an edge: how far from its allowed end (0 to 1), and the limit that is first to be met there.
+/// The intersection of the boundary with an edge: the distance from its allowed end (0 to 1), and the limit met first.
 struct Crossing {
   double t = 0.0;
   int limit = -1;
 };
 
-/// A cell cut along its diagonal from corner 0 to corner 7 (Kuhn).
+/// A cell divided into six tetrahedra about the diagonal from corner 0 to corner 7 (Kuhn).
 class CutCell {
  public:
   CutCell(const Corners& corners, int groups);
@@ -31,9 +31,11 @@ class CutCell {
     double area;
     int limit;
   };
-  /// Parts of the boundary, each edge it crosses claiming an equal share of the polygon it is a corner of.
+  /// Appends the parts of the boundary: the area of each polygon is divided equally among its corners, each with its
+  /// limit.
   void boundary(const Vec3& size, std::vector<Piece>& out);
-  /// Where the three edges at corner 0 are crossed, in units of the cell's sides; neighbours have the other edges.
+  /// Appends the crossings of the three edges at corner 0, in units of the cell's sides; neighbours have the other
+  /// edges.
   void crossings(std::vector<Vec3>& out);
 
  private:

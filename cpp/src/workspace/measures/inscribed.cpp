@@ -10,11 +10,11 @@
 namespace ninedof {
 namespace {
 
-constexpr int rays = 500;        // on which a ball is checked
-constexpr int candidates = 6;    // cells from which the centre of the ball is sought
-constexpr std::size_t most_points = 12'000;  // of the surface that are looked at
+constexpr int rays = 500;  // directions in which a ball is checked
+constexpr int candidates = 6;  // cells from which the centre of the ball is optimised
+constexpr std::size_t most_points = 12'000;  // of the surface that are used
 
-/// Every n-th point: more than some thousands only cost time, since their distance enters by its square.
+/// Every n-th point: beyond some thousands the error is small, since it is quadratic in their distance.
 std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
   const std::size_t stride = points.size() / most_points + 1;
   std::vector<Vec3> out;
@@ -22,10 +22,10 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
   return out;
 }
 
-/// Distance from the surface and from the walls of the chart.
-class Room {
+/// Distance from the surface and from the faces of the chart.
+class FreeDistance {
  public:
-  Room(const Chart& chart, const std::vector<Vec3>& surface)
+  FreeDistance(const Chart& chart, const std::vector<Vec3>& surface)
       : chart_(chart), near_(chart.low(), chart.high(), surface) {}
   double at(const Vec3& x) const {
     double wall = infinity;
@@ -39,8 +39,9 @@ class Room {
   NearPoints near_;
 };
 
-/// Moves a centre while that gives room, in ever smaller steps; never out of its own ball, and so not across the surface.
-InscribedBall settled(const Room& room, InscribedBall ball, double step) {
+/// Moves the centre while the radius grows, in ever smaller steps. The centre never leaves its ball, so that it cannot
+/// cross the surface.
+InscribedBall maximised(const FreeDistance& distance, InscribedBall ball, double step) {
   const double least = 1e-5 * step;
   step = std::min(step, 0.5 * ball.radius);
   for (; step > least; step *= 0.5)
@@ -49,7 +50,7 @@ InscribedBall settled(const Room& room, InscribedBall ball, double step) {
       for (int n = 0; n < 27; ++n) {
         const Vec3 way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
         const Vec3 there = ball.centre + step * way;
-        const double radius = room.at(there);
+        const double radius = distance.at(there);
         if (radius <= ball.radius * (1.0 + 1e-12)) continue;
         ball = {there, radius};
         moved = true;
@@ -66,14 +67,15 @@ std::vector<char> allowed_at(const Margins& margins, const std::vector<Vec3>& x,
   return allowed;
 }
 
-/// Points of the unit sphere, evenly (Fibonacci).
+/// Evenly spread points of the unit sphere (Fibonacci lattice).
 Vec3 ray(int n) {
   constexpr double golden = 2.399963229728653;
   const double z = 1.0 - (2.0 * n + 1.0) / rays, r = std::sqrt(1.0 - z * z);
   return {r * std::cos(golden * n), r * std::sin(golden * n), z};
 }
 
-void check(InscribedBall& ball, const Margins& margins, const Control& control) {
+/// Shrinks a ball until sampled points of its surface are allowed.
+void shrink(InscribedBall& ball, const Margins& margins, const Control& control) {
   double low = 0.9 * ball.radius, high = ball.radius;
   const auto fits = [&](double radius) {
     std::vector<Vec3> x;
@@ -86,7 +88,8 @@ void check(InscribedBall& ball, const Margins& margins, const Control& control) 
   ball.radius = low;
 }
 
-void check(InscribedBox& box, const Margins& margins, const Control& control) {
+/// Shrinks a box until sampled points of its faces are allowed.
+void shrink(InscribedBox& box, const Margins& margins, const Control& control) {
   constexpr int steps = 9;
   const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const auto fits = [&](double scale) {
@@ -114,7 +117,7 @@ void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const
               const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map) {
   const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   const std::vector<Vec3> points = thinned(surface.points);
-  const Room room(margins.chart(), points);
+  const FreeDistance distance(margins.chart(), points);
   int coarsest = CellLattice::deepest;
   for (const Leaf& leaf : leaves)
     if (leaf.inside == 255 && counted(leaf)) coarsest = std::min<int>(coarsest, leaf.cell.level);
@@ -122,8 +125,8 @@ void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     const Leaf& leaf = leaves[n];
     if (leaf.inside != 255 || !counted(leaf) || leaf.cell.level > coarsest + 1)
-      continue;  // small cells are by the boundary
-    const double radius = room.at(lattice.centre(leaf.cell));
+      continue;  // small cells are near the boundary
+    const double radius = distance.at(lattice.centre(leaf.cell));
     if (radius > 0.0) found.emplace_back(radius, n);
   }
   const std::size_t few = std::min<std::size_t>(candidates, found.size());
@@ -132,14 +135,14 @@ void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const
       [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   for (std::size_t n = 0; n < few; ++n) {
     const Cell& cell = leaves[found[n].second].cell;
-    const InscribedBall ball = settled(room, {lattice.centre(cell), found[n].first}, lattice.size(0).maxCoeff());
+    const InscribedBall ball = maximised(distance, {lattice.centre(cell), found[n].first}, lattice.size(0).maxCoeff());
     if (ball.radius > map.ball.radius) map.ball = ball;
   }
   if (const auto box = largest_box(leaves, lattice, points, margins.chart(), first_piece_alone, map.resolution))
     map.box = *box;
   if (!margins.cheap()) return;
-  if (map.ball.radius > 0.0) check(map.ball, margins, control);
-  if (!map.box.low.hasNaN()) check(map.box, margins, control);
+  if (map.ball.radius > 0.0) shrink(map.ball, margins, control);
+  if (!map.box.low.hasNaN()) shrink(map.box, margins, control);
 }
 
 }  // namespace ninedof

@@ -1,5 +1,5 @@
 #pragma once
-/// The nearest of many points, by bins.
+/// Distance to the nearest of many points, with a grid of bins.
 
 #include <vector>
 

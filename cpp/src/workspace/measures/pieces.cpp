@@ -6,7 +6,7 @@
 namespace ninedof {
 namespace {
 
-/// Disjoint sets with path halving; the least member leads.
+/// Disjoint sets with path halving; the least member represents a set.
 class Sets {
  public:
   explicit Sets(std::size_t count) : leader_(count) { std::iota(leader_.begin(), leader_.end(), std::size_t{0}); }
@@ -98,7 +98,7 @@ std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const
     const auto at =
         std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& l) { return holds(l, unit, resolution); });
     if (at == leaves.end()) {
-      // Nothing is connected with a home that is not allowed: the first piece is empty.
+      // The home pose is not allowed and connected with no cell: the first piece is empty.
       out.push_back(0.0);
     } else {
       const auto first =

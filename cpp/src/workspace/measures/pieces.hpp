@@ -5,8 +5,8 @@
 
 namespace ninedof {
 
-/// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their volumes.
-/// Cells are connected if an allowed corner lies on the face they share.
+/// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their
+/// volumes. Cells are connected if an allowed corner lies on the face they share.
 std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
                                 const std::optional<Vec3>& home);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int finest = 64;  // cells along each side of the raster; the time grows with its fourth power
 
-/// Cells of one size: which are wholly allowed.
+/// A raster of cells of one size, with those that are entirely allowed.
 class Raster {
  public:
   Raster(const std::vector<Leaf>& leaves, bool first_piece_alone, int resolution) {
@@ -42,7 +42,8 @@ struct CellBox {
   double volume = 0.0;
 };
 
-/// Every slab of layers: the columns that are full throughout, and the largest rectangle of them by rows of heights.
+/// For each range of layers: the columns that are full in all of them, and the largest rectangle of such columns (by
+/// the histogram method).
 CellBox largest_of_cells(const Raster& r, const Vec3& size) {
   const int n = r.side();
   const auto width = static_cast<std::size_t>(n);
@@ -79,7 +80,7 @@ CellBox largest_of_cells(const Raster& r, const Vec3& size) {
   return best;
 }
 
-/// Moves one face outwards until it meets the surface or the chart's wall.
+/// Moves one face outwards until it meets the surface or a face of the chart.
 void extend(InscribedBox& box, int axis, bool far, const std::vector<Vec3>& surface, const Chart& chart) {
   double reach = far ? chart.high()[axis] : chart.low()[axis];
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -95,8 +96,8 @@ double volume(const InscribedBox& box) {
   return (box.high - box.low).prod();
 }
 
-/// Gives way with one face and takes with another, then with all, while that pays.
-InscribedBox traded(InscribedBox box, const std::vector<Vec3>& surface, const Chart& chart) {
+/// Moves one face inwards and then all faces outwards, another one first, while the volume grows.
+InscribedBox varied(InscribedBox box, const std::vector<Vec3>& surface, const Chart& chart) {
   for (int face = 0; face < 6; ++face) extend(box, face / 2, face % 2 != 0, surface, chart);
   const Vec3 start = box.high - box.low;
   for (double step = 0.125; step > 1e-3; step *= 0.5)
@@ -133,7 +134,7 @@ std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const C
   const auto corner = [&](const int (&n)[3]) -> Vec3 {
     return chart.low() + size.cwiseProduct(Vec3(n[0], n[1], n[2]));
   };
-  return traded({corner(cells.low), corner(cells.high)}, surface, chart);
+  return varied({corner(cells.low), corner(cells.high)}, surface, chart);
 }
 
 }  // namespace ninedof

@@ -5,7 +5,7 @@
 
 namespace ninedof {
 
-/// First of whole cells (exact for those of one size), then each face is moved to the surface and traded against the others.
+/// First a box of whole cells (the largest for cells of one size); then its faces are moved to the surface and varied.
 std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const CellLattice& lattice,
                                         const std::vector<Vec3>& surface, const Chart& chart, bool first_piece_alone,
                                         int resolution);

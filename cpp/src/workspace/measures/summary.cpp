@@ -15,7 +15,7 @@ bool counted(const Leaf& leaf, bool first_piece_alone) {
   return leaf.inside != 0 && (!first_piece_alone || leaf.piece == 0);
 }
 
-/// Area of the faces of the chart's box that a leaf lies on, as far as its corners there are allowed.
+/// Allowed area of a leaf on the faces of the chart's box, by its corners there.
 double face_area(const Leaf& leaf, const Vec3& size, int resolution, int first_axis) {
   const std::uint32_t end = (static_cast<std::uint32_t>(resolution) << leaf.cell.level) - 1;
   const std::uint32_t at[] = {leaf.cell.i, leaf.cell.j, leaf.cell.k};
@@ -66,7 +66,7 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
     if (!counted(leaf, first_piece_alone)) continue;
     if (leaf.inside != 255) cut.push_back(leaf.cell);
     const Chart& chart = margins.chart();
-    // The ball of a rotation chart has its own margin; of tilt and torsion only the ends of the torsion are walls.
+    // The ball of a rotation chart has its own margin; for tilt and torsion only the ends of the torsion are faces.
     out.area[limit::box] += face_area(leaf, lattice.size(leaf.cell.level), resolution, chart.first_wall());
   }
   const std::vector<NinePoints> points = lattice.points_of(cut);

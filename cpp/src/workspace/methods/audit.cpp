@@ -9,7 +9,7 @@ namespace ninedof {
 namespace {
 
 constexpr long slice = 16384;
-constexpr double too_many = 0.05;  // share of the allowed poses in cells that deny them: the cells are too coarse
+constexpr double too_many = 0.05;  // cells are too coarse if more than this share of the allowed poses contradicts them
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
   const double share = cells * size.prod() / poses;
   for (const Leaf& root : roots)
     if (root.proved) volume_ += root.fraction * root.measure;
-  // Piece by piece: all that is known of a pose is much, and only whether it is allowed is kept.
+  // In slices, to save memory: only whether a pose is allowed is kept.
   for (long first = 0; first < settings.points; first += slice) {
     std::vector<Cell> in;
     std::vector<Vec3> at;
@@ -44,7 +44,7 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
     }
     at_.insert(at_.end(), at.begin(), at.end());
   }
-  // No disagreement among n poses: with 95 % confidence less than 3 / n of where they were drawn from.
+  // Rule of three: a feature missed by all n poses has, at 95 % confidence, less than 3 / n of the volume sampled.
   unseen_ = 3.0 / poses * cells * size.prod();
 }
 

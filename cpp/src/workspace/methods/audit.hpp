@@ -1,6 +1,6 @@
 #pragma once
-/// Poses that check what the corners of cells say: of a low-discrepancy sequence, spread over the cells of level 0 that nothing is
-/// proved of.
+/// Poses that check the classification of cells: a low-discrepancy sequence over the cells of level 0 that are not
+/// proved.
 
 #include "workspace/cells/octree.hpp"
 
@@ -8,7 +8,7 @@ namespace ninedof {
 
 class Audit {
  public:
-  /// Draws the poses and judges them. Throws Stopped.
+  /// Draws and evaluates the poses. Throws Stopped.
   void begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m, const WorkspaceSettings& settings,
              const Control& control);
 
@@ -16,13 +16,14 @@ class Audit {
   /// See WorkspaceMap.
   double unseen() const { return unseen_; }
 
-  /// How far a volume is from what the poses say, where that is more than chance (three standard errors); else 0.
+  /// The difference between a volume and the estimate of the poses if it exceeds three standard errors; else 0.
   double contradicts(double volume, bool only_if_less) const;
 
-  /// Opens every cell that one of the poses disagrees with.
+  /// Marks every cell that one of the poses contradicts as boundary.
   Disagreement open(std::vector<Leaf>& leaves) const;
 
-  /// Follows the poses into the children of the cells that are divided; `rank` of a cell among those, -1 for settled ones.
+  /// Assigns the poses to the children of divided cells; `rank` is the number of a cell among those, -1 for settled
+  /// ones.
   void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice);
 
  private:

@@ -16,12 +16,12 @@
 namespace ninedof {
 namespace {
 
-/// With 95 % confidence less than this was missed by `count` points spread evenly over the box.
+/// Rule of three: the volume missed by `count` points spread evenly over the box, an upper bound at 95 % confidence.
 double missed(const Margins& m, long count) {
   return 3.0 * m.chart().box_volume() / static_cast<double>(count);
 }
 
-/// Evaluates `count` points in order, with news between pieces of work.
+/// Evaluates points in order and reports progress between pieces of work.
 std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads, const Control& control,
                                     long before, long total, const BestPoints* mapped = nullptr) {
   std::vector<PointMargins> out(x.size());
@@ -126,8 +126,8 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         surface.points.push_back(lattice.centre(leaf.cell) + 0.5 * way * size[axis] * Vec3::Unit(axis));
       }
   }
-  // A cell that the boundary cuts is right to within a uniformly distributed part of it. Neighbours err alike along a smooth
-  // boundary: four standard errors of independent ones.
+  // The error of a cell on the boundary is uniformly distributed. Errors of neighbours are correlated along a smooth
+  // boundary: four standard errors of independent ones are taken.
   map.error = 4.0 * std::sqrt(undecided / 12.0);
   map.unseen = missed(m, static_cast<long>(x.size()));
   if (!(map.volume > 0.0)) map.error = map.unseen;

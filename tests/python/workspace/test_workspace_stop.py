@@ -1,0 +1,84 @@
+"""Progress and interruption of a search for a workspace."""
+
+import os
+import signal
+import threading
+from time import perf_counter
+
+import pytest
+
+import ninedof as nd
+
+BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
+LEGS = {"leg_limits": (2.5, 6.5)}
+
+
+def test_progress_counts_up(published):
+    seen = []
+    found = nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-4, progress=lambda *told: seen.append(told))
+    assert seen
+    done = [told[0] for told in seen]
+    assert done == sorted(done)
+    assert done[-1] <= found.evaluations
+    assert all(expected >= count for count, expected, _ in seen)
+
+
+def test_an_exception_of_progress_reaches_the_caller(published):
+    def stop(*_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-6, progress=stop)
+
+
+def test_ctrl_c_returns_a_stopped_map(published):
+    timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    try:
+        found = nd.workspace(
+            published,
+            BOX,
+            archetype="inclusive",
+            orientations=400,
+            region={"angle": 0.2},
+            criteria=LEGS | {"condition_number": 6.0},
+            tolerance=1e-6,
+            most_evaluations=10**9,
+        )
+    finally:
+        timer.cancel()
+    assert found.interrupted
+    assert found.status == "stopped"
+
+
+def test_an_interruption_at_the_end_is_not_lost(published):
+    """The map is complete, so that only the exception can show the interruption."""
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    for _ in range(5):
+        try:
+            heard = nd.workspace(published, BOX, criteria=LEGS, method="grid", resolution=8, progress=stop).interrupted
+        except KeyboardInterrupt:
+            heard = True
+        assert heard
+
+
+@pytest.mark.timing
+def test_ctrl_c_ends_the_finest_levels(published):
+    """Millions of cells are numbered and judged there; the summary takes a second for each million."""
+    sent = []
+
+    def interrupt():
+        sent.append(perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(4.0, interrupt)
+    timer.start()
+    try:
+        found = nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-7, most_evaluations=10**9)
+    finally:
+        timer.cancel()
+    assert found.status == "stopped"
+    assert perf_counter() - sent[0] < 12.0
