@@ -1,9 +1,9 @@
 #pragma once
 /// The legs as vectors: where p + Q u - r is formed for numbers of type double.
 ///
-/// The closed form on the axis (conditioning/symmetric.hpp) and the batch kernels (batch/kernels/poses.hpp) form the same
-/// vectors over their own number types. points.hpp starts from the joints as points in the base frame, with respect to
-/// which it differentiates: s - (p + Q u~) there and (s - p) - Q u~ here differ by rounding.
+/// The closed form on the axis (conditioning/symmetric.hpp) and the batch kernels (batch/kernels/poses.hpp) form the
+/// same vectors over their own number types. points.hpp starts from the joints as points in the base frame, with
+/// respect to which it differentiates: s - (p + Q u~) there and (s - p) - Q u~ here differ by rounding.
 ///
 /// One leg at a time and always inlined: forward velocity (kinematics/closure.hpp) takes 1.9 times as long if all nine
 /// vectors are stored in a struct first.
