@@ -35,13 +35,17 @@ struct Closure {
 
 EIGEN_ALWAYS_INLINE Closure closure(const Geometry& g, const Configuration& c) {
   Closure k;
-  const LegVectors v = leg_vectors(g, c);
-  k.y = xyz(v.y);
+  const Vec3& s = c.internal_point;
+  const Vec3 y = s - c.position;
+  k.y = xyz(y);
   for (std::size_t i = 0; i < 3; ++i) {
-    k.x[i] = xyz(v.external[i]);
-    k.w[i] = xyz(v.u[i] - v.y);
-    const Vec3 &lower = v.lower[i], &upper = v.upper[i];
-    k.internal[i] = {Lanes(lower[0], upper[0]), Lanes(lower[1], upper[1]), Lanes(lower[2], upper[2])};
+    const Vec3 u = c.rotation * g.platform_external()[i], u_tilde = c.rotation * g.platform_internal()[i];
+    const Vec3& r_hat = g.base_internal()[i];
+    k.x[i] = xyz(external_leg(c, u, g.base_external()[i]));
+    k.w[i] = xyz(u - y);
+    // lower_leg() and upper_leg() in two lanes: one subtraction for both.
+    k.internal[i] = {Lanes(s[0], y[0]) - Lanes(r_hat[0], u_tilde[0]), Lanes(s[1], y[1]) - Lanes(r_hat[1], u_tilde[1]),
+                     Lanes(s[2], y[2]) - Lanes(r_hat[2], u_tilde[2])};
     k.internal_length[i] = dot(k.internal[i], k.internal[i]).sqrt();
   }
   const Lanes two(dot(k.x[0], k.x[0]), dot(k.x[1], k.x[1]));

@@ -1,35 +1,31 @@
 #pragma once
-/// The nine legs as vectors: where p + Q u - r is formed for numbers of type double.
+/// The legs as vectors: where p + Q u - r is formed for numbers of type double.
 ///
-/// The closed form on the axis (conditioning/symmetric.hpp) and the batch kernels (batch/kernels/poses.hpp) form the same
-/// vectors over their own number types. points.hpp starts from the joints as points in the base frame, with respect to
-/// which it differentiates: s - (p + Q u~) there and (s - p) - Q u~ here differ by rounding.
+/// The closed form on the axis (conditioning/symmetric.hpp) and the batch kernels (batch/kernels/poses.hpp) form the
+/// same vectors over their own number types. points.hpp starts from the joints as points in the base frame, with
+/// respect to which it differentiates: s - (p + Q u~) there and (s - p) - Q u~ here differ by rounding.
+///
+/// One leg at a time and always inlined: forward velocity (kinematics/closure.hpp) takes 1.9 times as long if all nine
+/// vectors are stored in a struct first.
 
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
-#include "ninedof/robot/geometry.hpp"
 
 namespace ninedof {
 
-struct LegVectors {
-  Vec3 y;             ///< s - p: O seen from p
-  Triple u, u_tilde;  ///< Q u_i and Q u~_i
-  Triple external;    ///< p + Q u_i - r_i   (11)
-  Triple lower;       ///< s - r^_i          (12)
-  Triple upper;       ///< s - p - Q u~_i    (13)
-};
+/// p + u - r (11), for u = Q u_i.
+EIGEN_ALWAYS_INLINE Vec3 external_leg(const Configuration& c, const Vec3& u, const Vec3& r) {
+  return c.position + u - r;
+}
 
-EIGEN_ALWAYS_INLINE LegVectors leg_vectors(const Geometry& g, const Configuration& c) {
-  LegVectors v;
-  v.y = c.internal_point - c.position;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v.u[i] = c.rotation * g.platform_external()[i];
-    v.u_tilde[i] = c.rotation * g.platform_internal()[i];
-    v.external[i] = c.position + v.u[i] - g.base_external()[i];
-    v.lower[i] = c.internal_point - g.base_internal()[i];
-    v.upper[i] = v.y - v.u_tilde[i];
-  }
-  return v;
+/// s - r^ (12).
+EIGEN_ALWAYS_INLINE Vec3 lower_leg(const Configuration& c, const Vec3& r_hat) {
+  return c.internal_point - r_hat;
+}
+
+/// s - p - u~ (13), for u~ = Q u~_i.
+EIGEN_ALWAYS_INLINE Vec3 upper_leg(const Configuration& c, const Vec3& u_tilde) {
+  return c.internal_point - c.position - u_tilde;
 }
 
 }  // namespace ninedof

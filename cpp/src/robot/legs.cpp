@@ -19,27 +19,25 @@ double split(const Vec3& leg, Vec3& direction) {
 }  // namespace
 
 Legs legs(const Geometry& g, const Configuration& c) {
-  const LegVectors v = leg_vectors(g, c);
   Legs out;
-  out.u = v.u;
-  out.u_tilde = v.u_tilde;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    out.l[k] = split(v.external[i], out.e[i]);
-    out.q[k] = split(v.upper[i], out.e_tilde[i]);
-    out.r[k] = split(v.lower[i], out.e_hat[i]);
+    out.u[i] = c.rotation * g.platform_external()[i];
+    out.u_tilde[i] = c.rotation * g.platform_internal()[i];
+    out.l[k] = split(external_leg(c, out.u[i], g.base_external()[i]), out.e[i]);
+    out.q[k] = split(upper_leg(c, out.u_tilde[i]), out.e_tilde[i]);
+    out.r[k] = split(lower_leg(c, g.base_internal()[i]), out.e_hat[i]);
   }
   return out;
 }
 
 Vec9 leg_lengths(const Geometry& g, const Configuration& c) {
-  const LegVectors v = leg_vectors(g, c);
   Vec9 out;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    out[k] = v.external[i].norm();
-    out[k + 3] = v.upper[i].norm();
-    out[k + 6] = v.lower[i].norm();
+    out[k] = external_leg(c, c.rotation * g.platform_external()[i], g.base_external()[i]).norm();
+    out[k + 3] = upper_leg(c, c.rotation * g.platform_internal()[i]).norm();
+    out[k + 6] = lower_leg(c, g.base_internal()[i]).norm();
   }
   return out;
 }

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats
 
 __all__ = ["characteristic_length"]
@@ -18,7 +19,7 @@ KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
 
 
 def characteristic_length(geometry: Geometry, configuration: Configuration, kind: str = "optimal") -> Any:
-    """Return the length that makes the Jacobian homogeneous, chosen from the robot itself.
+    """Return the length that makes the Jacobian homogeneous, computed from the robot.
 
     Parameters
     ----------
@@ -26,11 +27,11 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
     configuration : Configuration
         Shape (...).
     kind : {"optimal", "natural", "mean_leg", "platform_radius"}
-        "optimal" makes the condition number least: it is quasi-convex in the length, so that the one change of sign of
-        its slope is that length. "natural" makes rotation and translation weigh the same in the leg rates, the
-        Frobenius norms of the two halves of M being equal; at an isotropic design it is the length that shows the
-        isotropy. "mean_leg" is the mean of the nine legs; "platform_radius" the largest distance of a platform joint
-        from the platform origin.
+        "optimal" minimizes the condition number, which is quasi-convex in the length: the sign change of its slope is
+        the minimum. "natural" gives rotation and translation the same weight in the leg rates: the Frobenius norms of
+        the angular and the translational columns of M are equal. An isotropic design is isotropic with this length.
+        "mean_leg" is the mean of the nine leg lengths, "platform_radius" the largest distance of a platform joint from
+        the platform origin.
 
     Returns
     -------
@@ -38,18 +39,16 @@ def characteristic_length(geometry: Geometry, configuration: Configuration, kind
         In the length unit of the input. "optimal" and "natural" are NaN at a singular configuration.
 
     """
-    if not isinstance(kind, str):
-        raise ValueError(f"kind: got {kind!r}, expected one of {', '.join(KINDS)}")
-    flat = _core.characteristic_length(*operands(geometry, configuration), kind, 0)
+    flat = _core.characteristic_length(*operands(geometry, configuration), choice("kind", kind, KINDS), 0)
     return flat.reshape(configuration.shape)[()]
 
 
 def resolve_length(geometry: Geometry, configuration: Configuration, length: ArrayLike | str) -> Floats:
-    """Return a characteristic length as a flat array of one value, or of one for each configuration."""
+    """Return a characteristic length as a flat array of one value, or one value per configuration."""
     operands(geometry, configuration)
     if isinstance(length, str):
         found = np.reshape(characteristic_length(geometry, configuration, length), -1)
-        # No length helps a singular pose, and none is known for a missing one: any will show them as such.
+        # Singular and missing poses have no such length: their results are infinite or NaN with any length.
         return np.where(np.isnan(found), 1.0, found)
     value = as_floats("characteristic_length", length, ())
     if value.size == 1:

@@ -12,7 +12,8 @@ from ninedof import _core
 from ninedof.conditioning.characteristic_length import resolve_length
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument
+from ninedof.support.arguments import choice
+from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument, without_infinity
 
 __all__ = [
     "axis_singular_values",
@@ -24,7 +25,7 @@ __all__ = [
     "singular_values",
 ]
 
-GATHERED = 2**16  # designs that the core is given at once: gathered and used within the caches
+GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
 
 
 def singular_values(
@@ -36,8 +37,8 @@ def singular_values(
 ) -> Floats:
     """Return the six singular values of J', descending.
 
-    They come from a 6x6 matrix whose singular values are the reciprocals, without inverting or squaring anything, so a
-    singular configuration gives infinity and not an error.
+    They come from a 6x6 matrix whose singular values are the reciprocals, without inverting or squaring a matrix, so
+    a singular configuration gives infinity and not an error.
 
     Parameters
     ----------
@@ -47,15 +48,15 @@ def singular_values(
     characteristic_length : float, array_like of shape (...), or str
         Length l_c > 0, or a kind as in `characteristic_length`.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, aligned, of the result's shape.
+        Array for the result: float64, C-contiguous, aligned, of the result's shape.
 
     Returns
     -------
     numpy.ndarray, shape (..., 6)
-        Speed per unit of leg rate: l_c rad/time and length/time alike. Infinite ones count the motions that locked legs
-        leave free.
+        Speed per unit of leg rate: l_c rad/time and length/time alike. The number of infinite ones is the number of
+        free motions with all legs locked.
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
@@ -71,7 +72,7 @@ def axis_singular_values(
 ) -> Floats:
     """Return the six singular values of J' by the closed form for C3 designs on their axis.
 
-    A second, independent way to the numbers of `singular_values`, exact at any conditioning.
+    A second, independent computation of `singular_values`, accurate for any condition number.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ def axis_singular_values(
     Raises
     ------
     ValueError
-        Naming what breaks the symmetry.
+        Naming what violates the symmetry.
 
     """
     lc = resolve_length(geometry, configuration, characteristic_length)
@@ -118,14 +119,14 @@ def condition_number(
         "2": sigma_max / sigma_min, eq. (2), 1 at best. "frobenius": |J'|_F |J'^+|_F, eq. (4) with the Frobenius norm
         and the pseudo-inverse, 6 at best.
     threads : int, optional
-        Threads for a stack; one a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to write the result: float64, C-contiguous, aligned, shape (...).
+        Array for the result: float64, C-contiguous, aligned, shape (...).
 
     Returns
     -------
     float or numpy.ndarray, shape (...)
-        Infinite at a singular configuration (and above 2.8e14, which double precision cannot tell from one).
+        Infinite at a singular configuration (and above 2.8e14, which double precision cannot distinguish from it).
 
     Examples
     --------
@@ -136,9 +137,9 @@ def condition_number(
 
     """
     functions = {"2": _core.condition_number_two, "frobenius": _core.condition_number_frobenius}
-    if not isinstance(norm, str) or norm not in functions:
-        raise ValueError(f'norm: got {norm!r}, expected "2" or "frobenius"')
-    return _index(functions[norm], geometry, configuration, characteristic_length, threads, out)
+    return _index(
+        functions[choice("norm", norm, functions)], geometry, configuration, characteristic_length, threads, out
+    )
 
 
 def hexagonal_condition_number(
@@ -153,18 +154,18 @@ def hexagonal_condition_number(
 ) -> Any:
     """Return the condition number of many hexagonal designs, each at its neutral configuration (eqs. 6, 37, 38).
 
-    By the closed form on the symmetry axis, some 6 ns a design on one processor and as much again to gather six arrays:
-    for maps and atlases of millions. All lengths in units of the characteristic length; theta_z = 0. Nothing is asked
-    of the designs, not even zs < zp (eq. 9b).
+    By the closed form on the symmetry axis, about 6 ns per design on one processor and as much again to gather six
+    arrays: for maps and atlases of millions of designs. All lengths in units of the characteristic length; theta_z = 0.
+    The designs need not satisfy any constraint, not even zs < zp (eq. 9b).
 
     Parameters
     ----------
     a1, a2, b1, b2, zp, zs : array_like
-        Sides of base and platform, heights of the platform and of O, over the characteristic length. They broadcast.
+        Sides of base and platform, heights of platform and O, divided by the characteristic length. They broadcast.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to.
+        Array for the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to.
 
     Returns
     -------
@@ -184,10 +185,7 @@ def hexagonal_condition_number(
 
     """
     given = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    columns = {name: _column(name, value) for name, value in given.items()}
-    for name, values in columns.items():
-        if np.isinf(values).any():
-            raise ValueError(f"{name}: got an infinite number, expected finite ones")
+    columns = {name: without_infinity(name, _column(name, value)) for name, value in given.items()}
     shape = leading_shape({name: (values, 0) for name, values in columns.items()})
     checked_out(out, shape)
     found = np.empty(shape) if out is None else out
@@ -204,7 +202,7 @@ def hexagonal_condition_number(
 
 
 def _column(name: str, value: ArrayLike) -> Floats:
-    """Return an array that is only read: the caller's own where it will do."""
+    """Return an array for reading: the argument itself if it has the right type."""
     own = type(value) is np.ndarray and value.dtype == np.float64
     return value if own else as_floats(name, value, ())  # type: ignore[return-value]  # the condition says so
 
@@ -232,7 +230,8 @@ def manipulability(
 ) -> Any:
     """Return sqrt(det(J' J'^T)), the product of the singular values of J'.
 
-    Parameters as in `condition_number`. Infinite at a singular configuration, where some twist needs no leg rate.
+    Parameters as in `condition_number`. Infinite at a singular configuration, where locked legs allow
+    some twist.
     """
     return _index(_core.manipulability, geometry, configuration, characteristic_length, threads, out)
 
@@ -244,7 +243,7 @@ def isotropy_residual(
     threads: int | None = None,
     out: Floats | None = None,
 ) -> Any:
-    """Return how far J' is from isotropy: |J' J'^T - sigma 1|_F / |sigma 1|_F, sigma = trace(J' J'^T) / 6.
+    """Return the distance of J' from isotropy: |J' J'^T - sigma 1|_F / |sigma 1|_F, sigma = trace(J' J'^T) / 6.
 
     Eq. (5) with the 6x6 product (J'^T J' is 9x9 and of rank 6, so never a multiple of 1). 0 exactly at isotropy,
     which no design of this kind reaches; infinite at a singular configuration. Parameters as in `condition_number`.

@@ -1,4 +1,4 @@
-"""Leg accelerations and accelerations, and how J' changes along a motion: eqs. (24)-(28) and (36) differentiated."""
+"""Accelerations of legs, platform and O, and the time derivative of J': eqs. (24)-(28) and (36) differentiated."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def forward_acceleration(
     configuration : Configuration
         Shape (...).
     leg_rates : array_like, shape (..., 9)
-        ldot, qdot, rdot in the order of `leg_lengths`, length/time. They matter: a leg that turns is accelerated though
-        its length changes evenly.
+        ldot, qdot, rdot in the order of `leg_lengths`, length/time. A leg that rotates has a centripetal
+        acceleration even if its rate is constant.
     leg_accelerations : array_like, shape (..., 9)
         lddot, qddot, rddot, length/time^2. Both broadcast against the configuration.
 
@@ -38,11 +38,12 @@ def forward_acceleration(
         Acceleration of the platform origin, length/time^2.
     sddot : numpy.ndarray, shape (..., 3)
         Acceleration of the internal point, length/time^2.
-        NaN in whatever the legs do not determine at a singular configuration.
+        At a singular configuration the components that the legs do not determine are NaN.
 
     Examples
     --------
-    The platform rises, O at rest. Leg rates that stay as they are let it slow down, and turn, for the legs get steeper.
+    The platform rises while O is at rest. With constant leg rates it slows down and begins to rotate, because the legs
+    become steeper.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -87,12 +88,12 @@ def inverse_acceleration(
     Returns
     -------
     numpy.ndarray, shape (..., 9)
-        lddot, qddot, rddot in the order of `leg_lengths`, length/time^2. Defined everywhere but for a leg of zero
-        length, which is NaN: its length has a kink there. The other legs are not touched by it.
+        lddot, qddot, rddot in the order of `leg_lengths`, length/time^2. Always defined, except for a leg of zero
+        length: NaN for that leg only, because its length has a kink there.
 
     Examples
     --------
-    A platform that turns evenly about its axis: the external legs alone feel it, and not evenly.
+    The platform rotates about its axis at a constant rate: only the external legs accelerate.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -130,7 +131,7 @@ def jacobian_rate(
         The motion: angular velocity of the platform (rad/time), velocities of its origin and of O (length/time), base
         frame. They broadcast against the configuration. J' depends on O, so sdot matters.
     characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`. It is held: a length chosen by its kind at this
+        Length l_c > 0, or a kind as in `characteristic_length`. It is constant: a length chosen by its kind at this
         configuration does not change along the motion.
 
     Returns
@@ -159,6 +160,6 @@ def jacobian_rate(
     given = {name: as_floats(name, v, (3,)) for name, v in {"omega": omega, "pdot": pdot, "sdot": sdot}.items()}
     shape, flat, velocity = operands_with(geometry, configuration, given)
     lc = resolve_length(geometry, configuration, characteristic_length)
-    if lc.size != 1:  # one for each configuration, each of which may serve several velocities
+    if lc.size != 1:  # one per configuration, broadcast to the velocities
         lc = np.ascontiguousarray(np.broadcast_to(lc.reshape(configuration.shape), shape)).reshape(-1)
     return _core.jacobian_rate(*flat, np.concatenate(velocity, axis=1), lc, 0).reshape(*shape, 6, 9)

@@ -51,9 +51,9 @@ def leg_lengths(
     configuration : Configuration
         One configuration or a stack of shape (...).
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Where to put the result: float64, C-contiguous, aligned, of the result's shape.
+        Array for the result: float64, C-contiguous, aligned, of the result's shape.
 
     Returns
     -------
@@ -79,8 +79,7 @@ def velocity_matrices(
 ) -> VelocityMatrices:
     """Return A, B, C, D, E, F and G of eqs. (30)-(35) by name.
 
-    The twist they act on is (l_c omega, pdot): with plain omega, eqs. (27) and (29) as printed would need undivided
-    angular columns.
+    They act on the twist (l_c omega, pdot). (Eqs. (27) and (29) as printed omit l_c.)
 
     Parameters
     ----------

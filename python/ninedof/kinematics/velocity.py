@@ -1,4 +1,4 @@
-"""Leg rates and velocities, eqs. (24)-(28) and (36), and the three motions that nine legs have to spare."""
+"""Leg rates and velocities, eqs. (24)-(28) and (36), and the null motions of the redundancy."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def forward_velocity(
         Velocity of the platform origin, length/time.
     sdot : numpy.ndarray, shape (..., 3)
         Velocity of the internal point, length/time.
-        NaN in whatever the leg rates do not determine at a singular configuration.
+        At a singular configuration the components that the leg rates do not determine are NaN.
 
     """
     rates = as_floats("leg_rates", leg_rates, (9,))
@@ -60,17 +60,17 @@ def inverse_velocity(
         Shape (...).
     omega, pdot : array_like, shape (..., 3)
         Angular velocity of the platform (rad/time) and velocity of its origin (length/time), base frame. They broadcast
-        against the configuration, as all that follows does.
+        against the configuration, as do all arguments below.
     sdot : array_like, shape (..., 3), optional
-        Velocity of O, length/time, base frame. By default O moves so that the weighted sum of squared leg rates is
-        least, as `internal_velocity` says: the leg rates are then J'^+ (l_c omega, pdot) when all weights are one.
+        Velocity of O, length/time, base frame. By default that of `internal_velocity`, which minimizes the weighted
+        sum of squared leg rates: with all weights one the leg rates are J'^+ (l_c omega, pdot).
     weights : array_like, shape (..., 9), optional
-        Weights of the squared leg rates; all ones by default. Without a meaning where `sdot` is given.
+        Weights of the squared leg rates; all ones by default. Not allowed together with `sdot`.
 
     Returns
     -------
     numpy.ndarray, shape (..., 9)
-        ldot, qdot, rdot in the order of `leg_lengths`, length/time. Defined everywhere; 0 for a leg of zero length.
+        ldot, qdot, rdot in the order of `leg_lengths`, length/time. Always defined; 0 for a leg of zero length.
 
     Raises
     ------
@@ -79,8 +79,8 @@ def inverse_velocity(
 
     Examples
     --------
-    The platform rises. Where O is left behind, the upper internal legs do all the work inside; O is better taken along
-    part of the way.
+    The platform rises. If O stays at rest, only the upper internal legs move inside; the rates are smaller if O follows
+    part of the motion.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -93,7 +93,7 @@ def inverse_velocity(
     """
     if sdot is not None and weights is not None:
         raise ValueError(
-            "weights: got weights and sdot, expected one of them: with sdot given nothing is left to choose"
+            "weights: got weights and sdot, expected one of them: with sdot given the weights have no effect"
         )
     if sdot is None:
         sdot = internal_velocity(geometry, configuration, omega, pdot, weights)
@@ -108,10 +108,10 @@ def internal_velocity(
     pdot: ArrayLike,
     weights: ArrayLike | None = None,
 ) -> Floats:
-    """Return the velocity of O that makes the leg rates of a given platform velocity least.
+    """Return the velocity of O that minimizes the leg rates for a given platform velocity.
 
-    Any velocity of O serves a given velocity of the platform (see `null_motion`). This one makes the weighted sum of
-    squared leg rates least: sdot = (B' Wr B + C' Wq C)^-1 C' Wq E t, found without forming a square.
+    Any velocity of O is compatible with a given velocity of the platform (see `null_motion`). This one minimizes the
+    weighted sum of squared leg rates: sdot = (B^T Wr B + C^T Wq C)^-1 C^T Wq E t, computed without normal equations.
 
     Parameters
     ----------
@@ -123,15 +123,14 @@ def internal_velocity(
         against the configuration.
     weights : array_like, shape (..., 9), optional
         Finite and positive, in the order of `leg_lengths`; all ones by default, which gives the leg rates
-        J'^+ (l_c omega, pdot). The first three have no effect, since the external legs do not feel O. A weight below
-        1e-30 of the largest decides nothing.
+        J'^+ (l_c omega, pdot). The first three have no effect, because the external legs do not depend on O. A weight
+        below 1e-30 of the largest has no effect either.
 
     Returns
     -------
     numpy.ndarray, shape (..., 3)
-        sdot, length/time, base frame. Finite where only B or only C is singular, as O then follows the other three
-        legs. Where both fail in one direction the leg rates do not depend on sdot in it, and the shortest sdot is
-        returned.
+        sdot, length/time, base frame. Finite if only B or only C is singular. If both have a common null direction, the
+        leg rates do not depend on sdot along it, and the shortest sdot is returned.
 
     Raises
     ------
@@ -154,13 +153,12 @@ def internal_velocity(
 
 
 def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
-    """Return the leg rates of the three motions that leave the platform where it is.
+    """Return the leg rates of the three null motions, in which the platform is at rest.
 
     Column k is the motion of O with unit velocity along axis k of the base: ldot = 0, qdot = C, rdot = B. Added to any
-    leg rates, N v moves O with velocity v and the platform not at all, so that J' N = 0. The rank of N,
-    `numpy.linalg.matrix_rank(N)`, is the redundancy: 3, nine legs for six coordinates. It is less only where O is in
-    the plane of the lower joints and in that of the upper ones, and these planes coincide: there O can leave its place
-    though no leg moves.
+    leg rates, null_motion @ v moves O with velocity v and does not move the platform: J' maps every column to zero. The
+    rank of the matrix is the redundancy: 3, nine legs for six coordinates. It is smaller only if O lies in the plane of
+    the lower joints and in that of the upper ones, and these planes coincide: there O can move with all legs locked.
 
     Parameters
     ----------
@@ -179,8 +177,8 @@ def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
-    >>> N = nd.null_motion(g, c)
-    >>> int(np.linalg.matrix_rank(N)), bool(np.allclose(nd.jacobian(g, c) @ N, 0.0))
+    >>> rates = nd.null_motion(g, c)
+    >>> int(np.linalg.matrix_rank(rates)), bool(np.allclose(nd.jacobian(g, c) @ rates, 0.0))
     (3, True)
 
     """

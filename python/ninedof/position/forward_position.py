@@ -9,35 +9,35 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, thread_argument
 
 __all__ = ["AssemblyModes", "PositionStatus", "forward_position"]
 
-CHUNK = 4096  # rows between two looks at the keyboard; their modes fit the cache of no machine and the memory of all
+CHUNK = 4096  # rows per call of the core: Ctrl-C is checked between chunks, and the modes of a chunk fit into memory
 
 OBSTACLES = {
     "lower_legs": "no point has the distances r1 r2 r3 from the base's joints: the lower internal legs do not meet",
     "upper_legs": "no point has the distances q1 q2 q3 from the platform's joints: the upper internal legs do not meet",
-    "external_leg_1": "the external leg l1 is too long or too short for O where the internal legs put it",
-    "external_leg_2": "the external leg l2 is too long or too short for O where the internal legs put it",
-    "external_leg_3": "the external leg l3 is too long or too short for O where the internal legs put it",
+    "external_leg_1": "the external leg l1 is too long or too short for the position of O that the internal legs give",
+    "external_leg_2": "the external leg l2 is too long or too short for the position of O that the internal legs give",
+    "external_leg_3": "the external leg l3 is too long or too short for the position of O that the internal legs give",
     "external_legs": "no rotation of the platform fits the external legs l1 l2 l3 together",
 }
 
 
 class PositionStatus(StrEnum):
-    """What nine leg lengths allow."""
+    """The solutions for nine leg lengths."""
 
     FOUND = "found"
-    """Finitely many modes, all simple: each goes on smoothly as the lengths change."""
+    """Finitely many modes, all simple: each changes smoothly with the lengths."""
     TANGENT = "tangent"
-    """Finitely many, and two meet here: a singular configuration. Its coordinates are good to half the digits."""
+    """Finitely many modes, two of which meet in a singular configuration, known to half the digits."""
     INFEASIBLE = "infeasible"
-    """No configuration has these lengths; `reason` says which legs are to blame."""
+    """No configuration has these lengths; `reason` names the legs."""
     SELF_MOTION = "self_motion"
-    """The robot moves with these lengths held. No list of modes exists, and none is given."""
+    """The robot can move with these lengths locked: infinitely many modes, none is listed."""
     NO_DATA = "no_data"
     """The row of lengths has NaN."""
 
@@ -45,7 +45,7 @@ class PositionStatus(StrEnum):
 class AssemblyModes(Configuration):
     """The assembly modes of one set of lengths, a stack of shape (count,), or of many, shape (..., most).
 
-    Where many sets of lengths were given, modes stand at the front of the last axis and the rest is NaN.
+    With many sets of lengths the modes come first along the last axis, followed by NaN.
     """
 
     __slots__ = ("_base_side", "_certain", "_count", "_platform_side", "_reason", "_separation", "_status")
@@ -64,7 +64,7 @@ class AssemblyModes(Configuration):
 
     @property
     def reason(self) -> Any:
-        """Why there is no mode, in words; empty where there is one. A string, or an array of shape (...)."""
+        """Why there is no mode; empty if there is one. A string, or an array of shape (...)."""
         return self._reason
 
     @property
@@ -76,14 +76,14 @@ class AssemblyModes(Configuration):
     def certain(self) -> Any:
         """Whether the count is confirmed. A bool, or an array of shape (...).
 
-        True where every root of the eliminant was isolated and became a mode of its own, or where the null-space method
-        found its solutions well apart. Near a double solution two modes may be one or none, and it is False.
+        True if every root of the eliminant was isolated and became a separate mode, or if the null-space method found
+        well separated solutions. False near a double solution, where two modes may be one or none.
         """
         return self._certain
 
     @property
     def separation(self) -> Floats:
-        """How far each mode is from meeting another, shape of the stack; 0 at a singular one, sqrt(3) at most.
+        """Separation of each mode from the nearest other one, shape of the stack; 0 if singular, at most sqrt(3).
 
         Smallest singular value of the rows (Q w_i) x d_i, d_i and w_i being unit vectors from O to the external joints.
         """
@@ -91,7 +91,7 @@ class AssemblyModes(Configuration):
 
     @property
     def base_side(self) -> NDArray[np.int64]:
-        """Side of the plane of the base's internal joints that O is on: 1 along (c2 - c1) x (c3 - c1), -1, 0 in it."""
+        """Side of O relative to the plane of the base's internal joints: 1 along (c2 - c1) x (c3 - c1), -1, 0 in it."""
         return self._base_side
 
     @property
@@ -100,13 +100,13 @@ class AssemblyModes(Configuration):
         return self._platform_side
 
     def __repr__(self) -> str:
-        """Say how many there are, or why none."""
+        """Show the number of modes, or the reason for having none."""
         if len(self.shape) != 1:
             return f"<AssemblyModes of shape {self.shape}>"
         return f"<{self.count} assembly modes: {self.status}{', ' + self.reason if self.reason else ''}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle everything."""
+        """Pickle all arrays."""
         return _restored, (self._arrays(), tuple(getattr(self, name) for name in AssemblyModes.__slots__))
 
 
@@ -120,11 +120,11 @@ def _restored(arrays: tuple[Floats, Floats, Floats], extra: tuple[Any, ...]) -> 
 def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | None = None) -> AssemblyModes:
     """Return every configuration that has the given leg lengths: all real assembly modes, up to 32.
 
-    O is one of two points over the base's internal joints and one of two over the platform's. For each of the four
-    combinations up to eight rotations fit the external legs. They are found by eliminating one angle, which leaves a
-    polynomial of degree eight; each root is polished on SO(3) until all nine lengths hold, and the number of modes is
-    held against the number of roots. Where that does not come out, a null-space method solves the branch again. Where
-    base and platform are flat, half the modes are mirror images of the other half.
+    The lower internal legs leave two points for O in the base frame, the upper ones two in the platform frame. For each
+    of the four combinations up to eight rotations fit the external legs. They are found by eliminating one angle, which
+    leaves a polynomial of degree eight. Each root is polished on SO(3) until all nine lengths hold, and the number of
+    modes is compared with the number of roots. If they differ, a null-space method solves the branch again. If base and
+    platform are planar, half the modes are mirror images of the other half.
 
     Parameters
     ----------
@@ -132,19 +132,19 @@ def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | 
     leg_lengths : array_like, shape (..., 9)
         l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b), >= 0, in the length unit of the geometry.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
     AssemblyModes
         A stack of configurations of shape (count,), with `status`, `reason`, `separation` and the sides of O. For many
-        rows, shape (..., most): `count` modes first, then NaN. The order is that of the branches and has no other
-        meaning. Lengths that allow no configuration, or infinitely many, give an empty stack and a status that says so.
+        rows, shape (..., most): `count` modes first, then NaN. The order is that of the branches. Lengths
+        with no configuration, or with infinitely many, give an empty stack and the corresponding status.
 
     Raises
     ------
     ValueError
-        If a length is negative or infinite, or all nine are zero. NaN is refused too in a single row; in a stack it
+        If a length is negative or infinite, or all nine are zero. NaN is invalid in a single row; in a stack it
         marks a row without data.
 
     Examples
@@ -161,8 +161,7 @@ def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | 
     <PositionStatus.INFEASIBLE: 'infeasible'>
 
     """
-    if not isinstance(geometry, Geometry):
-        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    require_geometry(geometry)
     lengths = as_floats("leg_lengths", leg_lengths, (9,))
     if lengths.ndim == 1 and np.isnan(lengths).any():
         raise ValueError("leg_lengths: got NaN, expected nine finite lengths >= 0")
@@ -189,7 +188,7 @@ def _modes(
     reason: list[str],
     certain: NDArray[np.uint8],
 ) -> AssemblyModes:
-    """Arrange the modes of all rows, one after the other in the core's answer, as a padded stack."""
+    """Arrange the modes of all rows, which the core returns one after the other, as a padded stack."""
     most = int(counts.max(initial=0))
     places = np.repeat(np.arange(len(counts)) * most, counts) + _positions_in_row(counts)
     padded = np.full((len(counts) * most, 15), np.nan)
@@ -219,6 +218,6 @@ def _modes(
 
 
 def _positions_in_row(counts: NDArray[np.intc]) -> NDArray[np.int64]:
-    """0, 1, ... within each row."""
+    """Return 0, 1, ... within each row."""
     ends = np.cumsum(counts)
     return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)

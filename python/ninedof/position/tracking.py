@@ -1,4 +1,4 @@
-"""Direct position analysis for control: the assembly mode a robot goes on in."""
+"""Direct position analysis for control: follows the assembly mode of a known configuration."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ class TrackStatus(StrEnum):
     TRACKED = "tracked"
     """Reached, and certified to be the only mode near the start of the last step."""
     LOST = "lost"
-    """Not reached: on the straight way of the lengths the mode meets another, or O a plane of internal joints."""
+    """Not reached: on the straight path of the lengths the mode meets another, or O a plane of internal joints."""
     INFEASIBLE = "infeasible"
-    """The internal legs do not meet, or an external leg is too long or too short for O where it is."""
+    """The internal legs do not meet, or an external leg is too long or too short for the position of O."""
 
 
 class Tracked(Configuration):
-    """Configurations reached, with the certificate of each; NaN where a mode was not reached."""
+    """Configurations reached, with their certificates; NaN where a mode was not reached."""
 
     __slots__ = ("_numbers", "_status")
     _numbers: Floats
@@ -43,8 +43,8 @@ class Tracked(Configuration):
     def certificate(self) -> Any:
         """Kantorovich's number h = sqrt(3) beta eta at the start of the last step, shape (...).
 
-        Up to 1/2, Newton's method is proved to converge, and to the only mode within `alone_within`. Above it a tracked
-        mode is certified from its own side: the start is nearer than 0.385 times its `separation`.
+        For h <= 1/2 Newton's method is proved to converge, and to the only mode within `alone_within`. Above 1/2 a
+        tracked mode is certified because the start is nearer than 0.385 times its `separation`.
         """
         return self._numbers[..., 0][()]
 
@@ -55,17 +55,17 @@ class Tracked(Configuration):
 
     @property
     def separation(self) -> Any:
-        """As in AssemblyModes: how far the mode is from meeting another, shape (...)."""
+        """Separation of the mode from the nearest other one, as in AssemblyModes, shape (...)."""
         return self._numbers[..., 2][()]
 
     @property
     def steps(self) -> Any:
-        """Into how many steps the way had to be divided, shape (...)."""
+        """Number of steps into which the path was divided, shape (...)."""
         return self._numbers[..., 3].astype(np.int64)[()]
 
     @property
     def reached(self) -> Any:
-        """Fraction of the way from the lengths of the start to the lengths asked for, shape (...); 1 where tracked."""
+        """Fraction of the path from the lengths of the start to the given ones, shape (...); 1 where tracked."""
         return self._numbers[..., 4][()]
 
     def __repr__(self) -> str:
@@ -75,7 +75,7 @@ class Tracked(Configuration):
         return f"<{self.status}: {super().__repr__()}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle everything."""
+        """Pickle all arrays."""
         return _restored, (self._arrays(), self._numbers, self._status)
 
 
@@ -86,32 +86,32 @@ def _restored(arrays: tuple[Floats, Floats, Floats], numbers: Floats, status: An
 
 
 def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, threads: int | None = None) -> Tracked:
-    """Return the assembly mode reached from `start` when the leg lengths go straight to the given ones.
+    """Return the assembly mode reached from `start` when the leg lengths change along a straight path.
 
-    O stays on its side of the plane of the base's internal joints and of that of the platform's, where three spheres
-    give it in closed form. The rotation follows by Newton's method on SO(3). A step counts if Kantorovich's theorem
-    proves beforehand that Newton converges, or if the mode found proves it afterwards; otherwise the way is divided.
-    Lengths between the ends of a step are not looked at. To pass a singularity the lengths would have to say which way
-    to go: the mode is lost there, and nothing is returned.
+    O stays on its side of the plane of the base's internal joints and of that of the platform's, and follows in closed
+    form from three spheres. The rotation follows by Newton's method on SO(3). A step is accepted if Kantorovich's
+    theorem proves beforehand that Newton's method converges, or if the separation of the mode reached proves it
+    afterwards; otherwise the step is divided. Lengths between the ends of a step are not examined. At a singularity the
+    mode can continue in two ways: it is lost there, and NaN is returned.
 
     Parameters
     ----------
     geometry : Geometry
     leg_lengths : array_like
         Shape (..., 9), broadcast against `start`: one step each. With one dimension more than `start` has, shape
-        (..., n, 9): a trajectory of n steps each, every one from where the last one ended.
+        (..., n, 9): a trajectory of n steps, each from the configuration of the one before.
     start : Configuration
-        Where the robot is known to be, shape (...). Its own lengths are where the way begins.
+        The known configuration, shape (...). The path of the lengths begins at its own lengths.
     threads : int, optional
-        For a stack of starts; one a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
     Tracked
         Configurations of the shape of `leg_lengths` without its last dimension, with `status`, `certificate`,
-        `alone_within`, `separation`, `steps` and `reached`. NaN from where the mode is lost or the lengths are
-        infeasible on, and from a row of lengths with NaN on, which counts as lost; `forward_position` lists what modes
-        there are then.
+        `alone_within`, `separation`, `steps` and `reached`. NaN from the step on where the mode is lost or
+        the lengths are infeasible, or where a row of lengths has NaN, which counts as lost. `forward_position` lists
+        the modes for such lengths.
 
     Raises
     ------

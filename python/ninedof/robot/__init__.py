@@ -1,1 +1,1 @@
-"""Geometry and configuration: what is built, and where it stands."""
+"""Geometry and configuration of the robot."""

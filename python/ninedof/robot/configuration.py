@@ -1,4 +1,4 @@
-"""Where the robot stands: one configuration or a stack of them."""
+"""Configurations of the robot: a single one or a stack."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof import _core
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen
+from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen, without_infinity
 
 __all__ = ["Configuration"]
 
@@ -33,7 +33,7 @@ class Configuration:
     ------
     ValueError
         If a shape does not fit, a number is not finite, or a matrix is not a proper rotation (to 1e-9). In a stack NaN
-        is allowed: it marks a pose without data, and every result for that pose alone is NaN.
+        is allowed: it marks a pose without data, for which every result is NaN.
 
     Examples
     --------
@@ -70,7 +70,8 @@ class Configuration:
         zp, zs : array_like
             Heights of the platform and of O above the base, length units; any shapes that broadcast.
         theta_z : array_like
-            Twist of the platform, radians. The paper has 0; its eq. (7) claims no gain from it, wrongly.
+            Rotation of the platform about z, radians. The paper uses 0; its claim in eq. (7) that other values
+            bring no gain is not correct.
 
         """
         shape, arrays = broadcast_leading(
@@ -86,7 +87,7 @@ class Configuration:
 
     @classmethod
     def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Self:
-        """Take arrays that have been checked before."""
+        """Build from arrays that have already been checked."""
         new = cls.__new__(cls)
         new._position, new._rotation, new._internal_point = map(frozen, (position, rotation, internal_point))
         return new
@@ -111,17 +112,17 @@ class Configuration:
 
     @property
     def position(self) -> Floats:
-        """P, shape (..., 3)."""
+        """Position p of the platform origin, shape (..., 3)."""
         return self._position
 
     @property
     def rotation(self) -> Floats:
-        """Q, shape (..., 3, 3)."""
+        """Rotation Q of the platform, shape (..., 3, 3)."""
         return self._rotation
 
     @property
     def internal_point(self) -> Floats:
-        """S, shape (..., 3)."""
+        """Internal point s, shape (..., 3)."""
         return self._internal_point
 
     @property
@@ -136,7 +137,7 @@ class Configuration:
         return self.shape[0]
 
     def __getitem__(self, index: Any) -> Configuration:
-        """Pick configurations from a stack, indexed along the leading dimensions."""
+        """Select configurations from a stack by indices along the leading dimensions."""
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
@@ -144,7 +145,7 @@ class Configuration:
         return Configuration._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
 
     def __bool__(self) -> bool:
-        """Be true, as objects are; the length of a stack does not matter."""
+        """Return True also for an empty stack."""
         return True
 
     def __eq__(self, other: object) -> bool:
@@ -154,7 +155,7 @@ class Configuration:
         pairs = zip(self._arrays(), other._arrays(), strict=True)
         return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
 
-    __hash__ = None  # type: ignore[assignment]  # a stack of arrays, as numpy's own
+    __hash__ = None  # type: ignore[assignment]  # as for numpy arrays
 
     def __repr__(self) -> str:
         """Show the numbers of a single configuration, or the shape of a stack."""
@@ -171,10 +172,15 @@ class Configuration:
         return self._position, self._rotation, self._internal_point
 
 
-def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
-    """Return what the core takes: the geometry, and (n, 3), (n, 3, 3), (n, 3). A swapped argument is named."""
+def require_geometry(geometry: Any) -> None:
+    """Raise ValueError unless it is a Geometry."""
     if not isinstance(geometry, Geometry):
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+
+
+def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+    """Return the operands of the core: the geometry, and arrays (n, 3), (n, 3, 3), (n, 3)."""
+    require_geometry(geometry)
     if not isinstance(configuration, Configuration):
         raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
     p, q, s = configuration.position, configuration.rotation, configuration.internal_point
@@ -187,8 +193,7 @@ def operands_with(
     """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands, and (n, k) arrays."""
     operands(geometry, configuration)
     for name, values in others.items():
-        if np.isinf(values).any():
-            raise ValueError(f"{name}: got an infinite number, expected finite ones")
+        without_infinity(name, values)
     p, q, s = configuration.position, configuration.rotation, configuration.internal_point
     named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
     shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
@@ -197,7 +202,7 @@ def operands_with(
 
 
 def single(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
-    """Return what the core takes of one configuration; a stack is refused."""
+    """Return the operands of the core for a single configuration; a stack raises ValueError."""
     flat = operands(geometry, configuration)
     if configuration.shape:
         raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")

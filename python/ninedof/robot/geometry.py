@@ -1,4 +1,4 @@
-"""What is fixed once the robot is built. The class lives in the compiled core; this is its public place."""
+"""The geometry of the robot. The class is defined in the compiled core."""
 
 from ninedof._core import Geometry
 

@@ -1,4 +1,4 @@
-"""How far errors of legs and joints move the platform: first-order bounds, and samples without linearization."""
+"""Effect of errors of legs and joints on the pose: first-order bounds, and samples without linearization."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ninedof.support.arrays import Floats, one_or_each, thread_argument
 
 __all__ = ["ErrorBounds", "error_bounds", "error_map", "error_samples"]
 
-CHUNK = 20_000  # samples between two looks at the keyboard: some hundredths of a second
+CHUNK = 20_000  # samples per call of the core, some hundredths of a second: Ctrl-C is checked between chunks
 
 
 class ErrorBounds(NamedTuple):
@@ -24,20 +24,20 @@ class ErrorBounds(NamedTuple):
     components: Floats
     """Largest modulus of each of (rotation, displacement of p, displacement of O), base axes, shape (..., 9)."""
     rotation: Any
-    """Largest angle by which the platform is turned, rad, shape (...)."""
+    """Largest rotation angle of the platform, rad, shape (...)."""
     position: Any
-    """Largest distance of p from its place, shape (...)."""
+    """Largest displacement of p, shape (...)."""
     internal_point: Any
-    """Largest distance of O from its place, shape (...)."""
+    """Largest displacement of O, shape (...)."""
     covariance: Floats
-    """Of (rotation, p, s), errors independent and uniform within their tolerances, shape (..., 9, 9)."""
+    """Covariance of (rotation, p, s) for independent uniform errors within the tolerances, shape (..., 9, 9)."""
 
 
 def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
-    """Return how (rotation, p, s) move for each unit of error in the nine leg lengths: H^-1 of eqs. (24)-(26).
+    """Return the change of (rotation, p, s) per unit of error in the nine leg lengths: H^-1 of eqs. (24)-(26).
 
-    A joint that is off by d acts as a leg that is longer by the component of d along it, where the leg begins (r_i,
-    r^_i and u~_i), and shorter by as much where it ends (u_i). Legs point as e, e~ and e^ do.
+    An error d of a joint at the beginning of a leg (r_i, r^_i and u~_i) acts like a leg that is longer by the component
+    of d along it, an error at its end (u_i) like a shorter leg. Directions are those of e, e~ and e^.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
     -------
     numpy.ndarray, shape (..., 9, 9)
         Rows: rotation vector (rad/length), displacement of p, displacement of O, base axes. The first six are the
-        Jacobian for l_c = 1. At a singular configuration rows of what the lengths do not determine are infinite: all
-        nine where O lies in the plane of the lower joints, else the first six.
+        Jacobian for l_c = 1. At a singular configuration the rows that the lengths do not determine are infinite: all
+        nine if O lies in the plane of the lower joints, else the first six.
 
     """
     return _core.error_map(*operands(geometry, configuration), 0).reshape(*configuration.shape, 9, 9)
@@ -59,13 +59,13 @@ def error_map(geometry: Geometry, configuration: Configuration) -> Floats:
 def error_bounds(
     geometry: Geometry, configuration: Configuration, leg_errors: ArrayLike = 0.0, joint_errors: ArrayLike = 0.0
 ) -> ErrorBounds:
-    """Return how far errors within tolerances can move the platform and O, to first order, and their covariance.
+    """Return first-order bounds and the covariance of the motion of platform and O for errors within tolerances.
 
-    A joint centre that is off by d changes what its leg spans by the component of d along the leg, so a ball of radius
-    rho adds exactly rho to the tolerance of that leg, and every set of errors is a point of a box of nine lengths. A
-    linear map of a box is largest at a corner: `components` are sums of moduli, the three distances the largest over
-    all corners. All are attained, each by errors of its own. What is left out is of second order in the tolerances;
-    `error_samples` has it.
+    An error d of a joint centre changes the effective length of its leg by the component of d along the leg. So a ball
+    of radius rho adds exactly rho to the tolerance of that leg, and every set of errors is a point of a box of nine
+    lengths. A linear map of a box has its largest value at a corner: `components` are sums of moduli, the three
+    distances the maxima over all corners. All are attained, for different errors. The neglected terms are of second
+    order in the tolerances; `error_samples` includes them.
 
     Parameters
     ----------
@@ -73,18 +73,18 @@ def error_bounds(
     configuration : Configuration
         Shape (...).
     leg_errors : float or array_like of shape (..., 9)
-        A leg is off by at most this, either way; the same for all, or in the order of `leg_lengths`. None by default.
+        Largest error of a leg, in both directions; the same for all, or in the order of `leg_lengths`. 0 by default.
     joint_errors : float or array_like of shape (..., 12)
-        A joint centre lies within this distance of where it should be; the same for all, or three for each triple in
-        the order of `Geometry` (base external, base internal, platform external, platform internal). None by default.
-        Each joint errs on its own, coincident ones too. O has no error: it is where the six legs meet.
+        Largest distance of a joint centre from its nominal position; the same for all, or three for each triple in the
+        order of `Geometry` (base external, base internal, platform external, platform internal). 0 by default. Errors
+        of coincident joints are independent. The joint at O has no error: six legs meet in it exactly.
 
     Returns
     -------
     ErrorBounds
         Lengths in the unit of the input. The standard deviation of a component is the root of a diagonal entry of
         `covariance`; a leg contributes the variance t^2/3 of its interval, a joint rho^2/5 along its leg. Infinite
-        where a singular configuration leaves it undetermined (in the covariance, NaN beside the diagonal).
+        if not determined at a singular configuration (in the covariance, NaN off the diagonal).
 
     Raises
     ------
@@ -117,17 +117,17 @@ def error_samples(
     seed: int = 0,
     threads: int | None = None,
 ) -> Floats:
-    """Return where robots with random errors stand when they are told to take a configuration: Monte Carlo.
+    """Return the configurations that robots with random errors reach for an intended configuration: Monte Carlo.
 
-    Each sample is a robot whose joints are off by points of a ball and whose legs are off by numbers of an interval,
-    all independent and uniform. It is told the leg lengths of the intended configuration, and the configuration it
-    takes is solved for, without linearization.
+    Each sample is a robot with joint errors in a ball and leg errors in an interval, all independent and uniform. It is
+    set to the leg lengths of the intended configuration, and the configuration it reaches is computed without
+    linearization.
 
     Parameters
     ----------
     geometry : Geometry
     configuration : Configuration
-        A single one, the intended.
+        The intended configuration, a single one.
     leg_errors : float or array_like of shape (9,)
     joint_errors : float or array_like of shape (12,)
         Tolerances as in `error_bounds`.
@@ -135,14 +135,14 @@ def error_samples(
     seed : int
         The same seed gives the same samples, and the first samples of a longer run are those of a shorter one.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
     numpy.ndarray, shape (samples, 9)
         Tangent (rotation vector, displacement of p, displacement of O) from the intended configuration to the one
-        taken, base axes; `configuration.moved(tangent)` is the latter. A row is NaN where no configuration can be
-        followed from the intended one: errors too great, or the configuration singular.
+        reached, base axes; `configuration.moved(tangent)` is the latter. A row is NaN if no configuration can be
+        tracked from the intended one: errors too large, or a singular configuration.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def error_samples(
     if shape:
         raise ValueError(f"leg_errors, joint_errors: got a stack of shape {shape}, expected those of one robot")
     out = np.empty((count, 9))
-    for first in range(0, count, CHUNK):  # the core hears no Ctrl-C
+    for first in range(0, count, CHUNK):  # Ctrl-C is checked between chunks
         size = min(CHUNK, count - first)
         out[first : first + size] = _core.error_samples(*flat, tolerances, first, size, key, workers)
     return out

@@ -1,4 +1,4 @@
-"""Velocity and force ellipsoids: what unit leg rates and unit leg forces can do (Fig. 4)."""
+"""Velocity and force ellipsoids: the effect of unit leg rates and unit leg forces (Fig. 4)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Ellipsoid(NamedTuple):
     """Ellipsoids around 0 in n = 3 or 6 dimensions; leading dimensions are those of the configuration."""
 
     directions: Floats
-    """Orthonormal columns, one an axis, base axes, the entry of largest modulus positive, shape (..., n, n)."""
+    """Orthonormal columns, one per axis, base axes, the entry of largest modulus positive, shape (..., n, n)."""
     semi_axes: Floats
     """Descending, shape (..., n)."""
 
@@ -44,10 +44,10 @@ def velocity_ellipsoid(
     part: str = "translation",
     characteristic_length: ArrayLike | str = 1.0,
 ) -> Ellipsoid:
-    """Return the velocities of the platform that leg rates of norm 1 at most produce: Fig. 4.
+    """Return the velocities of the platform for leg rates of norm at most 1: Fig. 4.
 
-    The image of the unit ball of all nine leg rates under J', or under three of its rows. It is found from the least
-    leg rates that a velocity needs, so it exists at a singular configuration.
+    The image of the unit ball of all nine leg rates under J', or under three of its rows. It is computed from the
+    least leg rates for a velocity, so it exists also at a singular configuration.
 
     Parameters
     ----------
@@ -57,14 +57,14 @@ def velocity_ellipsoid(
     part : {"translation", "rotation", "twist"}
         pdot alone (n = 3), l_c omega alone (n = 3), or both, (l_c omega, pdot) (n = 6).
     characteristic_length : float, array_like of shape (...), or str
-        Length l_c > 0, or a kind as in `characteristic_length`; nothing to "translation". With the default 1 the
+        Length l_c > 0, or a kind as in `characteristic_length`; no effect on "translation". With the default 1 the
         semi-axes of "rotation" are in rad per unit of length.
 
     Returns
     -------
     Ellipsoid
-        Semi-axes are singular values of J' or of its rows: speed per unit of leg rate. Infinite, in the right
-        direction, where locked legs leave a motion free; finite where the free motion leaves this part at rest.
+        Semi-axes are singular values of J' or of its rows: speed per unit of leg rate. At a singular
+        configuration the axis along a free motion is infinite, unless the free motion does not contain this part.
 
     Examples
     --------
@@ -86,10 +86,10 @@ def force_ellipsoid(
     part: str = "translation",
     characteristic_length: ArrayLike | str = 1.0,
 ) -> Ellipsoid:
-    """Return the loads on the platform that leg forces of norm 1 at most balance, with no force on O.
+    """Return the loads on the platform that leg forces of norm at most 1 balance, without a force on O.
 
     {w : |J'^T w| <= 1} for w = (moment about p / l_c, force): the polar of the velocity ellipsoid, with the same
-    directions and reciprocal semi-axes, so that the direction of the greatest speed is that of the least force.
+    directions and reciprocal semi-axes, so that the direction of the largest speed is that of the smallest force.
 
     Parameters
     ----------
@@ -105,8 +105,7 @@ def force_ellipsoid(
     Returns
     -------
     Ellipsoid
-        Semi-axes: load per unit of leg force. 0, in the right direction, where no leg force holds a load at a singular
-        configuration.
+        Semi-axes: load per unit of leg force. At a singular configuration 0 along the loads that no leg forces balance.
 
     Examples
     --------

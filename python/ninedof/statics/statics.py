@@ -1,4 +1,4 @@
-"""Leg forces that balance a load, the self-stresses of a singular configuration, stiffness."""
+"""Leg forces that balance a load, self-stresses of singular configurations, stiffness."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ __all__ = ["LegForces", "leg_forces", "self_stress", "stiffness"]
 
 
 class LegForces(NamedTuple):
-    """The legs' answer to a load; leading dimensions are those of the configuration and the load."""
+    """Leg forces for a load; leading dimensions are those of the configuration and the load."""
 
     forces: Floats
-    """In the order of `leg_lengths`, positive where the leg pushes, shape (..., 9)."""
+    """In the order of `leg_lengths`, positive if the leg pushes, shape (..., 9)."""
     unbalanced: Floats
-    """What no leg forces carry: moment, force and force at O, shape (..., 9). Exactly 0 unless singular."""
+    """The part that no leg forces balance: moment, force and force at O, shape (..., 9). Exactly 0 unless singular."""
 
 
 def leg_forces(
@@ -31,12 +31,11 @@ def leg_forces(
     force: ArrayLike,
     force_at_o: ArrayLike = (0.0, 0.0, 0.0),
 ) -> LegForces:
-    """Return the forces with which the legs balance a load.
+    """Return the leg forces that balance a load.
 
-    Virtual work: with H of eqs. (24)-(26), udot = H (omega, pdot, sdot), legs at forces f feed in the power f.udot, so
-    H^T f + load = 0. Nine forces hold nine coordinates: apart from singular configurations there is one such f, and
-    the redundancy leaves no choice but where O is put. At a singular configuration f is the one of least norm, to
-    which any `self_stress` may be added.
+    Virtual work: with H of eqs. (24)-(26), udot = H (omega, pdot, sdot), the leg forces f have the power f.udot, so
+    H^T f + load = 0. At a regular configuration f is unique: the redundancy lies in the choice of O and not in the
+    forces. At a singular configuration f is the solution of least norm, to which any `self_stress` may be added.
 
     Parameters
     ----------
@@ -44,7 +43,7 @@ def leg_forces(
     configuration : Configuration
         Shape (...).
     moment, force : array_like, shape (..., 3)
-        Load on the platform from outside: moment about its origin p (force times length) and force, base axes. They
+        External load on the platform: moment about its origin p (force times length) and force, base axes. They
         broadcast against the configuration.
     force_at_o : array_like, shape (..., 3)
         Load on the internal point; none by default.
@@ -52,10 +51,9 @@ def leg_forces(
     Returns
     -------
     LegForces
-        `forces` are positive where a leg pushes, that is, works to become longer; a leg of zero length gets 0.
-        At a singular configuration `unbalanced` is the part of the load that works on the motions which locked legs
-        leave free, and `forces` balance the rest (moments weighed by the platform radius). A load with an unbalanced
-        part moves the machine, whatever the legs do.
+        `forces` are positive where a leg pushes; 0 for a leg of zero length. At a singular configuration `unbalanced`
+        is the part of the load that works on the free motions with locked legs, and `forces` balance the rest (moments
+        are divided by the platform radius). A load with an unbalanced part moves the robot for any leg forces.
 
     Examples
     --------
@@ -79,7 +77,7 @@ def leg_forces(
 
 
 def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
-    """Return the leg forces that are in balance without any load: the null space of H^T.
+    """Return the leg forces that are in equilibrium without a load: the null space of H^T.
 
     Parameters
     ----------
@@ -91,13 +89,13 @@ def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
     -------
     numpy.ndarray, shape (9, k)
         Orthonormal columns, the entry of largest modulus positive. k = 0 at a regular configuration; k is also the
-        number of independent motions that locked legs leave free. A leg of zero length has no direction, and a column
-        of its own. One column of NaN where the configuration has NaN.
+        number of independent free motions with locked legs. A leg of zero length has no direction and contributes a
+        column. One column of NaN if the configuration has NaN.
 
     Raises
     ------
     ValueError
-        If the configuration is a stack: k may differ from one to the next.
+        If the configuration is a stack: k may differ between configurations.
 
     Examples
     --------
@@ -115,14 +113,14 @@ def self_stress(geometry: Geometry, configuration: Configuration) -> Floats:
 def stiffness(
     geometry: Geometry, configuration: Configuration, leg_stiffness: ArrayLike, internal: bool = False
 ) -> Floats:
-    """Return the stiffness matrix of the platform, actuators locked, O free to settle.
+    """Return the stiffness matrix of the platform with locked actuators and O free.
 
-    Springs of stiffness k in the nine legs make the 9x9 matrix K9 = H^T diag(k) H over (rotation, p, s). Nothing but
-    the legs holds O, so it settles where the spring energy is least, and what the platform feels is the Schur
-    complement of K9: K = (J diag(1/k) J^T)^-1 with the 6x9 Jacobian J for l_c = 1. The textbook J^-T diag(k) J^-1 has
-    no meaning here, since J is not square. With the pseudo-inverse in place of J^-1 it is too stiff unless all k are
-    equal: O would sit where the changes of length are least, not the energy. K is found by an orthogonal factorization
-    of sqrt(k) H, never by inverting: at a singular configuration it is finite, and singular.
+    Springs of stiffness k in the nine legs make the 9x9 matrix K9 = H^T diag(k) H over (rotation, p, s). Only the
+    legs hold O, so it moves to the minimum of the spring energy, and the stiffness of the platform is the Schur
+    complement of K9: K = (J diag(1/k) J^T)^-1 with the 6x9 Jacobian J for l_c = 1. The textbook J^-T diag(k) J^-1 does
+    not apply, because J is not square. With the pseudo-inverse in place of J^-1 it is too stiff unless all k are equal:
+    O would minimize the changes of length and not the energy. K is computed by an orthogonal factorization of
+    sqrt(k) H without an inverse: at a singular configuration it is finite and singular.
 
     Parameters
     ----------
@@ -130,18 +128,17 @@ def stiffness(
     configuration : Configuration
         Shape (...).
     leg_stiffness : float or array_like of shape (..., 9)
-        k >= 0, force/length, the same for all legs or in the order of `leg_lengths`; 0 for a leg that is missing.
+        k >= 0, force/length, the same for all legs or in the order of `leg_lengths`; 0 for a missing leg.
         Broadcasts against the configuration.
     internal : bool
-        Whether to return K9, which holds O as well; by default K.
+        Whether to return K9, for displacements of platform and O; by default K.
 
     Returns
     -------
     numpy.ndarray, shape (..., 6, 6), or (..., 9, 9)
         Symmetric and positive semidefinite. (Moment about the platform origin p, force) for a small displacement
         (rotation, translation of p), base axes; followed by force and displacement of O with `internal`. It is the
-        stiffness of a machine without load: what preloaded legs add by changing direction (the geometric stiffness) is
-        left out.
+        stiffness without load: the geometric stiffness of preloaded legs is not included.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""Arrays, arguments, angles and optional dependencies: knows nothing of robots."""
+"""Arrays, arguments, angles and optional dependencies, independent of robots."""

@@ -1,4 +1,4 @@
-"""Degrees at the edges where a person types them, named so; radians everywhere else."""
+"""Degrees where a person types or reads angles; radians everywhere else."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ninedof.support.arguments import Vector, vector
 
 __all__ = ["exact_degrees", "rotation_entry", "vector_argument"]
 
-DIGITS = 9  # of degrees: what a person types has fewer
+DIGITS = 9  # decimals of degrees: more than a person types
 
 
 def exact_degrees(*radians: float) -> tuple[float, ...] | None:
-    """Return the short degrees that mean exactly these radians, or None if there are none.
+    """Return the short degrees that convert to exactly these radians, or None if there are none.
 
-    A file then shows the 45 that was typed, and reading it back still gives the same bits.
+    A file can then show the 45 that was typed, and reading it gives the same bits.
     """
     degrees = tuple(round(math.degrees(x), DIGITS) for x in radians)
     same = all(math.radians(d) == x for d, x in zip(degrees, radians, strict=True))
@@ -23,7 +23,7 @@ def exact_degrees(*radians: float) -> tuple[float, ...] | None:
 
 
 def vector_argument(name: str, radians: Any, degrees: Any, least: float = -math.inf) -> Vector:
-    """Return three angles in radians, given as `name` in radians or as `name`_deg in degrees; zero if neither is."""
+    """Return three angles in radians, given as `name` or, in degrees, as `name`_deg; zero by default."""
     if radians is not None and degrees is not None:
         raise ValueError(f"{name}: got both {name} and {name}_deg, expected one of the two")
     if degrees is not None:
@@ -33,6 +33,6 @@ def vector_argument(name: str, radians: Any, degrees: Any, least: float = -math.
 
 
 def rotation_entry(name: str, radians: Vector) -> dict[str, list[float]]:
-    """Return the entry of a file for three angles: in degrees if that is exact."""
+    """Return the entry of a file for three angles, in degrees if that is exact."""
     degrees = exact_degrees(*radians)
     return {name: list(radians)} if degrees is None else {f"{name}_deg": list(degrees)}

@@ -1,4 +1,4 @@
-"""Checks and broadcasting at the Python side of the array boundary."""
+"""Checks and broadcasting of array arguments for the compiled core."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:
 
 
 def one_or_each(name: str, value: ArrayLike, count: int) -> Floats:
-    """Return one number for all of `count` things, or an array (..., count), as an array (..., count)."""
+    """Return one number for all, or an array (..., count), as an array (..., count)."""
     array = as_floats(name, value, ())
     return np.full(count, array) if array.ndim == 0 else as_floats(name, array, (count,))
 
@@ -50,7 +50,7 @@ def broadcast_leading(arrays: dict[str, tuple[Floats, int]]) -> tuple[tuple[int,
 
 
 def leading_shape(arrays: dict[str, tuple[Floats, int]]) -> tuple[int, ...]:
-    """Return the shape to which they broadcast."""
+    """Return the shape to which the leading dimensions broadcast."""
     leading = [a.shape[: a.ndim - trailing] for a, trailing in arrays.values()]
     try:
         return np.broadcast_shapes(*leading)
@@ -60,10 +60,17 @@ def leading_shape(arrays: dict[str, tuple[Floats, int]]) -> tuple[int, ...]:
 
 
 def frozen(array: Floats) -> Floats:
-    """Return a read-only C-contiguous array that shares no memory with a caller's."""
+    """Return a read-only C-contiguous copy."""
     own = np.array(array, dtype=np.float64, order="C", copy=True)
     own.flags.writeable = False
     return own
+
+
+def without_infinity(name: str, values: Floats) -> Floats:
+    """Return `values`, or raise ValueError if one is infinite. NaN is allowed: it marks missing data."""
+    if np.isinf(values).any():
+        raise ValueError(f"{name}: got an infinite number, expected finite ones")
+    return values
 
 
 def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:

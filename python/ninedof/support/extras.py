@@ -1,4 +1,4 @@
-"""Optional packages: asked for in one place, which says what to install."""
+"""Optional packages, imported in one place with a message that says what to install."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ __all__ = ["MissingExtra", "optional"]
 
 
 class MissingExtra(ImportError):
-    """A package that only some users need is not installed."""
+    """An optional package is not installed."""
 
 
 def optional(module: str, extra: str, purpose: str) -> Any:
-    """Return an optional package, or say how to get it.
+    """Return an optional package, or raise with the command that installs it.
 
     Parameters
     ----------
     module : str
-        What is imported, "xarray".
+        Name of the module, such as "xarray".
     extra : str
-        The extra of this package that installs it.
+        The extra of ninedof that installs it.
     purpose : str
-        What it is needed for, as the subject of a sentence.
+        What needs it, as the subject of a sentence.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The characteristic length chosen from the robot itself.
+"""The characteristic length computed from the robot.
 
 Oracles: the definition of each kind, evaluated on numpy's J'; for the optimal one a scan that knows nothing of slopes.
 """
@@ -57,7 +57,7 @@ def test_optimal_is_not_beaten_by_any_length_of_a_scan(seed):
 def test_lengths_scale_with_the_robot(seed, kind, unit):
     m = random_robot(seed)
     other = model.Robot(*(x if name == "Q" else x * unit for name, x in m._asdict().items()))
-    # The optimum is flat or kinked: its place is known to the square root of rounding where it is flat.
+    # The optimum is flat or kinked: where it is flat its position is accurate to the square root of rounding.
     assert_allclose(length(other, kind), unit * length(m, kind), rtol=1e-5 if kind == "optimal" else 1e-10)
     assert_allclose(
         nd.condition_number(other.geometry(), other.configuration(), kind),
@@ -67,7 +67,7 @@ def test_lengths_scale_with_the_robot(seed, kind, unit):
 
 
 def test_octahedral_design_by_hand():
-    """Section 5 of the velocity note: lc = b1 / 3 is optimal there, and natural by the same symmetry."""
+    """docs/theory/conditioning.md: lc = b1 / 3 is both optimal and natural."""
     side = np.sqrt(2.0)
     g = nd.Geometry.hexagonal(a1=0.0, a2=side, b1=side, b2=0.0)
     c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
@@ -98,7 +98,7 @@ def test_no_length_helps_a_singular_pose(published):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_singular_and_missing_poses_do_not_spoil_a_stack(published, kind):
-    """A sweep with the kind named in one call: the singular pose is infinite, the missing one NaN, the others stand."""
+    """A kind in one call for a stack: the singular pose is infinite, the missing one NaN, the others are unchanged."""
     good = nd.Configuration.neutral(4.0, [0.0, 2.0, 2.5])
     p = np.array(good.position)
     p[2, 0] = np.nan

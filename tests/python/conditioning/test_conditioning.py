@@ -78,7 +78,7 @@ def test_bounds_between_the_indices(seed):
 
 
 def test_octahedral_design():
-    """Theory of position and velocity, section 5: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
+    """docs/theory/conditioning.md: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
     g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
     c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
     lc = np.sqrt(2.0) / 3.0
@@ -91,7 +91,7 @@ def test_octahedral_design():
 
 
 def test_nearly_isotropic_design():
-    """Theory of limits, section 2: rho = 5 gives kappa = sqrt(1.12) exactly."""
+    """docs/theory/limits.md: rho = 5 gives kappa = sqrt(1.12) exactly."""
     side, p, s = np.sqrt(1.0 / 13.0), np.array([0.0, 0.0, 6.0]), np.array([0.0, 0.0, 1.0])
     turn = Rotation.from_euler("z", [[0.0], [-120.0], [-240.0]], degrees=True).as_matrix()
     external_base, external_platform = turn @ [0.7, -3.0, 6.2], turn @ [0.7, 1.0, 6.2] - p
@@ -109,7 +109,7 @@ def test_published_design(published, zs, kappa):
 
 
 def test_published_pose_is_not_stationary_in_theta_z(published):
-    """Against eq. (7): turning by 0.05 rad lowers the condition number from 3.9071 to 3.8819."""
+    """Contrary to eq. (7), a rotation by 0.05 rad lowers the condition number from 3.9071 to 3.8819."""
     c = nd.Configuration.neutral(3.9828, 2.4432, [0.0, 0.05])
     assert_allclose(nd.condition_number(published, c), [3.9071, 3.8819], atol=5e-5)
 
@@ -155,7 +155,7 @@ def test_mirror_image(seed):
 
 @given(*[st.floats(0.1, 5.0)] * 4, st.floats(-3.0, 3.0))
 def test_hexagons_with_sides_exchanged(a1, a2, b1, b2, theta):
-    """a1 <-> a2 with b1 <-> b2 is a mirror image, which turns the twist round."""
+    """a1 <-> a2 with b1 <-> b2 is a mirror image, which reverses the rotation theta_z."""
     c, other = nd.Configuration.neutral(3.0, 1.2, theta), nd.Configuration.neutral(3.0, 1.2, -theta)
     g, mirrored = nd.Geometry.hexagonal(a1, a2, b1, b2), nd.Geometry.hexagonal(a2, a1, b2, b1)
     sigma = nd.singular_values(g, c)

@@ -1,4 +1,4 @@
-"""The array boundary of the indices: shapes, stacks, `out`, threads, and what is refused.
+"""The array boundary of the indices: shapes, stacks, `out`, threads, and invalid arguments.
 
 Oracle: the same function called for one pose at a time.
 """
@@ -71,7 +71,7 @@ def test_out(published, stack, neutral, index):
         assert_array_equal(wrong, before)
 
 
-def test_out_in_fortran_order_is_refused(published):
+def test_out_in_fortran_order_is_rejected(published):
     grid = nd.Configuration.neutral([[3.0], [4.0]], [1.0, 1.5, 2.0])
     with pytest.raises(ValueError, match=r"^out: got"):
         nd.condition_number(published, grid, out=np.zeros((2, 3), order="F"))

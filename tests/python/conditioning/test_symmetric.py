@@ -1,4 +1,4 @@
-"""The closed form on the symmetry axis against everything that does not know it.
+"""The closed form on the symmetry axis against methods that do not use it.
 
 Three independent ways to the same six numbers: the package's triangular blocks (axis_singular_values), the package's
 general path (singular_values, which never sees the symmetry), numpy's SVD of an assembled J'; and, typed here, the
@@ -28,7 +28,7 @@ def closed_form(robots):
 
 
 def theory_note(m, lc=1.0):
-    """Section 2 of the conditioning note: singular values of J' from T0, D0, T1, D1, largest first."""
+    """docs/theory/closed-form.md: singular values of J' from T0, D0, T1, D1, largest first."""
     x, y, z, u, ut = (v[..., 0, :] for v in model.legs(m))
     e, et, eh = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (x, y, z))
     mm, n = np.cross(u, e) / lc, np.cross(ut, et) / lc
@@ -52,7 +52,7 @@ def theory_note(m, lc=1.0):
     return -np.sort(-1.0 / np.stack(values, axis=-1))
 
 
-def test_the_sample_is_worth_its_name(robots, closed_form):
+def test_the_sample_covers_good_and_bad_conditioning(robots, closed_form):
     kappa = closed_form[:, 0] / closed_form[:, 5]
     assert np.median(kappa) < 100.0
     assert kappa.max() > 1e5
@@ -72,7 +72,7 @@ def test_against_the_general_path(robots, closed_form):
     assert (np.abs(closed_form / found - 1.0) <= 20 * EPS * kappa).all()
 
 
-def test_against_the_theory_note(robots, closed_form):
+def test_against_the_formula_of_the_theory(robots, closed_form):
     expected = theory_note(robots)
     kappa = expected[:, 0] / expected[:, 5]
     # T^2 - 4 D^2 cancels where the two roots of a block meet: square root of rounding there, rounding elsewhere.
@@ -115,7 +115,7 @@ def test_singular_poses_are_infinite():
 
 
 def test_internal_point_over_its_base_joints():
-    """|e^_c| -> 0 makes c1 of the note infinite; the package's form must pass through it."""
+    """|e^_c| -> 0 makes c1 of the derivation infinite; the closed form must remain finite."""
     for radius in (1e-3, 1e-6, 1e-9):
         g = nd.Geometry.symmetric((2.0, 0.0, 0.0), (radius, 1.0, 0.0), (1.0, 0.7, 0.0), (1.0, 2.0, 0.0))
         c = nd.Configuration.neutral(3.0, 1.4)
@@ -150,7 +150,7 @@ def test_pose_off_the_axis_is_named(published, neutral, name):
         nd.axis_singular_values(published, nd.Configuration(**parts))
 
 
-def test_orbits_that_turn_the_other_way_are_refused(neutral):
+def test_orbits_in_the_opposite_direction_are_rejected(neutral):
     """Joints numbered anticlockwise pair the external legs otherwise: another machine, not one of this closed form."""
     g = nd.Geometry.hexagonal(0.3, 2.0, 1.5, 0.2)
     reversed_base = nd.Geometry(g.base_external[[0, 2, 1]], g.base_internal, g.platform_external, g.platform_internal)

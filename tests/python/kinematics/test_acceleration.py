@@ -1,4 +1,4 @@
-"""Accelerations and the derivative of J' by their definition: what leg lengths do along a motion that curves.
+"""Accelerations and the derivative of J' by their definition: leg lengths along a curved motion.
 
 The oracle moves the robot in time with scipy rotations and measures it with numpy_model: distances between joints, and
 J' by a general inverse. It knows no acceleration of a joint and no derivative of a direction.
@@ -93,7 +93,7 @@ def test_the_derivative_of_the_jacobian(seed, lc):
 
 @given(SEEDS, st.floats(0.1, 10.0))
 def test_the_twist_changes_as_both_derivatives_say(seed, lc):
-    """Dt/dt = J' uddot + Jdot' udot, for whatever O does."""
+    """Dt/dt = J' uddot + (d/dt J') udot, for any motion of O."""
     m, rng = random_robot(seed)
     g, c, motion = m.geometry(), m.configuration(), rng.normal(size=(6, 3))
     rates, accelerations = nd.inverse_velocity(g, c, *motion[:3]), nd.inverse_acceleration(g, c, *motion)
@@ -105,7 +105,7 @@ def test_the_twist_changes_as_both_derivatives_say(seed, lc):
 
 @pytest.mark.parametrize("unit", [2.0**-20, 2.0**20])
 def test_the_unit_of_length(published, neutral, unit):
-    """Accelerations are lengths over times squared; a power of two as unit of length rounds nothing."""
+    """Accelerations are lengths over times squared; with a power of two as unit of length the bits are the same."""
     rng = np.random.default_rng(1)
     motion = rng.normal(size=(6, 3))
     joints = (
@@ -124,7 +124,7 @@ def test_the_unit_of_length(published, neutral, unit):
 
 
 def test_a_circle_at_constant_speed():
-    """The platform turns about its axis, O at rest on it: hand-made accelerations of the external legs, none inside."""
+    """The platform rotates about its axis, O at rest on it: only the external legs accelerate (by hand)."""
     g, c, w = nd.Geometry.hexagonal(0.0, 3.0, 2.0, 0.0), nd.Configuration.neutral(2.0, 1.0, 0.3), 1.7
     zero = np.zeros(3)
     found = nd.inverse_acceleration(g, c, [0, 0, w], zero, zero, zero, zero, zero)
@@ -172,7 +172,7 @@ def test_stack_equals_one_by_one(published, stack):
 
 
 def test_a_large_stack_holds_the_bits_of_its_rows():
-    """Beyond one block of work, on however many threads."""
+    """More than one block of work, on any number of threads."""
     rng = np.random.default_rng(9)
     c = model.random_robots(rng, 3000).configuration()
     motion = rng.normal(size=(6, 3000, 3))
@@ -196,8 +196,8 @@ def test_broadcasting(published, stack, neutral):
     assert nd.forward_acceleration(published, stack[:0], np.ones(9), np.ones(9))[0].shape == (0, 3)
 
 
-def test_a_length_by_its_kind_is_held(published, neutral):
-    """The derivative of J' is taken with the length of this configuration, whatever that length would become."""
+def test_a_length_by_its_kind_is_constant(published, neutral):
+    """The derivative of J' is taken with the length of this configuration, which is constant along the motion."""
     motion, lc = np.eye(3), nd.characteristic_length(published, neutral, "natural")
     found = nd.jacobian_rate(published, neutral, *motion, "natural")
     assert_array_equal(found, nd.jacobian_rate(published, neutral, *motion, lc))

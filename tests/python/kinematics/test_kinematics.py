@@ -37,7 +37,7 @@ def rates_by_differences(g, c, omega, pdot, sdot, h=2e-3):
 
 
 def regime(name, rng):
-    """Configuration by regime: neutral; nudged by 1e-9 from it, where series and closed forms switch over; anywhere."""
+    """Configuration by regime: neutral; 1e-9 away from it, where series and closed forms change over; random."""
     c = nd.Configuration.neutral(3.9828, 2.3745)
     if name == "neutral":
         return c
@@ -148,7 +148,7 @@ def test_moving_the_internal_point_alone_moves_no_platform(seed):
 
 
 def test_leg_lengths_of_a_robot_that_can_be_checked_by_hand():
-    """3-4-5 and 8-15-17 triangles; legs of different length, so that a swapped order shows."""
+    """3-4-5 and 8-15-17 triangles; legs of different length, so that a wrong order is detected."""
     g = nd.Geometry(
         base_external=[[3, 0, 0], [0, 8, 0], [-5, 0, 0]],
         base_internal=[[4, 0, 0], [0, 15, 0], [0, -6, 0]],
@@ -232,7 +232,7 @@ def test_bad_characteristic_length(published, stack, function, bad):
 
 @pytest.mark.parametrize("arguments", [(None, None), ("g", "c"), (1, 2)])
 def test_wrong_objects_are_named(published, neutral, arguments):
-    """A swapped or missing argument is the commonest slip: the message must say which one it is."""
+    """The message names a swapped or missing argument."""
     wrong_geometry, wrong_configuration = arguments
     with pytest.raises((TypeError, ValueError), match="geometry"):
         nd.leg_lengths(wrong_geometry, neutral)

@@ -1,4 +1,4 @@
-"""The three motions to spare: null motions, the least leg rates of a platform velocity.
+"""Redundancy: null motions, and the least leg rates for a platform velocity.
 
 Oracle: numpy's pseudo-inverse and least squares on the matrices of numpy_model, and the definition itself: no other
 velocity of O has smaller leg rates.
@@ -62,7 +62,7 @@ def test_weighted_least_squares(seed, spread):
 
 
 @pytest.mark.parametrize("plate", ["base", "platform"])
-def test_finite_where_one_triple_fails(plate):
+def test_finite_where_one_triple_is_singular(plate):
     """Rates from numpy's exact problem; J' does not exist there."""
     height = {"base": 0.0, "platform": 2.0}[plate]
     c = nd.Configuration([0.1, 0.2, 2.0], None, [0.3, -0.2, height])
@@ -85,8 +85,8 @@ def test_finite_up_to_the_plane_and_continuous():
     assert_allclose(found[3:], np.broadcast_to(found[-1], (4, 3)), atol=1e-7)
 
 
-def test_both_triples_fail_in_one_direction():
-    """All legs in one plane: the leg rates do not depend on O normal to it; the shortest sdot has nothing there."""
+def test_both_triples_singular_in_one_direction():
+    """All legs in one plane: the leg rates do not depend on O normal to it; the shortest sdot has no such component."""
     c = nd.Configuration([0.1, 0.2, 0.0], None, [0.3, -0.2, 0.0])
     omega, pdot = [0.3, -0.1, 0.2], [0.5, 0.7, -0.4]
     sdot = nd.internal_velocity(FLAT, c, omega, pdot)
@@ -110,7 +110,7 @@ def test_null_motions(seed):
     assert_allclose([omega, pdot, sdot], [np.zeros(3), np.zeros(3), v], rtol=0.0, atol=10 * lost)
 
 
-def test_all_leg_rates_of_a_platform_velocity_are_one_of_them_and_null_motions(published, neutral):
+def test_leg_rates_of_a_platform_velocity_differ_by_null_motions(published, neutral):
     rng = np.random.default_rng(6)
     omega, pdot, sdot = rng.normal(size=(3, 3))
     shift = sdot - nd.internal_velocity(published, neutral, omega, pdot)
@@ -159,7 +159,7 @@ def test_missing_pose_stays_alone(published):
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
-def test_a_weight_that_is_none(published, neutral, bad):
+def test_invalid_weight(published, neutral, bad):
     weights = np.ones((3, 9))
     weights[1, 4] = bad
     for function in (nd.internal_velocity, lambda *a: nd.inverse_velocity(*a[:4], weights=a[4])):

@@ -1,4 +1,4 @@
-"""A physics engine agrees: MuJoCo's lengths, rates, Jacobian and settled poses beside ours.
+"""Comparison with a physics engine: lengths, rates, Jacobian and equilibrium poses of MuJoCo.
 
 What the two share is in mujoco_models: where the joints are. MuJoCo finds lengths and moment arms from the sites on its
 bodies, J' from the gradients of 27 constraints, and poses by waiting until the mechanism has come to rest.
@@ -61,7 +61,7 @@ def assert_same_pose(found, expected, tolerance):
 
 
 def nearby(robot, seed):
-    """A pose a short way off and far from singular ones, so that the way there stays in the assembly mode."""
+    """A pose nearby and far from singular ones, so that the path to it stays in the assembly mode."""
     g, c = robot
     target = c.moved(0.1 * np.random.default_rng(seed).normal(size=9))
     assert nd.condition_number(g, target) < 15.0
@@ -128,7 +128,7 @@ def test_lengths_and_rates_are_those_of_tendons(robot, scale):
 
 
 def test_lengths_and_rates_with_the_internal_point_in_a_plate(published):
-    """No J' there; lengths and their rates are as ordinary as anywhere."""
+    """J' does not exist there; lengths and rates do."""
     rng = np.random.default_rng(2)
     in_base = nd.Configuration([0.3, -0.2, 3.0], Rotation.from_rotvec([0.2, 0.1, 0.3]), [0.4, 0.7, 0.0])
     in_platform = nd.Configuration([0.3, -0.2, 3.0], Rotation.from_rotvec([0.0, 0.0, 0.3]), [0.4, 0.7, 3.0])
@@ -206,7 +206,7 @@ def slide_to_twist(engine, data):
     constraints = data.efc_J.reshape(data.nefc, engine.nv)
     assert constraints.shape == (27, 45)
     _, sigma, rows = np.linalg.svd(constraints)
-    assert sigma[-1] > 1e-2 * sigma[0]  # none of the 27 says what another says
+    assert sigma[-1] > 1e-2 * sigma[0]  # the 27 constraints are independent
     allowed = rows[27:].T  # 18 motions: the nine of the robot and nine spins, which neither slide nor turn the platform
     Q = pose(data).rotation
     twist = np.concatenate([Q @ allowed[6:9], allowed[3:6]])

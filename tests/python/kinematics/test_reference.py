@@ -33,7 +33,7 @@ def alone(case, function, *lc):
 
 
 def stacked(case, function, *lc):
-    """The same pose as one of six in a (2, 3) stack; the others are different and must not leak into it."""
+    """The same pose as one of six in a (2, 3) stack; the others differ and must not affect it."""
     shift = np.zeros((2, 3, 3))
     shift[..., 2] = np.array([[0.3, 0.2, 0.1], [0.4, 0.0, 0.5]]) * np.linalg.norm(case["p"])
     c = nd.Configuration(case["p"] + shift, case["Q"], case["s"] + 0.5 * shift)
@@ -96,7 +96,7 @@ def test_determinants(case, call):
     found = {name: np.linalg.det(getattr(m, name)) for name in "FBC"}
     for name, value in found.items():
         assert np.sign(value) == np.sign(case[f"det{name}"])
-    # det B and det C are at most 1: an absolute bound is the honest one near their zero.
+    # det B and det C are at most 1: an absolute bound is appropriate near zero.
     assert_allclose([found["B"], found["C"]], [case["detB"], case["detC"]], rtol=0.0, atol=100 * EPS)
     assert_allclose(found["F"], case["detM"] * case["detC"] / case["lc"] ** 3, rtol=100 * EPS * case["kappa_F"])
 

@@ -89,7 +89,7 @@ def test_reference_status(case):
         assert modes.certain
 
 
-# --- Every pose comes back --------------------------------------------------------------------------------------------
+# --- Every pose is found again ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("hexagonal", [True, False])
@@ -109,7 +109,7 @@ def test_the_generating_pose_is_among_the_modes(hexagonal):
 
 
 @given(st.floats(-9.0, 9.0), st.integers(0, 2**32 - 1))
-def test_scale_is_free(exponent, seed):
+def test_results_scale_with_the_length_unit(exponent, seed):
     rng = np.random.default_rng(seed)
     g, c = any_pose(rng, hexagonal=seed % 2 == 0)
     unit = 10.0**exponent
@@ -124,8 +124,8 @@ def test_scale_is_free(exponent, seed):
 
 
 @given(st.integers(0, 2**32 - 1))
-def test_frames_are_free(seed):
-    """Turn and shift the base and the platform frame: the same modes, seen from elsewhere; flat plates stay flat."""
+def test_results_do_not_depend_on_the_frames(seed):
+    """Rotated and shifted base and platform frames give the same modes; planar robots stay planar."""
     rng = np.random.default_rng(seed)
     g, c = any_pose(rng, hexagonal=seed % 2 == 0)
     (rb, rp), (tb, tp) = Rotation.random(2, rng=rng).as_matrix(), rng.normal(size=(2, 3))
@@ -154,7 +154,7 @@ def test_the_octahedron_has_all_32():
     assert_allclose(modes.separation, 1.0, rtol=1e-12)
 
 
-# --- Degenerate data is named -----------------------------------------------------------------------------------------
+# --- Degenerate data has its own status -------------------------------------------------------------------------------
 
 
 def test_mirror_images_of_flat_plates(published, neutral):
@@ -173,7 +173,7 @@ def test_mirror_images_of_flat_plates(published, neutral):
 
 @pytest.mark.parametrize("side", ["base", "platform"])
 def test_o_in_a_plane_of_joints_is_tangent(published, side):
-    # Of the two points of O one is left, with a height that rounding may take for 1e-8.
+    # The two points of O coincide, with a height of up to 1e-8 by rounding.
     q = Rotation.from_rotvec([0.1, -0.2, 0.3]).as_matrix()
     p = np.array([0.1, 0.2, 3.0])
     s = np.array([0.3, 0.1, 0.0]) if side == "base" else p + q @ [0.2, 0.1, 0.0]
@@ -200,7 +200,7 @@ def test_o_on_an_external_joint_is_self_motion(joint):
     c = nd.Configuration([0.1, 0.2, 3.0], Rotation.random(rng=rng), g.base_external[joint])
     lengths = nd.leg_lengths(g, c)
     assert nd.forward_position(g, lengths).status == "self_motion"
-    # The leg that O leaves without direction must fit all the same, and so must the other two.
+    # The leg without direction must have the right length too, and so must the other two.
     longer = np.eye(9)[joint]
     without = nd.forward_position(g, lengths + 0.01 * longer)
     assert without.status != "self_motion"
@@ -220,7 +220,7 @@ def test_o_on_an_internal_joint_is_never_infeasible(published, side):
 
 
 def test_two_legs_on_one_line_through_o_are_self_motion():
-    """d_1 || d_2 and w_1 || w_2: the two equations say the same, the platform turns about a cone."""
+    """d_1 || d_2 and w_1 || w_2: the two equations are the same, and the platform can move."""
     rng = np.random.default_rng(5)
     s, o = np.array([0.1, 0.2, 1.5]), np.array([0.05, -0.1, -1.2])
     d, w = rng.normal(size=(2, 3))

@@ -43,7 +43,7 @@ def test_the_reference_has_seeds():
 
 @pytest.mark.parametrize("hexagonal", [True, False])
 def test_a_certified_mode_is_alone(hexagonal):
-    """What Kantorovich's theorem promises, held against the list of all modes: no other within the radius."""
+    """Kantorovich's theorem against the list of all modes: no other mode within the radius."""
     rng = np.random.default_rng(21)
     certified = 0
     for _ in range(400):
@@ -137,14 +137,14 @@ def test_shapes(published, home):
 
 
 def test_lost_where_o_would_pass_a_plane(published, home):
-    # Only the lower legs say where O is over the base, and its mirror image has the same lengths there: O stays above.
+    # Only the lower legs determine O over the base, and the mirror image has the same lengths: O stays above.
     below = nd.Configuration(home.position, home.rotation, home.internal_point * [1.0, 1.0, -1.0])
     there = nd.track(published, nd.leg_lengths(published, below), home)
     assert there.status != "tracked" or there.internal_point[2] > 0.0
 
 
 def test_lost_at_a_singularity(published, home):
-    """Turn the platform about z until det M = 0: there the mode meets another and ends."""
+    """Rotate the platform about z until det N = 0: there the mode meets another and ends."""
     angles = np.linspace(0.0, np.pi, 200)
     path = home.moved(np.outer(angles, np.eye(9)[2]))
     margins = [np.linalg.det(m) for m in rotation_rows(published, path)]
@@ -153,7 +153,7 @@ def test_lost_at_a_singularity(published, home):
     there = nd.track(published, nd.leg_lengths(published, path), home)
     assert set(there.status[: first - 1]) == {"tracked"}
     assert_allclose(there.rotation[: first - 1], path.rotation[: first - 1], atol=1e-6)
-    # Past the crossing the lengths turn back: what follows is lost, or the mode that comes back, never the one beyond.
+    # After the crossing the lengths return: the step is lost or tracks the returning mode, never the one beyond.
     after = [k for k in range(first + 1, 200) if there.status[k] == "tracked"]
     assert all(np.sign(np.linalg.det(rotation_rows(published, there[k])[0])) == np.sign(margins[0]) for k in after)
     assert np.isnan(there.position[there.status != "tracked"]).all()

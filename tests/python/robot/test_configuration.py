@@ -1,4 +1,4 @@
-"""Where the robot stands: one configuration or a stack, eq. (6), validation, indexing, value semantics."""
+"""Configurations, single or stacked: eq. (6), validation, indexing, value semantics."""
 
 import copy
 import math
@@ -181,7 +181,7 @@ def test_bad_indexing(stack, neutral):
 
 
 def test_a_single_configuration_is_true(neutral):
-    """`if configuration:` asks whether there is one; `len` has no answer, truth has."""
+    """A single configuration has no length but is true, so that `if configuration:` works."""
     assert neutral
 
 

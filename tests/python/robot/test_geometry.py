@@ -1,4 +1,4 @@
-"""What is fixed once the robot is built: eqs. (37)-(38), C3 orbits, validation, value semantics."""
+"""The geometry: eqs. (37)-(38), C3 orbits, validation, value semantics."""
 
 import copy
 import math
@@ -41,7 +41,7 @@ def test_hexagonal_is_printed_equations(a1, a2, b1, b2):
 
 
 def test_hexagon_has_the_sides_it_is_named_after():
-    """Geometry instead of formulas: walking round the six joints, sides alternate and all lie on one circle."""
+    """Geometry instead of formulas: around the six joints the sides alternate, and all joints lie on one circle."""
     g = nd.Geometry.hexagonal(a1=0.7, a2=2.9, b1=1.1, b2=0.2)
     for external, internal, s1, s2 in (
         (g.base_external, g.base_internal, 0.7, 2.9),
@@ -77,7 +77,7 @@ def test_hexagonal_is_one_case_of_symmetric():
         assert_allclose(getattr(g, name), getattr(h, name), rtol=0.0, atol=1e-14)
 
 
-# --- Validation: the message names the argument, what came and what was expected --------------------------------------
+# --- Validation: the message names the argument, the value received and the value expected ----------------------------
 
 
 def message(argument):
@@ -111,7 +111,7 @@ BAD_TRIPLES = {
 }
 
 
-@pytest.mark.filterwarnings("ignore")  # a warning that something was thrown away is not an error: it must be refused
+@pytest.mark.filterwarnings("ignore")  # data discarded with a warning must raise
 @pytest.mark.parametrize("bad", BAD_TRIPLES.values(), ids=BAD_TRIPLES.keys())
 def test_bad_triple(bad):
     for name in TRIPLES:
@@ -136,7 +136,7 @@ def test_bad_side(bad):
 
 
 @pytest.mark.parametrize("plate", ["a", "b"])
-def test_plate_without_size(plate):
+def test_hexagon_with_both_sides_zero(plate):
     sides = {"a1": 1.0, "a2": 2.0, "b1": 1.0, "b2": 2.0} | {f"{plate}1": 0.0, f"{plate}2": 0.0}
     with pytest.raises(ValueError, match=message(f"{plate}1, {plate}2")):
         nd.Geometry.hexagonal(**sides)

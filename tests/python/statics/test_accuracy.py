@@ -68,7 +68,7 @@ def test_map_inverts_the_leg_rates(seed):
 
 
 @pytest.mark.parametrize("joint", range(12))
-def test_a_joint_that_is_off_is_a_leg_of_another_length(joint):
+def test_a_joint_error_acts_like_a_leg_error(joint):
     """Signs as documented: longer where the leg begins, shorter where it ends."""
     m, rng = robots.regular(11)
     d = 1e-5 * rng.normal(size=3)
@@ -144,7 +144,7 @@ def test_bounds_in_another_length_unit(seed, unit):
 @KINDS
 @pytest.mark.parametrize("where", ["flat", "tilted"])
 def test_singular_configurations_have_no_bound(kind, where):
-    """det B = 0 leaves nothing determined, det C = 0 and det M = 0 leave O: three spheres say where it is."""
+    """det B = 0 leaves nothing determined, det C = 0 and det N = 0 leave O, determined by three spheres."""
     m = robots.flat(kind) if where == "flat" else robots.singular(kind, 3)[0]
     found = bounds(m, 1e-3, 1e-3)
     known = 0 if kind == "lower plane" else 3
@@ -162,18 +162,18 @@ def test_singular_configurations_have_no_bound(kind, where):
     gain = nd.error_map(m.geometry(), m.configuration())
     assert np.isinf(gain[: 9 - known]).all()
     assert np.isfinite(gain[9 - known :]).all()
-    still = bounds(m)  # no error at all, and yet nothing holds the platform
+    still = bounds(m)  # no error, but the platform is free
     assert np.isinf(still.position)
 
 
-def test_leg_of_no_length_has_no_bound(published):
+def test_leg_of_zero_length_has_no_bound(published):
     for s, known in ((published.base_internal[1], False), ([0.0, 1.6778953523188904, 4.0], True)):
         found = nd.error_bounds(published, nd.Configuration([0, 0, 4.0], np.eye(3), s), 1e-3)
         assert np.isinf(found.rotation)
         assert np.isfinite(found.internal_point) == known
 
 
-def test_rows_are_alone_and_broadcast(published, stack):
+def test_rows_are_independent_and_broadcast(published, stack):
     rng = np.random.default_rng(4)
     legs, joints = rng.uniform(size=(3, 1, 9)), rng.uniform(size=(5, 12))
     found = nd.error_bounds(published, stack, legs, joints)
@@ -223,13 +223,13 @@ def test_one_error_alone_comes_close_to_its_bound():
     for k in range(21):
         legs, joints = np.split(1e-5 * np.eye(21)[k], [9])
         found, limit = samples(m, legs, joints, samples=2000), bounds(m, legs, joints)
-        moves = limit.components > 0.0  # O knows only the lower legs
+        moves = limit.components > 0.0  # O depends on the lower legs only
         assert_allclose(found[:, ~moves], 0.0, atol=1e-13)
         share = np.abs(found).max(axis=0)[moves] / limit.components[moves]
         assert ((share > (0.99 if k < 9 else 0.8)) & (share < 1.001)).all()
 
 
-def test_samples_have_the_leg_lengths_they_were_told(published, neutral):
+def test_samples_have_leg_lengths_within_tolerance(published, neutral):
     """Errors of 4 %, far from linear: the legs of every robot lie within their tolerances, spread evenly."""
     rest = nd.leg_lengths(published, neutral)
     legs = 0.04 * rest * np.linspace(0.2, 1.0, 9)
@@ -245,8 +245,8 @@ def test_samples_have_the_leg_lengths_they_were_told(published, neutral):
 
 
 @pytest.mark.parametrize("joint", [0, 4, 8, 9])
-def test_joints_err_in_a_ball(joint):
-    """One joint of each kind: its leg, measured to where the joint should be, is off as points of a ball are."""
+def test_joint_errors_lie_in_a_ball(joint):
+    """One joint of each kind: the error of its leg has the distribution of a coordinate in a ball."""
     m, _ = robots.regular(17)
     radius, leg = 1e-3, LEG_OF_JOINT[joint]
     found = samples(m, 0.0, radius * np.eye(12)[joint], samples=8000, seed=5)
@@ -282,15 +282,15 @@ def test_samples_in_another_length_unit(unit):
     assert_allclose(found, expected, atol=0, rtol=1e-9)
 
 
-def test_samples_stand_far_from_the_origin_as_near_it():
+def test_samples_do_not_depend_on_the_distance_from_the_origin():
     m, _ = robots.regular(19)
     shift = np.array([1e5, -2e5, 3e5])
     far = m._replace(r=m.r + shift, rh=m.rh + shift, p=m.p + shift, s=m.s + shift)
     assert_allclose(samples(far, 1e-2, 1e-2, samples=200), samples(m, 1e-2, 1e-2, samples=200), atol=1e-7)
 
 
-def test_great_errors_lose_the_way_and_say_so(published, neutral):
-    """Some robots cannot be put together; what can be has its lengths and is on the side of O where it began."""
+def test_large_errors_give_nan(published, neutral):
+    """Some robots cannot be assembled; the others have their lengths, with O on the side of the start."""
     rest = nd.leg_lengths(published, neutral)
     found = nd.error_samples(published, neutral, 0.25 * rest, samples=2000)
     stands = np.isfinite(found).all(axis=1)
@@ -310,8 +310,8 @@ def test_no_samples_from_a_singular_configuration(kind, where):
     assert np.isnan(samples(m, 1e-4, 1e-4, samples=50)).all()
 
 
-def test_joints_that_fall_on_a_line_make_no_robot():
-    """Errors so great that the geometry itself may be none are no exception; whatever stands has its lengths."""
+def test_collinear_joints_give_nan():
+    """Errors that may make the geometry invalid raise no exception; robots that exist have their lengths."""
     g = nd.Geometry.hexagonal(a1=0.0, a2=6.0, b1=3.0, b2=0.0)
     found = nd.error_samples(g, nd.Configuration.neutral(4.0, 2.2), joint_errors=5.0, samples=500)
     assert np.isnan(found).any()
@@ -345,6 +345,6 @@ def test_bad_sampling_is_named(published, neutral, bad, name):
         nd.error_samples(published, neutral, **bad)
 
 
-def test_samples_of_a_stack_are_refused(published, stack):
+def test_samples_of_a_stack_are_rejected(published, stack):
     with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
         nd.error_samples(published, stack, 1e-3)

@@ -109,14 +109,14 @@ def test_characteristic_length_scales_rotation_alone(published, neutral):
 
 @EACH_PART
 @given(seed=SEEDS, unit=st.floats(1e-6, 1e6))
-def test_ellipsoids_know_no_length_unit(part, seed, unit):
+def test_ellipsoids_do_not_depend_on_the_length_unit(part, seed, unit):
     m, _ = robots.regular(seed)
     other = robots.scaled(m, unit)
     assert_allclose(velocity(other, part, 0.7 * unit).semi_axes, velocity(m, part, 0.7).semi_axes, rtol=lost(m, 0.7))
 
 
 def test_octahedral_robot_is_a_sphere_in_each_half():
-    """Theory of position and velocity, section 5: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
+    """docs/theory/conditioning.md: J' J'^T has the eigenvalues 4 and 2/9, three times each."""
     g = nd.Geometry.hexagonal(a1=0.0, a2=np.sqrt(2.0), b1=np.sqrt(2.0), b2=0.0)
     c = nd.Configuration.neutral(zp=2.0 / np.sqrt(3.0), zs=1.0 / np.sqrt(3.0))
     found = nd.velocity_ellipsoid(g, c, "twist", np.sqrt(2.0) / 3.0).semi_axes
@@ -132,7 +132,7 @@ def singular_robots(kind):
 
 @KINDS
 @EACH_PART
-def test_a_free_motion_has_no_end(kind, part):
+def test_a_free_motion_has_an_infinite_axis(kind, part):
     for m in singular_robots(kind):
         free = np.linalg.svd(robots.rates(m))[2][-1, PARTS[part]]
         directions, semi_axes = velocity(m, part)
@@ -154,8 +154,8 @@ def test_the_other_axes_are_those_of_configurations_nearby(kind, part):
         assert_allclose(np.linalg.svd(model.jacobian(near)[PARTS[part]], compute_uv=False)[1:], found, rtol=1e-2)
 
 
-def test_a_platform_that_turns_about_its_origin_goes_nowhere():
-    """O at p on an external leg's line: a turn is free that moves no p, so no translation is."""
+def test_a_free_rotation_about_the_origin_of_the_platform():
+    """O at p on the line of an external leg: a rotation is free that does not move p, so no translation is."""
     m = robots.flat("leg through O")
     # The same robot in platform axes whose origin is at O.
     shift = m.Q.T @ (m.s - m.p)
@@ -174,7 +174,7 @@ def test_a_platform_that_turns_about_its_origin_goes_nowhere():
 
 
 def test_all_internal_legs_in_a_plane():
-    """Three motions out of the plane are free; the rest is what numpy's projection of the leg rates says."""
+    """Three motions out of the plane are free; the rest agrees with numpy's projection of the leg rates."""
     g = nd.Geometry.hexagonal(a1=0.5, a2=4.0, b1=2.5, b2=0.25)
     m = model.robot(g, nd.Configuration([0.25, 0.125, 0.0], np.eye(3), [0.5, -0.25, 0.0]))
     h = robots.rates(m)
@@ -186,7 +186,7 @@ def test_all_internal_legs_in_a_plane():
     assert_allclose(1.0 / found[3:], expected[2::-1], rtol=1e-13)
 
 
-def test_leg_of_no_length_and_similar_hexagons(published):
+def test_leg_of_zero_length_and_similar_hexagons(published):
     c = nd.Configuration([0, 0, 4.0], np.eye(3), published.base_internal[1])
     assert np.isinf(nd.velocity_ellipsoid(published, c).semi_axes[0])
     turning = nd.velocity_ellipsoid(
@@ -201,7 +201,7 @@ def test_leg_of_no_length_and_similar_hexagons(published):
 
 @EACH_PART
 @pytest.mark.parametrize("function", [nd.velocity_ellipsoid, nd.force_ellipsoid])
-def test_rows_are_alone(published, stack, function, part):
+def test_rows_are_independent(published, stack, function, part):
     n = 6 if part == "twist" else 3
     found = function(published, stack, part, 1.7)
     assert found.directions.shape == (5, n, n)

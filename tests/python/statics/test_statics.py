@@ -21,7 +21,7 @@ KINDS = pytest.mark.parametrize("kind", robots.SINGULAR)
 
 
 def newton(m, f, load):
-    """What is left over on the platform (moment about p, force) and on O when the legs push with f."""
+    """Sum of load and leg forces f on the platform (moment about p, force) and on O."""
     x, y, z, u, ut = model.legs(m)
     push = [f[k : k + 3, None] * v / np.linalg.norm(v, axis=-1, keepdims=True) for k, v in ((0, x), (3, y), (6, z))]
     moment = np.cross(u, push[0]).sum(axis=0) - np.cross(ut, push[1]).sum(axis=0)
@@ -46,7 +46,7 @@ def lost(m):
 
 
 @given(SEEDS)
-def test_forces_and_moments_are_in_balance(seed):
+def test_forces_and_moments_are_in_equilibrium(seed):
     m, rng = robots.regular(seed)
     load = rng.normal(size=9)
     found, unbalanced = forces(m, load)
@@ -69,7 +69,7 @@ def test_virtual_work(seed):
 
 
 def test_a_weight_on_the_platform_is_pushed_up(published, neutral):
-    """By hand: on the axis, no moment about O leaves the external legs idle; the six others share the weight evenly."""
+    """By hand: without a moment about O the external legs carry nothing, and the six others share the weight evenly."""
     found, _ = nd.leg_forces(published, neutral, [0, 0, 0], [0, 0, -12.0])
     lengths = nd.leg_lengths(published, neutral)
     assert_allclose(found[:3], 0.0, atol=1e-14)
@@ -81,7 +81,7 @@ def test_a_weight_on_the_platform_is_pushed_up(published, neutral):
     assert_allclose(only_at_o[6:], found[6:], rtol=1e-14)
 
 
-def test_forces_broadcast_and_rows_are_alone(published, stack):
+def test_forces_broadcast_and_rows_are_independent(published, stack):
     rng = np.random.default_rng(1)
     moment, force, at_o = rng.normal(size=(4, 1, 3)), rng.normal(size=(5, 3)), rng.normal(size=3)
     found, unbalanced = nd.leg_forces(published, stack, moment, force, at_o)
@@ -106,7 +106,7 @@ def test_a_missing_row_stays_alone(published):
 
 
 @given(SEEDS, st.floats(1e-6, 1e6))
-def test_forces_know_no_length_unit(seed, unit):
+def test_forces_do_not_depend_on_the_length_unit(seed, unit):
     m, rng = robots.regular(seed)
     load = rng.normal(size=9)
     change = np.repeat([unit, 1.0, 1.0], 3)
@@ -136,7 +136,7 @@ def test_singular_load_is_balanced_as_far_as_can_be(kind):
         assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
         assert_allclose(unbalanced * weigh, load * weigh + h.T @ expected, atol=1e-9)
         assert np.abs(unbalanced).max() > 1e-6
-        # It cannot be carried because it works on a motion without leg rates.
+        # It cannot be balanced because it works on a motion without leg rates.
         free = np.linalg.svd(h)[2][-1]
         assert_allclose(subspace_angles((unbalanced * weigh)[:, None], free[:, None]), 0.0, atol=1e-6)
 
@@ -165,7 +165,7 @@ def test_self_stress_is_the_null_space(kind):
 
 @KINDS
 @pytest.mark.parametrize("unit", [1e-6, 1e-3, 1e6])
-def test_singular_answers_know_no_length_unit(kind, unit):
+def test_singular_results_do_not_depend_on_the_length_unit(kind, unit):
     rng = np.random.default_rng(7)
     change = np.repeat([unit, 1.0, 1.0], 3)
     for m in singular_robots(kind)[:10]:
@@ -178,7 +178,7 @@ def test_singular_answers_know_no_length_unit(kind, unit):
 
 
 def test_several_free_motions():
-    """Similar hexagons, the platform half turned: the external legs cross in O, about which it turns freely."""
+    """Similar hexagons after a half turn: the external legs meet in O, about which the platform rotates freely."""
     g = nd.Geometry.hexagonal(a1=1.0, a2=4.0, b1=0.5, b2=2.0)
     for c, count in ((nd.Configuration.neutral(3.0, 2.0, np.pi), 3), (nd.Configuration.neutral(0.0, 0.0, 0.1), 4)):
         expected = null_space(robots.rates(model.robot(g, c)).T, rcond=1e-13)
@@ -190,7 +190,7 @@ def test_several_free_motions():
         assert np.abs(unbalanced).max() > 0.1
 
 
-def test_leg_of_no_length_carries_nothing(published):
+def test_leg_of_zero_length_carries_nothing(published):
     c = nd.Configuration([0, 0, 4.0], np.eye(3), published.base_internal[1])
     found, unbalanced = nd.leg_forces(published, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0])
     assert found[7] == 0.0
@@ -350,7 +350,7 @@ def test_bad_load_is_named(published, stack, name, bad):
         nd.leg_forces(published, stack, **load)
 
 
-def test_self_stress_of_a_stack_is_refused(published, stack):
+def test_self_stress_of_a_stack_is_rejected(published, stack):
     with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(5,\)"):
         nd.self_stress(published, stack)
     with pytest.raises(ValueError, match=r"^geometry: got"):

@@ -26,9 +26,13 @@ struct LegRow {
 template <class T, class Length>
 LegRow<T> leg_row(const Xyz<T>& base, const Xyz<T>& joint, const T& zp, const Length& inverse_lc) {
   using std::sqrt;
-  const Xyz<T> leg{joint.x - base.x, joint.y - base.y, zp + joint.z - base.z};
-  const Xyz<T> e = inverse_or_zero(T(sqrt(squared_norm(leg)))) * leg;
-  return {e, inverse_lc * cross(joint, e)};
+  const Xyz<T>& u = joint;
+  const T x = u.x - base.x, y = u.y - base.y, z = zp + u.z - base.z;
+  const T inverse = inverse_or_zero(T(sqrt(square(x) + square(y) + square(z))));
+  const Xyz<T> e{x * inverse, y * inverse, z * inverse};
+  return {e,
+          {(u.y * e.z - u.z * e.y) * inverse_lc, (u.z * e.x - u.x * e.z) * inverse_lc,
+           (u.x * e.y - u.y * e.x) * inverse_lc}};
 }
 
 /// Singular values from T, the squared Frobenius norm, and the determinant D: their sum and difference are the square

@@ -1,8 +1,10 @@
 #pragma once
-/// The joints of a semi-regular hexagon with alternating sides s1, s2, as printed in eqs. (37)-(38), over a number type.
+/// The joints of a semi-regular hexagon with alternating sides s1, s2, as printed in eqs. (37)-(38), over a number
+/// type.
 ///
-/// External joints 1, 2, 3 are given here. The internal triple is the mirror image of the external one in x = 0: internal
-/// joints 1, 2, 3 are the mirrored external joints 1, 3, 2. Included by the batch kernels, hence templates only.
+/// External joints 1, 2, 3 are given here. The internal triple is the mirror image of the external one in x = 0:
+/// internal joints 1, 2, 3 are the mirrored external joints 1, 3, 2. Included by the batch kernels, hence templates
+/// only.
 
 #include "ninedof/math/xyz.hpp"
 

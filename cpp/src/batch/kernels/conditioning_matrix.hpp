@@ -43,14 +43,21 @@ NINEDOF_INLINE void set_row(P (&row)[6], const Xyz<P>& turning, const Xyz<P>& mo
 
 template <class P>
 NINEDOF_INLINE void conditioning_matrix(const Joints& g, const Poses<P>& c, const P& inverse_lc, P (&m)[6][6]) {
-  LegVectors<P> legs(g, c);
-  normalize(legs.upper);
-  normalize(legs.lower);
-  normalize(legs.external);
+  const LegVectors<P> legs(g, c);
+  Xyz<P> u[3], external[3], upper[3], lower[3], w[3];
 #pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) set_row(m[i], inverse_lc * cross(legs.u[i], legs.external[i]), legs.external[i]);
-  Xyz<P> w[3];
-  shared_rows(legs.upper, legs.lower, w);
+  for (int i = 0; i < 3; ++i) {
+    u[i] = legs.u(i);
+    external[i] = legs.external(i, u[i]);
+    upper[i] = legs.upper(i);
+    lower[i] = legs.lower(i);
+  }
+  normalize(upper);
+  normalize(lower);
+  normalize(external);
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) set_row(m[i], inverse_lc * cross(u[i], external[i]), external[i]);
+  shared_rows(upper, lower, w);
   const Xyz<P> lever = inverse_lc * legs.y;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) set_row(m[i + 3], cross(lever, w[i]), w[i]);

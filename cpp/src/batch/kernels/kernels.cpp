@@ -84,12 +84,14 @@ void leg_lengths(const Block& b, double* out) {
   for_each_chunk(b, [&](const Columns& c, long first, long rows) {
     alignas(64) double length[9][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
-      const LegVectors<Lanes> legs(b.robot, c.poses<Lanes>(k));
+      const Poses<Lanes> pose = c.poses<Lanes>(k);
+      const LegVectors<Lanes> legs(b.robot, pose);
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
-        store(sqrt(dot(legs.external[i], legs.external[i])), length[i] + k);
-        store(sqrt(dot(legs.upper[i], legs.upper[i])), length[3 + i] + k);
-        store(sqrt(dot(legs.lower[i], legs.lower[i])), length[6 + i] + k);
+        const Xyz<Lanes> l = legs.external(i, legs.u(i)), q = legs.upper(i), r = legs.lower(i);
+        store(sqrt(dot(l, l)), length[i] + k);
+        store(sqrt(dot(q, q)), length[3 + i] + k);
+        store(sqrt(dot(r, r)), length[6 + i] + k);
       }
     }
     scatter<9>(length, rows, out + 9 * first);

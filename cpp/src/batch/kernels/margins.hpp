@@ -37,11 +37,11 @@ NINEDOF_INLINE Margins<P> margins(const Joints& g, const Poses<P>& c) {
   const LegVectors<P> legs(g, c);
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
-    const Xyz<P>& leg = legs.external[i];
+    const Xyz<P> u = legs.u(i), leg = legs.external(i, u);
     least = min(least, dot(leg, leg));
-    turning[i] = cross(unit(c.s - g.base_external[i], least), unit(c.s - (c.p + legs.u[i]), least));
-    lower[i] = unit(legs.lower[i], least);
-    upper[i] = unit(legs.upper[i], least);
+    turning[i] = cross(unit(c.s - g.base_external[i], least), unit(c.s - (c.p + u), least));
+    lower[i] = unit(legs.lower(i), least);
+    upper[i] = unit(legs.upper(i), least);
   }
   const double* joint = &g.base_external[0][0];
   double joints = 0.0;
