@@ -49,8 +49,8 @@ bool serious_bound(const Problem& problem, double bound) {
   return std::abs(bound) < 1e6 * problem.unit();
 }
 
-Coordinates::Coordinates(const Problem& problem, double cap, int helpers) : all_(full_variables(problem)) {
-  for (int k = 0; k < helpers; ++k) all_.push_back({"", VariableKind::fraction, {-infinity, infinity}, true});
+Coordinates::Coordinates(const Problem& problem, double cap, int auxiliary_count) : all_(full_variables(problem)) {
+  for (int k = 0; k < auxiliary_count; ++k) all_.push_back({"", VariableKind::fraction, {-infinity, infinity}, true});
   unit_ = unit_of(problem, all_);
   const auto n = static_cast<Eigen::Index>(all_.size());
   fixed_.resize(n);

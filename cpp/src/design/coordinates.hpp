@@ -18,7 +18,7 @@ bool serious_bound(const Problem& problem, double high);
 class Coordinates {
  public:
   /// `cap`: largest size looked at where a variable has no serious upper bound, in the study's unit.
-  Coordinates(const Problem& problem, double cap, int helpers = 0);
+  Coordinates(const Problem& problem, double cap, int auxiliary_count = 0);
 
   /// Every variable as it is, without bounds: to look at single designs. Has no starts and no order.
   static Coordinates plain(const Problem& problem);
@@ -37,9 +37,9 @@ class Coordinates {
   bool capped_low(int k) const { return capped_low_[static_cast<std::size_t>(k)]; }
   bool capped_high(int k) const { return capped_high_[static_cast<std::size_t>(k)]; }
 
-  /// All full variables and helping ones, bounds met exactly.
+  /// All full variables and auxiliary ones, bounds met exactly.
   Eigen::VectorXd variables(const Eigen::VectorXd& y) const;
-  /// Free coordinates of a full set of variables, moved inside the bounds. Helping variables may be left out and are then 0.
+  /// Free coordinates of a full set of variables, moved inside the bounds. auxiliary variables may be left out and are then 0.
   Eigen::VectorXd coordinates(const Eigen::VectorXd& x) const;
   /// dx/dy of each free coordinate at x.
   Eigen::VectorXd slopes(const Eigen::VectorXd& x) const;

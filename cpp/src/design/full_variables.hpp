@@ -21,7 +21,7 @@ std::vector<Variable> full_variables(const Problem& problem);
 /// Whether the optimizer moves s of a pose. At the neutral place it does so through zs.
 bool placed(const Pose& pose);
 
-/// Place of the characteristic length among them, or -1.
+/// PoseSpec of the characteristic length among them, or -1.
 int length_variable(const Problem& problem);
 
 /// A pose on the axis of a symmetric family, s included: the closed form holds there.

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "design/view.hpp"
+#include "design/design_state.hpp"
 #include "ninedof/design/objective.hpp"
 
 namespace ninedof {
@@ -26,10 +26,11 @@ struct PoseSpectrum {
 
 /// Singular values of the nine-legged robot at a pose of the view, through the six values; without `derivatives` the gradient is
 /// left as it was.
-void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivatives = true);
+void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives = true);
 
-/// Through the closed form: `shift` from the neutral configuration, s_z of the pose taken from `place`.
-void closed_spectrum(const DesignFamily& family, const View& v, const Place& place, Machine machine, PoseSpectrum& out);
+/// Through the closed form: `shift` from the neutral configuration, s_z of the pose taken from `spec`.
+void closed_spectrum(const DesignFamily& family, const DesignState& v, const PoseSpec& spec, Machine machine,
+                     PoseSpectrum& out);
 
 /// How many rows a pose has.
 int index_rows(Index index, bool closed);

@@ -50,11 +50,11 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables) {
 
 namespace {
 
-View view_of(const Problem& problem, const Eigen::VectorXd& variables) {
+DesignState view_of(const Problem& problem, const Eigen::VectorXd& variables) {
   problem.validate();
   require_full("variables", problem, variables);
   const Prepared p(problem);
-  View v;
+  DesignState v;
   v.set(*p.family, p.coordinates, problem.characteristic_length, p.places, p.looked, variables);
   return v;
 }
@@ -66,10 +66,10 @@ double characteristic_length(const Problem& problem, const Eigen::VectorXd& vari
 }
 
 std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables) {
-  const View v = view_of(problem, variables);
+  const DesignState v = view_of(problem, variables);
   std::vector<Configuration> out;
   for (std::size_t k = 0; k <= problem.objective.poses.size(); ++k) {
-    const PoseView& pose = v.poses[k];
+    const PoseState& pose = v.poses[k];
     out.push_back({pose.at[point_p], pose.rotation, pose.at[point_s]});
   }
   return out;

@@ -125,15 +125,15 @@ TEST_SUITE("constraints") {
             CAPTURE(limit.name);
             CAPTURE(displaced);
             CAPTURE(solve);
-            // Over many poses the solver's rows have helping variables.
+            // Over many poses the solver's rows have auxiliary variables.
             const bool stroke = limit.name.starts_with("stroke");
             Problem problem = study(family, {limit}, displaced, solve && displaced && stroke ? 8 : 0);
             if (family == "general")
               for (std::size_t k = 0; k < 36; ++k) problem.variables[k] = {-20.0, 20.0};
             const Prepared p = solve ? Prepared(problem, 1e4) : Prepared(problem);
             const Eigen::VectorXd x = random_full(p.problem, random);
-            const Eigen::VectorXd y = p.helped(p.coordinates.coordinates(x));
-            CHECK((p.helpers > 0) ==
+            const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(x));
+            CHECK((p.auxiliary_count > 0) ==
                   (solve && displaced && limit.high < infinity && (stroke || limit.name == "leg_ratio")));
             Look l, there;
             look(p, y, l);
@@ -215,22 +215,22 @@ TEST_SUITE("constraints") {
     }
   }
 
-  TEST_CASE("the solver's rows say what the margins say: repeated ones are dropped, helping variables take half") {
+  TEST_CASE("the solver's rows say what the margins say: repeated ones are dropped, auxiliary variables take half") {
     for (const Limit& limit : limits) {
       CAPTURE(limit.name);
       for (const int many : {0, 8}) {
         Problem p = study("symmetric", {limit}, true, many);
-        if (limit.name == "leg_ratio") p.limits.front().low = 0.0;  // has no helping variable
+        if (limit.name == "leg_ratio") p.limits.front().low = 0.0;  // has no auxiliary variable
         const Prepared solved(p, 1e4), looked(p);
         if (limit.name == "footprint")
           CHECK(static_cast<int>(solved.margins.size()) <
                 solved.constraints.front()->rows());  // three joints of an orbit
         for (int n = 0; n < 20; ++n) {
           Look some, every;
-          const Eigen::VectorXd y = solved.helped(solved.coordinates.start(n, 3));
+          const Eigen::VectorXd y = solved.with_auxiliary(solved.coordinates.start(n, 3));
           look(solved, y, some);
-          look(looked, solved.without_helpers(solved.coordinates.variables(y)), every);
-          const double share = solved.helpers > 0 ? 0.5 : 1.0;
+          look(looked, solved.without_auxiliary(solved.coordinates.variables(y)), every);
+          const double share = solved.auxiliary_count > 0 ? 0.5 : 1.0;
           const double expected = share * every.m.minCoeff();
           double least = infinity;  // of this limit: O between the plates is a margin too where it is placed
           for (int k = 0; k < some.m.size(); ++k)

@@ -71,7 +71,7 @@ struct Tied {
       s.sdot.middleCols<3>(first) *= q;
       s.rates.middleCols<3>(first) *= q;
     }
-    const PoseView& at = l.view.pose(0);
+    const PoseState& at = l.view.pose(0);
     for (int k = 0; k < 6; ++k) {
       PointGradient g = zero_gradient();
       add_spectrum_gradient(at.at, at.legs, s, k, k, 0.5 / (s.sigma[k] * s.sigma[k]), g);

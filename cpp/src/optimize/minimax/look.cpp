@@ -64,7 +64,7 @@ void look(const Prepared& p, const Eigen::VectorXd& y, Look& out, const Wanted* 
   out.f_gradient.resize(p.rows, n);
   for (int k = 0; k < poses; ++k) {
     PoseSpectrum& s = out.spectra[static_cast<std::size_t>(k)];
-    const int place = out.view.first + k;
+    const int place = out.view.first_pose + k;
     if (p.closed[static_cast<std::size_t>(k)])
       closed_spectrum(*p.family, out.view, p.places[static_cast<std::size_t>(place)], machine, s);
     else general_spectrum(out.view, place, s, wanted == nullptr || wanted->poses[static_cast<std::size_t>(k)]);

@@ -7,7 +7,7 @@ namespace ninedof {
 
 /// A design and the derivatives of its rows with respect to the free coordinates.
 struct Look {
-  View view;
+  DesignState view;
   std::vector<PoseSpectrum> spectra;  ///< of the poses looked at
   Eigen::VectorXd f, m;
   Rows f_gradient, m_gradient;

@@ -42,14 +42,14 @@ bool nearly_stationary(const Prepared& p, const Eigen::VectorXd& y) {
 
 }  // namespace
 
-Candidate judge(const Prepared& p, const Eigen::VectorXd& unhelped) {
-  const Eigen::VectorXd y = p.helped(unhelped);
+Candidate judge(const Prepared& p, const Eigen::VectorXd& without_auxiliary) {
+  const Eigen::VectorXd y = p.with_auxiliary(without_auxiliary);
   Look l;
   look(p, y, l);
   const ActiveSet active = active_set(p, l, y);
   Stationarity s = stationarity(p, l, active);
   Candidate out;
-  out.variables = p.without_helpers(l.view.x);
+  out.variables = p.without_auxiliary(l.view.x);
   out.objective = std::exp(l.log_objective);
   out.condition_number = neutral_condition(p, l);
   out.conditions = conditions(p, l);
@@ -65,7 +65,7 @@ Candidate judge(const Prepared& p, const Eigen::VectorXd& unhelped) {
 
 Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formulation, const Effort& effort,
              const std::stop_token& stop, const Observer& observer) {
-  Eigen::VectorXd y = p.helped(start);
+  Eigen::VectorXd y = p.with_auxiliary(start);
   Run run{judge(p, y)};
   if (p.coordinates.size() == 0) return run;
   const bool minimax = formulation == Formulation::minimax;
@@ -75,7 +75,7 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
     const Candidate judged = judge(p, next);
     if (!improves(judged, run.end)) return false;
     run.end = judged;
-    y = p.helped(next);
+    y = p.with_auxiliary(next);
     return true;
   };
   const auto solve = [&](const Eigen::VectorXd& from, double smoothing, double tolerance) {
@@ -113,7 +113,8 @@ Run minimise(const Prepared& p, const Eigen::VectorXd& start, Formulation formul
 Violation least_violation(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations,
                           const std::stop_token& stop) {
   Violation out;
-  const Eigen::VectorXd y = p.helped(least_violation_point(p, p.helped(start), max_evaluations, stop, out.evaluations));
+  const Eigen::VectorXd y =
+      p.with_auxiliary(least_violation_point(p, p.with_auxiliary(start), max_evaluations, stop, out.evaluations));
   out.end = judge(p, y);
   Look l;
   look(p, y, l);

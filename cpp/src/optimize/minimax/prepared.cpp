@@ -20,17 +20,18 @@ int pair_rows(bool closed) {
   return index_rows(Index::condition_number, closed);
 }
 
-int count_helpers(const Problem& problem) {
+int count_auxiliary(const Problem& problem) {
   int count = 0;
   for (const Limit& limit : problem.limits)
-    count += make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve)->helpers();
+    count +=
+        make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve)->auxiliary_count();
   return count;
 }
 
 }  // namespace
 
 Prepared::Prepared(const Problem& given, double cap)
-    : problem(given), family(&design_family(given.family)), coordinates(given, cap, count_helpers(given)) {
+    : problem(given), family(&design_family(given.family)), coordinates(given, cap, count_auxiliary(given)) {
   place_poses();
   count_rows(Purpose::solve);
   teach_constraints(coordinates);
@@ -40,7 +41,7 @@ Prepared::Prepared(const Problem& given, double cap)
 Prepared::Prepared(const Problem& given)
     : problem(given), family(&design_family(given.family)), coordinates(Coordinates::plain(given)) {
   place_poses();
-  count_rows(Purpose::look);
+  count_rows(Purpose::evaluate);
   teach_constraints(Coordinates(given, caps_end * given.unit()));
 }
 
@@ -49,7 +50,7 @@ void Prepared::place_poses() {
   looked = static_cast<int>(poses.size());
   places.push_back({});
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    Place place{poses[k], 1.0, offset_variables(problem, k)};
+    PoseSpec place{poses[k], 1.0, offset_variables(problem, k)};
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (place.offset[axis] >= 0) place.coordinate[axis] = coordinates.coordinate(place.offset[axis]);
     places.push_back(place);
@@ -59,7 +60,7 @@ void Prepared::place_poses() {
     if (l.name == "singularity_free") steps = l.steps;
   for (std::size_t k = 1; k <= poses.size(); ++k)
     for (int step = 1; step < steps; ++step) {
-      Place between = places[k];
+      PoseSpec between = places[k];
       between.fraction = static_cast<double>(step) / steps;
       places.push_back(between);
     }
@@ -69,7 +70,7 @@ void Prepared::count_rows(Purpose purpose) {
   const Objective& o = problem.objective;
   const int poses = std::max(looked, 1);
   for (int k = 0; k < poses; ++k) {
-    const Place& place = places[static_cast<std::size_t>(looked > 0 ? k + 1 : 0)];
+    const PoseSpec& place = places[static_cast<std::size_t>(looked > 0 ? k + 1 : 0)];
     closed.push_back(on_axis(problem, place.pose));
     first_row_.push_back(rows);
     rows += index_rows(o.index, closed.back());
@@ -85,9 +86,10 @@ void Prepared::count_rows(Purpose purpose) {
   const auto visible = static_cast<int>(full_variables(problem).size());
   for (const Limit& limit : problem.limits) {
     constraints.push_back(make_constraint(limit, looked, purpose));
-    const int own = constraints.back()->helpers();
-    if (own > 0) constraints.back()->set_helpers(visible + helpers, coordinates.coordinate(visible + helpers));
-    helpers += own;
+    const int own = constraints.back()->auxiliary_count();
+    if (own > 0)
+      constraints.back()->set_auxiliary(visible + auxiliary_count, coordinates.coordinate(visible + auxiliary_count));
+    auxiliary_count += own;
   }
   std::vector<int> placed_poses;
   for (int k = 0; k < looked; ++k)
@@ -104,7 +106,7 @@ void Prepared::count_rows(Purpose purpose) {
 
 void Prepared::teach_constraints(const Coordinates& within) {
   if (constraints.empty()) return;
-  std::vector<View> designs(probes);
+  std::vector<DesignState> designs(probes);
   for (int k = 0; k < probes; ++k)
     designs[static_cast<std::size_t>(k)].set(*family, within, problem.characteristic_length, {{}}, 0,
                                              within.start(7 * k + 1, 12345));
@@ -116,7 +118,7 @@ void Prepared::drop_repeated_margins() {
   std::vector<Eigen::VectorXd> seen;
   Look l;
   for (int k = 0; k < probes; ++k) {
-    // Places of s and helping variables are their own: no two margins may agree for their sake.
+    // Places of s and auxiliary variables are their own: no two margins may agree for their sake.
     Eigen::VectorXd y = coordinates.start(7 * k + 1, 12345);
     for (int v = 0; v < coordinates.size(); ++v)
       if (coordinates.info(v).ours && coordinates.info(v).kind == VariableKind::fraction)
@@ -171,14 +173,14 @@ double Prepared::violation_factor(int k) const {
   return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->violation_factor(row);
 }
 
-Eigen::VectorXd Prepared::helped(const Eigen::VectorXd& y) const {
-  if (helpers == 0) return y;
-  View v;
+Eigen::VectorXd Prepared::with_auxiliary(const Eigen::VectorXd& y) const {
+  if (auxiliary_count == 0) return y;
+  DesignState v;
   v.set(*family, coordinates, problem.characteristic_length, places, looked, y);
   v.unit = problem.unit();
   Eigen::VectorXd x = v.x;
   for (const auto& c : constraints)
-    for (int k = 0; k < c->helpers(); ++k) x[c->helper_variable() + k] = c->helper(v, k);
+    for (int k = 0; k < c->auxiliary_count(); ++k) x[c->auxiliary_variable() + k] = c->auxiliary_value(v, k);
   return coordinates.coordinates(x);
 }
 

@@ -36,22 +36,22 @@ struct Prepared {
   Problem problem;
   const DesignFamily* family;
   Coordinates coordinates;
-  std::vector<Place> places;  ///< the neutral one, those of the objective, those between
+  std::vector<PoseSpec> places;  ///< the neutral one, those of the objective, those between
   int looked = 0;             ///< poses of the objective
   std::vector<bool> closed;   ///< of each pose looked at: through the closed form
   std::vector<std::unique_ptr<Constraint>> constraints;
   std::vector<MarginRow> margins;
   std::vector<Use> uses;
   int rows = 0, levels = 1;
-  int helpers = 0;
+  int auxiliary_count = 0;
 
   const std::string& margin_name(int k) const;
   double margin_price(int k) const;
   double violation_factor(int k) const;
-  /// `y` with the helping variables of constraints at their best.
-  Eigen::VectorXd helped(const Eigen::VectorXd& y) const;
-  /// A full set of variables without the helping ones.
-  Eigen::VectorXd without_helpers(const Eigen::VectorXd& x) const { return x.head(x.size() - helpers); }
+  /// `y` with the auxiliary variables of constraints at their best.
+  Eigen::VectorXd with_auxiliary(const Eigen::VectorXd& y) const;
+  /// A full set of variables without the auxiliary ones.
+  Eigen::VectorXd without_auxiliary(const Eigen::VectorXd& x) const { return x.head(x.size() - auxiliary_count); }
   /// Whether singular values that meet have a kink: off the axis, and not in the Frobenius norm.
   bool kinked() const;
   /// Rows of the objective that belong to a pose looked at.

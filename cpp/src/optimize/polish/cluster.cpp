@@ -22,7 +22,7 @@ Cluster::Cluster(const Prepared& p, const Look& l, int pose, double tie) {
 
 std::vector<Eigen::RowVectorXd> cluster_block(const Look& l, int pose, const std::vector<int>& members) {
   const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
-  const PoseView& at = l.view.pose(l.view.first + pose);
+  const PoseState& at = l.view.pose(l.view.first_pose + pose);
   std::vector<Eigen::RowVectorXd> out;
   for (std::size_t i = 0; i < members.size(); ++i)
     for (std::size_t j = i; j < members.size(); ++j) {
@@ -30,7 +30,7 @@ std::vector<Eigen::RowVectorXd> cluster_block(const Look& l, int pose, const std
       PointGradient g = zero_gradient();
       add_spectrum_gradient(at.at, at.legs, s.general, a, b, 0.5 / (s.general.sigma[a] * s.general.sigma[b]), g);
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(l.view.columns());
-      l.view.add(l.view.first + pose, g, row);
+      l.view.add(l.view.first_pose + pose, g, row);
       out.push_back(std::move(row));
     }
   return out;

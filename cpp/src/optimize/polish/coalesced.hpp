@@ -27,7 +27,7 @@ class Coalesced {
   };
   Entries at(const Look& l) const;
 
-  /// Place of S(i, i) among the entries.
+  /// PoseSpec of S(i, i) among the entries.
   int diagonal(int i) const { return i * size() - i * (i - 1) / 2; }
 
  private:

@@ -15,7 +15,7 @@ using Row = Eigen::Ref<Eigen::RowVectorXd>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A pose as the solver takes it.
-struct Place {
+struct PoseSpec {
   Pose pose;
   double fraction = 1.0;                        ///< of the straight way from the neutral configuration
   std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
@@ -23,7 +23,7 @@ struct Place {
 };
 
 /// One design at one place.
-struct PoseView {
+struct PoseState {
   Points at;
   NineLegs legs;
   Mat3 rotation;       ///< Q
@@ -38,23 +38,23 @@ struct LegExtreme {
   int pose = 0, leg = 0;
 };
 
-class View {
+class DesignState {
  public:
   /// Places: the neutral configuration, the poses of the objective, and whatever lies between.
   void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
-           const std::vector<Place>& places, int looked, const Eigen::VectorXd& y);
+           const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y);
 
   Eigen::VectorXd x;  ///< full variables
   Blueprint blueprint;
   double unit = 1.0;  ///< of the problem: what lengths are divided by before a logarithm is taken
   double characteristic_length = 1.0;
   Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
-  std::vector<PoseView> poses;
+  std::vector<PoseState> poses;
 
   /// Poses looked at: those of the objective, or the neutral one where there are none.
-  int first = 0, looked = 1;
+  int first_pose = 0, pose_count = 1;
   Eigen::Index columns() const { return jet_.cols(); }
-  const PoseView& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
+  const PoseState& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
 
   /// Over the poses looked at: of all legs, and of each.
   LegExtreme longest, shortest;
@@ -76,8 +76,8 @@ class View {
 
  private:
   void set_length(const StudyLength& length, int coordinate);
-  void set_natural_length(const PoseView& home);
-  void set_pose(const Place& place, PoseView& out) const;
+  void set_natural_length(const PoseState& home);
+  void set_pose(const PoseSpec& spec, PoseState& out) const;
   void set_extremes();
 
   Rows jet_;  ///< Blueprint::gradient with respect to the free coordinates
