@@ -14,6 +14,26 @@ constexpr std::size_t at_index(int k) {
 
 }  // namespace
 
+std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates) {
+  std::vector<PoseSpec> specs{{}};
+  for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
+    PoseSpec spec{problem.objective.poses[k], 1.0, offset_variables(problem, k)};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (spec.offset[axis] >= 0) spec.coordinate[axis] = coordinates.coordinate(spec.offset[axis]);
+    specs.push_back(spec);
+  }
+  int steps = 1;
+  for (const Limit& limit : problem.limits)
+    if (limit.name == "singularity_free") steps = limit.steps;
+  for (std::size_t k = 1; k <= problem.objective.poses.size(); ++k)
+    for (int step = 1; step < steps; ++step) {
+      PoseSpec between = specs[k];
+      between.fraction = static_cast<double>(step) / steps;
+      specs.push_back(between);
+    }
+  return specs;
+}
+
 void DesignState::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
                       const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y) {
   x = c.variables(y);
@@ -110,12 +130,12 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
 }
 
 void DesignState::set_natural_length(const PoseState& home) {
-  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of the least
-  // sum of squared leg rates; the natural length is u times the root of their quotient, whatever u is.
+  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of
+  // the least sum of squared leg rates. The natural length is u times the root of their quotient, for any u.
   const double trial = std::max(blueprint.zp, 1e-150);
   PointGradient turning = zero_gradient(), shifting = zero_gradient();
   Spectrum s = spectrum(home.at, home.legs, trial);
-  // Any orthonormal set of twists will do in place of the singular vectors.
+  // Any orthonormal set of twists may replace the singular vectors.
   const Mat6 back = s.twist.transpose();
   s.sdot = (s.sdot * back).eval();
   s.rates = (s.rates * back).eval();

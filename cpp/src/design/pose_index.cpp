@@ -17,7 +17,7 @@ std::span<const int> bottoms_of(bool closed) {
   return closed ? std::span<const int>(closed_bottoms) : std::span<const int>(general_bottoms);
 }
 
-/// How often a singular value occurs.
+/// Multiplicity of a singular value.
 double multiplicity(bool closed, int k) {
   return closed && k >= AxisPoint::transverse_max ? 2.0 : 1.0;
 }
