@@ -77,5 +77,5 @@ def test_prices_of_bounds_say_which_bound(result):
 
 def test_a_result_can_be_written(result):
     text = to_json(describe_result(result))
-    for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "stopped_early"):
+    for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "runs_abandoned"):
         assert f'"{entry}"' in text
