@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/linear/nnls.hpp"
+
 namespace ninedof {
 namespace {
 

@@ -42,7 +42,4 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
 /// balance their gradients with positive weight.
 std::vector<std::string> conflict(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
 
-/// min |A w - b| over w >= 0 (Lawson and Hanson's active-set method).
-Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
-
 }  // namespace ninedof
