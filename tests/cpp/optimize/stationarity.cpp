@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "math/linear/nnls.hpp"
+#include "ninedof/optimize/trace.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/cluster.hpp"
 #include "support/studies.hpp"
