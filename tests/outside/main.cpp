@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 #include <ninedof/conditioning/conditioning.hpp>
+#include <ninedof/optimize/optimize.hpp>
 #include <ninedof/robot/configuration.hpp>
 #include <ninedof/robot/geometry.hpp>
-#include <ninedof/optimize/optimize.hpp>
 
 int main() {
   // Base triangle of side 5.8124, platform triangle of half that side, O at the best height between them.

@@ -1,4 +1,4 @@
-#include "ninedof/optimize/optimize.hpp"
+#include "ninedof/optimize/trace.hpp"
 
 #include "support/baseline.hpp"
 #include "support/data.hpp"

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
 #include "support/baseline.hpp"
 #include "support/over_poses.hpp"

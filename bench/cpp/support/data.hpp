@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ninedof/math/rotation.hpp"
-#include "ninedof/optimize/optimize.hpp"
+#include "ninedof/design/problem.hpp"
 
 namespace bench {
 

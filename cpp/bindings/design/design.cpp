@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
 #include "support/arrays.hpp"
 #include "support/module.hpp"

@@ -10,13 +10,14 @@
 namespace ninedof {
 namespace {
 
-/// Least difference of zp and zs in solver coordinates: below it the upper internal legs lie in the platform plane.
+/// Least difference of zp and zs in solver coordinates: at zero the upper internal legs would lie in the platform
+/// plane.
 constexpr double order_gap = 1e-10;
 
-/// An angle without bounds goes once round, and a little more so that no optimum sits on a bound of ours.
+/// Half range of an angle without bounds: more than one turn, so that no optimum has to lie on an internal bound.
 constexpr double turn = 1.25 * std::numbers::pi;
 
-/// Distance from a bound that is rounding.
+/// Distance from a bound that counts as rounding error.
 constexpr double snap = 1e-13;
 
 /// The unit of the coordinates: bounds of small robots must not all fall into the linear part.
@@ -24,7 +25,7 @@ double unit_of(const Problem& problem, const std::vector<Variable>& all) {
   double unit = problem.unit();
   for (const Variable& v : all) {
     const bool sized = v.kind == VariableKind::length || v.kind == VariableKind::coordinate;
-    if (sized && !v.ours && v.bounds.low < v.bounds.high)
+    if (sized && !v.internal_bounds && v.bounds.low < v.bounds.high)
       unit = std::min(unit, 0.2 * std::max(v.bounds.high, -v.bounds.low));
   }
   return unit;
@@ -45,12 +46,13 @@ double shift(std::uint64_t seed, int dimension) {
 
 }  // namespace
 
-bool serious_bound(const Problem& problem, double bound) {
+bool is_effective_bound(const Problem& problem, double bound) {
   return std::abs(bound) < 1e6 * problem.unit();
 }
 
-Coordinates::Coordinates(const Problem& problem, double cap, int helpers) : all_(full_variables(problem)) {
-  for (int k = 0; k < helpers; ++k) all_.push_back({"", VariableKind::fraction, {-infinity, infinity}, true});
+Coordinates::Coordinates(const Problem& problem, double size_limit, int auxiliary_count)
+    : all_(full_variables(problem)) {
+  for (int k = 0; k < auxiliary_count; ++k) all_.push_back({"", VariableKind::fraction, {-infinity, infinity}, true});
   unit_ = unit_of(problem, all_);
   const auto n = static_cast<Eigen::Index>(all_.size());
   fixed_.resize(n);
@@ -61,18 +63,19 @@ Coordinates::Coordinates(const Problem& problem, double cap, int helpers) : all_
     const Bounds& b = all_[i].bounds;
     const bool angle = all_[i].kind == VariableKind::angle, free = b.low < b.high;
     const bool signed_length = all_[i].kind == VariableKind::coordinate;
-    const bool cut_low =
-        free && (angle ? !std::isfinite(b.low) : signed_length && !serious_bound(problem, b.low) && -cap > b.low);
+    const bool cut_low = free && (angle ? !std::isfinite(b.low)
+                                        : signed_length && !is_effective_bound(problem, b.low) && -size_limit > b.low);
     const bool fraction = all_[i].kind == VariableKind::fraction;
     const bool cut_high =
-        free && !fraction && (angle ? !std::isfinite(b.high) : !serious_bound(problem, b.high) && cap < b.high);
-    x_low_[k] = !cut_low ? b.low : !angle ? -cap : cut_high ? -turn : b.high - 2.0 * turn;
-    x_high_[k] = !cut_high ? b.high : angle ? x_low_[k] + 2.0 * turn : cap;
+        free && !fraction &&
+        (angle ? !std::isfinite(b.high) : !is_effective_bound(problem, b.high) && size_limit < b.high);
+    x_low_[k] = !cut_low ? b.low : !angle ? -size_limit : cut_high ? -turn : b.high - 2.0 * turn;
+    x_high_[k] = !cut_high ? b.high : angle ? x_low_[k] + 2.0 * turn : size_limit;
     fixed_[k] = x_low_[k];
     if (!free) continue;
     free_.push_back(static_cast<int>(i));
-    capped_low_.push_back(cut_low || all_[i].ours);
-    capped_high_.push_back(cut_high || all_[i].ours);
+    internal_low_.push_back(cut_low || all_[i].internal_bounds);
+    internal_high_.push_back(cut_high || all_[i].internal_bounds);
   }
   low_.resize(size());
   high_.resize(size());
@@ -165,7 +168,7 @@ Eigen::VectorXd Coordinates::start(int index, std::uint64_t seed) const {
     u[k] = t - std::floor(t);
   }
   Eigen::VectorXd y = low_ + u.cwiseProduct(high_ - low_);
-  // Draw zp above the least zs, then zs below zp.
+  // Draw zp above the smallest zs, then zs below zp.
   const double zs_floor = zs_ >= 0 ? low_[zs_] : y_zs_;
   if (zp_ >= 0) {
     const double low = std::clamp(zs_floor + order_gap, low_[zp_], high_[zp_]);
@@ -176,10 +179,10 @@ Eigen::VectorXd Coordinates::start(int index, std::uint64_t seed) const {
     const double high = std::clamp(zp - order_gap, low_[zs_], high_[zs_]);
     y[zs_] = low_[zs_] + u[zs_] * (high - low_[zs_]);
   }
-  // What the study leaves to us starts where it makes sense: s at its stated place, the length at half the height.
+  // Variables with internal bounds start from standard values: s at its stated position, the length at half the height.
   const double zp = to_x(zp_variable_, zp_ >= 0 ? y[zp_] : y_zp_);
   for (int k = 0; k < size(); ++k) {
-    if (!info(k).ours) continue;
+    if (!info(k).internal_bounds) continue;
     const double value = info(k).kind == VariableKind::fraction ? 0.0 : 0.5 * zp;
     y[k] = std::clamp(to_y(variable(k), value), low_[k], high_[k]);
   }

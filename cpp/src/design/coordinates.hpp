@@ -1,26 +1,25 @@
 #pragma once
-/// The coordinates the solver works in: the free variables only, lengths as y = asinh(x / unit).
+/// The solver's coordinates: the free variables only, lengths as y = asinh(x / unit).
 ///
-/// Linear below the unit and logarithmic above it, so that a bound at 0 stays reachable while sizes of 1 and of 10^6 look
-/// alike, and a study in millimetres runs as the same one in metres. The unit is that of the problem, or less where the
-/// bounds allow only small robots. Angles and fractions stay as they are. The order of zs and zp carries over.
+/// This scale is linear below the unit and logarithmic above it. A bound at 0 stays reachable, steps are relative for
+/// sizes from 1 to 10^6, and a study in millimetres gives the same run as in metres. The unit is that of the problem,
+/// or less where the bounds allow only small robots. Angles and fractions are not scaled. zs < zp is linear in y.
 
-#include <algorithm>
 #include <vector>
 
 #include "design/full_variables.hpp"
 
 namespace ninedof {
 
-/// Whether an upper bound of a length is one: a million characteristic lengths are not.
-bool serious_bound(const Problem& problem, double high);
+/// Whether a bound of a length counts as one: a million characteristic lengths or more do not.
+bool is_effective_bound(const Problem& problem, double bound);
 
 class Coordinates {
  public:
-  /// `cap`: largest size looked at where a variable has no serious upper bound, in the study's unit.
-  Coordinates(const Problem& problem, double cap, int helpers = 0);
+  /// `size_limit`: largest size of a variable without an effective upper bound, in the study's unit.
+  Coordinates(const Problem& problem, double size_limit, int auxiliary_count = 0);
 
-  /// Every variable as it is, without bounds: to look at single designs. Has no starts and no order.
+  /// Every variable unscaled and without bounds, to evaluate single designs. Has no starts and no order.
   static Coordinates plain(const Problem& problem);
 
   int size() const { return static_cast<int>(free_.size()); }
@@ -30,16 +29,17 @@ class Coordinates {
   /// Full variable behind free coordinate `k`, and the coordinate of a full variable, or -1.
   int variable(int k) const { return free_[static_cast<std::size_t>(k)]; }
   int coordinate(int variable) const;
-  /// The full variable that is the characteristic length, or -1.
+  /// Index of the characteristic length among the full variables, or -1.
   int length_variable() const { return length_variable_; }
   const Variable& info(int k) const { return all_[static_cast<std::size_t>(variable(k))]; }
-  /// Whether a range of ours, and no bound of the study, limits free coordinate `k` from below, from above.
-  bool capped_low(int k) const { return capped_low_[static_cast<std::size_t>(k)]; }
-  bool capped_high(int k) const { return capped_high_[static_cast<std::size_t>(k)]; }
+  /// Whether an internal bound, not one of the study, limits free coordinate `k` from below, from above.
+  bool internal_low(int k) const { return internal_low_[static_cast<std::size_t>(k)]; }
+  bool internal_high(int k) const { return internal_high_[static_cast<std::size_t>(k)]; }
 
-  /// All full variables and helping ones, bounds met exactly.
+  /// All full variables and the auxiliary ones; bounds are met exactly.
   Eigen::VectorXd variables(const Eigen::VectorXd& y) const;
-  /// Free coordinates of a full set of variables, moved inside the bounds. Helping variables may be left out and are then 0.
+  /// Free coordinates of a full set of variables, moved inside the bounds. auxiliary variables may be left out and are
+  /// then 0.
   Eigen::VectorXd coordinates(const Eigen::VectorXd& x) const;
   /// dx/dy of each free coordinate at x.
   Eigen::VectorXd slopes(const Eigen::VectorXd& x) const;
@@ -67,7 +67,7 @@ class Coordinates {
   Eigen::VectorXd fixed_;  // all variables; free ones are overwritten
   Eigen::VectorXd x_low_, x_high_;
   std::vector<int> free_;
-  std::vector<bool> capped_low_, capped_high_;
+  std::vector<bool> internal_low_, internal_high_;
   Eigen::VectorXd low_, high_;
   int zp_variable_, length_variable_;
   int zp_, zs_;            // free coordinate, or -1 where fixed

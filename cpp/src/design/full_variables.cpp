@@ -1,11 +1,13 @@
 #include "design/full_variables.hpp"
 
+#include "ninedof/math/error.hpp"
+
 namespace ninedof {
 namespace {
 
-/// How far from its stated place s is looked for, in zp: to the other plate and no further.
+/// Largest offset of s from its stated position, in zp: it reaches the other plate.
 constexpr double reach = 1.0;
-/// Range of an "optimal" characteristic length, in units of the study.
+/// Range of an "optimal" characteristic length, in Problem::unit.
 constexpr double smallest_length = 1e-4, largest_length = 1e4;
 
 bool length_is_free(const StudyLength& l) {
@@ -15,7 +17,7 @@ bool length_is_free(const StudyLength& l) {
 
 }  // namespace
 
-bool placed(const Pose& pose) {
+bool optimizes_internal_point(const Pose& pose) {
   return pose.best_internal && !(pose.position.isZero(0.0) && pose.rotation.isZero(0.0));
 }
 
@@ -39,7 +41,7 @@ std::vector<Variable> full_variables(const Problem& problem) {
                    true});
   for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
     const Pose& pose = problem.objective.poses[k];
-    if (!placed(pose)) continue;
+    if (!optimizes_internal_point(pose)) continue;
     const std::string name = "pose" + std::to_string(k + 1) + ".s_";
     for (const char axis : {'x', 'y', 'z'})
       if (axis == 'z' || !on_axis(problem, pose))
@@ -54,10 +56,10 @@ int length_variable(const Problem& problem) {
 
 std::array<int, 3> offset_variables(const Problem& problem, std::size_t k) {
   const auto& poses = problem.objective.poses;
-  if (!placed(poses[k])) return {-1, -1, -1};
+  if (!optimizes_internal_point(poses[k])) return {-1, -1, -1};
   int at = static_cast<int>(problem.variables.size()) + (length_variable(problem) >= 0 ? 1 : 0);
   for (std::size_t j = 0; j < k; ++j)
-    if (placed(poses[j])) at += on_axis(problem, poses[j]) ? 1 : 3;
+    if (optimizes_internal_point(poses[j])) at += on_axis(problem, poses[j]) ? 1 : 3;
   if (on_axis(problem, poses[k])) return {-1, -1, at};
   return {at, at + 1, at + 2};
 }

@@ -1,10 +1,11 @@
 #pragma once
-/// Everything the optimizer may move: the family's variables, the characteristic length, the place of s in displaced poses.
+/// The full set of variables: the family's, the characteristic length, offsets of the internal point at displaced
+/// poses.
 
 #include <array>
 #include <vector>
 
-#include "ninedof/optimize/optimize.hpp"
+#include "ninedof/design/problem.hpp"
 
 namespace ninedof {
 
@@ -12,23 +13,22 @@ struct Variable {
   std::string name;
   VariableKind kind;
   Bounds bounds;
-  bool ours = false;  ///< bounds are a range of ours, not the study's: standing on one is no answer
+  bool internal_bounds = false;  ///< not of the study: an optimum must not lie on them
 };
 
-/// In the order of Problem::names().
 std::vector<Variable> full_variables(const Problem& problem);
 
-/// Whether the optimizer moves s of a pose. At the neutral place it does so through zs.
-bool placed(const Pose& pose);
+/// Whether the optimizer chooses s at a pose. At the neutral pose it does so through zs.
+bool optimizes_internal_point(const Pose& pose);
 
-/// Place of the characteristic length among them, or -1.
+/// Index of the characteristic length among the full variables, or -1.
 int length_variable(const Problem& problem);
 
-/// A pose on the axis of a symmetric family, s included: the closed form holds there.
+/// Whether a pose of a symmetric family lies on the axis, s included: the closed form holds there.
 bool on_axis(const Problem& problem, const Pose& pose);
 
-/// Places of s_x, s_y, s_z of the objective's pose `k` among the full variables, -1 where the optimizer does not move them.
-/// On the axis symmetry keeps s there, and only s_z moves.
+/// Indices of s_x, s_y, s_z of the objective's pose `k` among the full variables, -1 where the optimizer does not move
+/// them. On the axis symmetry keeps s there, and only s_z moves.
 std::array<int, 3> offset_variables(const Problem& problem, std::size_t k);
 
 /// Throws InvalidArgument unless `x` is a full set of finite variables.

@@ -17,7 +17,7 @@ std::span<const int> bottoms_of(bool closed) {
   return closed ? std::span<const int>(closed_bottoms) : std::span<const int>(general_bottoms);
 }
 
-/// How often a singular value occurs.
+/// Multiplicity of a singular value.
 double multiplicity(bool closed, int k) {
   return closed && k >= AxisPoint::transverse_max ? 2.0 : 1.0;
 }
@@ -46,8 +46,8 @@ std::span<const int> PoseSpectrum::bottoms() const {
   return bottoms_of(closed);
 }
 
-void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivatives) {
-  const PoseView& at = v.pose(pose);
+void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives) {
+  const PoseState& at = v.pose(pose);
   out.closed = false;
   out.general = spectrum(at.at, at.legs, v.characteristic_length);
   const auto gone = [&](int k) { return !(out.general.sigma[k] > tiny); };
@@ -65,14 +65,14 @@ void general_spectrum(const View& v, int pose, PoseSpectrum& out, bool derivativ
   if (!out.gradient.allFinite()) out.gradient.setZero();  // so near a singularity that squares under- or overflow
 }
 
-void closed_spectrum(const DesignFamily& family, const View& v, const Place& place, Machine machine,
+void closed_spectrum(const DesignFamily& family, const DesignState& v, const PoseSpec& spec, Machine machine,
                      PoseSpectrum& out) {
-  const Pose& pose = place.pose;
+  const Pose& pose = spec.pose;
   AxisShift shift;
   (pose.in_zp ? shift.p_in_zp : shift.p) = pose.position.z();
   (pose.in_zp ? shift.s_in_zp : shift.s) = pose.internal.z();
   shift.turn = pose.rotation.z();
-  if (place.offset[2] >= 0) shift.s_in_zp += v.x[place.offset[2]];
+  if (spec.offset[2] >= 0) shift.s_in_zp += v.x[spec.offset[2]];
   AxisPoint point;
   const std::size_t own = family.variables().size();
   family.axis({v.x.data(), own}, v.characteristic_length, shift, machine, point);
@@ -82,7 +82,7 @@ void closed_spectrum(const DesignFamily& family, const View& v, const Place& pla
   const int zs = family.index("zs");
   for (int k = 0; k < 4; ++k) {
     v.add_variables(point.gradient.row(k), out.gradient.row(k));
-    if (place.coordinate[2] >= 0) out.gradient(k, place.coordinate[2]) += v.blueprint.zp * point.gradient(k, zs);
+    if (spec.coordinate[2] >= 0) out.gradient(k, spec.coordinate[2]) += v.blueprint.zp * point.gradient(k, zs);
   }
 }
 

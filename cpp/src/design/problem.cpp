@@ -1,11 +1,11 @@
-/// Declared in ninedof/optimize/optimize.hpp.
+#include "ninedof/design/problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "design/full_variables.hpp"
+#include "design/design_state.hpp"
 #include "math/numbers.hpp"
-#include "ninedof/optimize/optimize.hpp"
+#include "ninedof/math/error.hpp"
 
 namespace ninedof {
 namespace {
@@ -17,6 +17,16 @@ void require_bounds(const std::string& name, VariableKind kind, const Bounds& b)
   if (kind == VariableKind::length && b.low < 0.0) throw InvalidArgument(name, text, "a length, low >= 0");
 }
 
+DesignState state_of(const Problem& problem, const Eigen::VectorXd& variables) {
+  problem.validate();
+  require_full("variables", problem, variables);
+  const Coordinates coordinates = Coordinates::plain(problem);
+  DesignState state;
+  state.set(design_family(problem.family), coordinates, problem.characteristic_length, pose_specs(problem, coordinates),
+            static_cast<int>(problem.objective.poses.size()), variables);
+  return state;
+}
+
 }  // namespace
 
 double Problem::unit() const {
@@ -24,12 +34,13 @@ double Problem::unit() const {
   if (characteristic_length.choice == Choice::number) return characteristic_length.value;
   if (characteristic_length.choice == Choice::free)
     return std::sqrt(characteristic_length.bounds.low) * std::sqrt(characteristic_length.bounds.high);
-  // A tenth of the smallest room there is: a study in other units is the same study.
+  // From the bounds, so that a study in other units of length gives the same run.
   const auto& info = design_family(family).variables();
-  double room = infinity;
+  double smallest = infinity;
   for (std::size_t k = 0; k < info.size() && k < variables.size(); ++k)
-    if (info[k].kind == VariableKind::length && variables[k].high > 0.0) room = std::min(room, variables[k].high);
-  return std::isfinite(room) ? 0.1 * room : 1.0;
+    if (info[k].kind == VariableKind::length && variables[k].high > 0.0)
+      smallest = std::min(smallest, variables[k].high);
+  return std::isfinite(smallest) ? 0.1 * smallest : 1.0;
 }
 
 std::vector<std::string> Problem::names() const {
@@ -58,7 +69,7 @@ void Problem::validate() const {
   objective.validate();
   if (objective.index == Index::six_legged && !f.symmetric())
     throw InvalidArgument("objective.index", "\"six_legged\"", "a family symmetric about z with it, not " + family);
-  // A design of ordinary size within the bounds must be a robot: says so where both sides of a plate are held at zero.
+  // Some design within the bounds must be a robot: throws where both sides of a plate are fixed at zero.
   std::vector<double> ordinary;
   for (std::size_t k = 0; k < info.size(); ++k) {
     const double size = info[k].kind == VariableKind::length ? unit() : 0.0;
@@ -67,9 +78,18 @@ void Problem::validate() const {
   if (f.symmetric()) f.geometry(ordinary);
 }
 
-void Settings::validate() const {
-  if (starts < 1) throw InvalidArgument("starts", std::to_string(starts), "at least 1");
-  if (max_evaluations < 1) throw InvalidArgument("max_evaluations", std::to_string(max_evaluations), "at least 1");
+double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables) {
+  return state_of(problem, variables).characteristic_length;
+}
+
+std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables) {
+  const DesignState state = state_of(problem, variables);
+  std::vector<Configuration> out;
+  for (std::size_t k = 0; k <= problem.objective.poses.size(); ++k) {
+    const PoseState& pose = state.poses[k];
+    out.push_back({pose.at[point_p], pose.rotation, pose.at[point_s]});
+  }
+  return out;
 }
 
 }  // namespace ninedof

@@ -21,16 +21,6 @@ std::string sentence(std::string text, const std::string& got, const std::string
 InvalidArgument::InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
     : std::invalid_argument(sentence(argument, got, expected)) {}
 
-const char* to_string(Status status) {
-  switch (status) {
-    case Status::optimal: return "optimal";
-    case Status::unbounded: return "unbounded";
-    case Status::infeasible: return "infeasible";
-    case Status::stopped: return "stopped";
-  }
-  return "stopped";
-}
-
 std::string format_number(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;

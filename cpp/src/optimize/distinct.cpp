@@ -1,30 +1,30 @@
-/// Declared in optimize/rounds.hpp.
+/// Declared in optimize/search_round.hpp.
 
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/rounds.hpp"
+#include "optimize/search_round.hpp"
 
 namespace ninedof {
 namespace {
 
-/// Relative difference of objectives that counts as none.
+/// Relative difference of objectives that count as equal.
 constexpr double same_objective = 1e-7;
-/// Optima need not be isolated: of many designs with one objective this many are shown.
+/// Optima need not be isolated: of many designs with one objective this many are returned.
 constexpr int most_alike = 4;
 
-/// Numbers that equal machines share up to reflection, renumbering and variables that do not matter: logarithms of neutral
-/// leg lengths, of joint radii and heights, and of condition numbers.
-Eigen::VectorXd signature(const Prepared& p, const Candidate& c) {
-  Look l;
-  look(p, p.coordinates.coordinates(c.variables), l);
-  std::vector<double> all(l.view.pose(0).legs.length.begin(), l.view.pose(0).legs.length.end());
-  for (int joint = 0; joint < 12; ++joint) all.push_back(joint_radius(l.view, joint));
+/// Numbers that agree for equal robots up to reflection, renumbering and variables without effect: logarithms of
+/// neutral leg lengths, joint radii and heights, and of condition numbers.
+Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
+  DesignEvaluation design;
+  evaluate_design(p, p.coordinates.coordinates(c.variables), design);
+  std::vector<double> all(design.state.pose(0).legs.length.begin(), design.state.pose(0).legs.length.end());
+  for (int joint = 0; joint < 12; ++joint) all.push_back(joint_radius(design.state, joint));
   std::sort(all.begin(), all.begin() + 9);
   std::sort(all.begin() + 9, all.begin() + 15);
   std::sort(all.begin() + 15, all.end());
-  all.push_back(l.view.blueprint.zp);
-  all.push_back(l.view.blueprint.zs);
+  all.push_back(design.state.blueprint.zp);
+  all.push_back(design.state.blueprint.zs);
   all.push_back(c.condition_number);
   all.push_back(c.objective);
   const auto conditions = all.insert(all.end(), c.conditions.begin(), c.conditions.end());
@@ -37,9 +37,9 @@ bool same_design(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).cwiseAbs().maxCoeff() < 1e-4;
 }
 
-/// Whether `a` is the one to show of two ends that are the same design: not worse, and first in the order of variables
-/// (which of two mirror images is shown must not hang on rounding), or the same image and more nearly stationary.
-bool stands_for(const Candidate& a, const Candidate& b) {
+/// Whether `a` represents two end points of the same design: not worse, and first in the order of variables (the choice
+/// between mirror images must not depend on rounding), or the same image and more nearly stationary.
+bool represents(const Candidate& a, const Candidate& b) {
   if (a.objective > b.objective * (1.0 + 1e-9)) return false;
   for (Eigen::Index k = 0; k < a.variables.size(); ++k) {
     const double tolerance = 1e-4 * std::max(std::abs(a.variables[k]), std::abs(b.variables[k]));
@@ -48,25 +48,25 @@ bool stands_for(const Candidate& a, const Candidate& b) {
   return a.optimality_residual < b.optimality_residual;
 }
 
-/// Whether a run has ended where we cut an angle without bounds, or on our range of an "optimal" length: no optimum of the study.
-bool at_cut(const Prepared& p, const Candidate& c) {
+/// Whether a run ended on an internal bound of an angle or of an "optimal" length: no optimum of the study.
+bool at_internal_bound(const PreparedProblem& p, const Candidate& c) {
   const Eigen::VectorXd y = p.coordinates.coordinates(c.variables);
   for (int k = 0; k < p.coordinates.size(); ++k) {
     const Variable& v = p.coordinates.info(k);
-    if (v.kind != VariableKind::angle && !(v.kind == VariableKind::length && v.ours)) continue;
-    if (p.coordinates.capped_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
-    if (p.coordinates.capped_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
+    if (v.kind != VariableKind::angle && !(v.kind == VariableKind::length && v.internal_bounds)) continue;
+    if (p.coordinates.internal_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
+    if (p.coordinates.internal_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
   }
   return false;
 }
 
-bool acceptable(const Prepared& p, const Candidate& c) {
-  return c.feasible() && c.stationary() && c.regular() && !at_cut(p, c);
+bool acceptable(const PreparedProblem& p, const Candidate& c) {
+  return c.feasible() && c.stationary() && c.regular() && !at_internal_bound(p, c);
 }
 
 }  // namespace
 
-std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
+std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round) {
   std::vector<Candidate> ends;
   std::vector<double> from_starts;  // objectives that starts ended at
   for (std::size_t k = 0; k < round.runs.size(); ++k) {
@@ -85,7 +85,7 @@ std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
     std::size_t k = 0;
     while (k < out.size() && !same_design(signatures[k], mark)) ++k;
     if (k < out.size()) {
-      if (stands_for(end, out[k])) out[k] = std::move(end);
+      if (represents(end, out[k])) out[k] = std::move(end);
       continue;
     }
     alike = !out.empty() && same(end.objective, out.back().objective) ? alike + 1 : 0;
@@ -98,7 +98,7 @@ std::vector<Candidate> distinct(const Prepared& p, const Round& round) {
   return out;
 }
 
-std::optional<Candidate> best_allowed(const Round& round) {
+std::optional<Candidate> best_feasible(const SearchRound& round) {
   std::optional<Candidate> best;
   for (const auto& run : round.runs) {
     if (!run || !run->end.feasible() || !run->end.regular()) continue;

@@ -1,31 +1,33 @@
 #pragma once
-/// Is there a least value, is there a design at all? Statuses other than `optimal`, with the variables or constraints behind.
+/// Whether a least value exists, and whether a design exists: statuses other than `optimal`, with their causes.
 
-#include "optimize/rounds.hpp"
+#include "optimize/search_round.hpp"
 
 namespace ninedof {
 
-/// The sizes to which variables without a serious upper bound are let run, one round each; a single one, which does not
-/// matter, where every variable has one.
-std::vector<double> caps(const Problem& p);
+/// The largest sizes of variables without an effective upper bound, one round each; a single, irrelevant one where
+/// every variable has such a bound.
+std::vector<double> size_limits(const Problem& p);
 
-/// The best design of a round, and whether it has run to a cap of ours.
-struct Leader {
-  double cap;
+/// The best design of a round, and whether it has reached the size limit.
+struct RoundBest {
+  double size_limit;
   Candidate best;
-  bool at_cap;
+  bool at_size_limit;
 };
-Leader leader(const Prepared& p, double cap, const Candidate& best);
+RoundBest round_best(const PreparedProblem& p, double size_limit, const Candidate& best);
 
-/// Sets `result` to unbounded, with causes and reason, if the leaders of all caps show that the index has no least value; to
-/// stopped if the last one stands on its cap and they do not.
-void judge_unbounded(const Problem& problem, std::vector<Leader> leaders, Result& result);
+/// Sets `result` to unbounded, with causes and reason, if the best designs of all rounds show that the index has no
+/// least value; to stopped if the last one has reached its size limit and they do not.
+void detect_unbounded(const Problem& problem, std::vector<RoundBest> rounds, Result& result);
 
-/// Sets `result` to infeasible if 0 < zs < zp (eq. 9b) plainly leaves no design: a height held at zero, zs_fraction at 1 or more.
-bool judge_order(const Problem& problem, Result& result);
+/// Sets `result` to infeasible and returns true if 0 < zs < zp (eq. 9b) excludes every design: a height fixed at zero,
+/// zs_fraction of 1 or more.
+bool detect_impossible_heights(const Problem& problem, Result& result);
 
-/// No start ended well: infeasible, with the limits in conflict; nothing but singular designs; or just not finished, with the
-/// best allowed design.
-void explain_failure(const Prepared& p, const Round& round, const Settings& s, const Control& control, Result& result);
+/// Where no start ended well: infeasible, with the limits in conflict; singular designs only; or not converged, with
+/// the best feasible design.
+void explain_failure(const PreparedProblem& p, const SearchRound& round, const Settings& s, const Control& control,
+                     Result& result);
 
 }  // namespace ninedof

@@ -1,4 +1,4 @@
-"""One design of a study, looked at: its numbers and their exact gradients."""
+"""One design of a study: objective, condition numbers and margins, with exact gradients."""
 
 from __future__ import annotations
 
@@ -11,14 +11,13 @@ import numpy as np
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
     from ninedof import _core
 
 __all__ = ["DesignPoint", "design_point"]
 
-LARGEST = 1e200  # of an objective; beyond, a singular value has vanished and its stand-in shows
+LARGEST = 1e200  # of an objective; beyond, the core has replaced a vanishing singular value by 1e-300
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,9 +25,9 @@ class DesignPoint:
     """One design of a study, with exact gradients."""
 
     variables: dict[str, float]
-    """Every variable: those of the family, then "characteristic_length" and the places of O, where they are free."""
+    """Those of the family, then "characteristic_length" and the offsets of O, where they are free."""
     objective: float
-    """What the study makes least; infinite where J' is singular."""
+    """The value of the study's objective; infinite where J' is singular."""
     condition_number: float
     """Of J' at the neutral configuration; infinite where it is singular."""
     conditions: tuple[float, ...]
@@ -49,25 +48,21 @@ class DesignPoint:
 
 
 def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
-    """Return what the core says about one full vector of variables."""
+    """Evaluate one full vector of variables."""
     names = list(problem.names)
     core = problem.evaluate(x)
     objective = _infinite_if_singular(core["objective"])
     slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
-    margins: dict[str, tuple[float, Floats]] = {}
-    for name, value, margin_slope in core["margins"]:
-        if name not in margins or value < margins[name][0]:
-            margins[name] = (float(value), margin_slope)
     configurations = Configuration(*problem.configurations(x))
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,
         condition_number=_infinite_if_singular(core["condition_number"]),
         conditions=tuple(_infinite_if_singular(k) for k in core["conditions"]),
-        characteristic_length=float(problem.characteristic_length(x)),
+        characteristic_length=core["characteristic_length"],
         gradient=dict(zip(names, slope.tolist(), strict=True)),
-        margins={name: value for name, (value, _) in margins.items()},
-        margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, (_, s) in margins.items()},
+        margins={name: value for name, value, _ in core["margins"]},
+        margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, _, s in core["margins"]},
         geometry=problem.geometry(x),
         configuration=configurations[0],
         configurations=configurations,

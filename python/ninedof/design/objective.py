@@ -1,4 +1,4 @@
-"""What a study makes least: an index of the Jacobian, at which poses, and how those are taken together."""
+"""The objective of a study: an index of the Jacobian, the poses, and how those are combined."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ AGGREGATES = {
     "weighted": "worst and harmonic mean, weighted, of the {index}",
 }
 SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
-SET_KEYS = {  # the first of each must be there
+SET_KEYS = {  # the first of each is required
     "box": ["half", "points", "tilt", "tilt_deg", "internal_point", "unit"],
     "ball": ["radius", "points", "tilt", "tilt_deg", "internal_point", "unit"],
     "path": ["positions", "rotations", "rotations_deg", "points", "internal_point", "unit"],
@@ -36,15 +36,15 @@ SET_KEYS = {  # the first of each must be there
 
 @dataclass(frozen=True)
 class Objective:
-    """The number that an optimization makes least. By default the condition number at the neutral pose.
+    """The number that an optimization minimizes. By default the condition number at the neutral pose.
 
     Parameters
     ----------
     index : str
         "condition_number": of J', largest / smallest singular value (default). "frobenius": eq. (4), a smooth
-        alternative. "speed": 1 / smallest singular value, the worst case of the speed that leg rates give.
-        "six_legged": the condition number of the platform with six legs on the same plates, a yardstick; neutral pose
-        only.
+        alternative. "speed": 1 / smallest singular value, the largest leg rates for a twist of unit norm.
+        "six_legged": the condition number of the Gough-Stewart platform on the same plates, as a reference; at the
+        neutral pose only.
     aggregate : str
         Over the poses: "worst" (default); "mean_inverse", the harmonic mean, its inverse being the global conditioning
         index; "weighted", between the two.
@@ -53,7 +53,7 @@ class Objective:
     condition_limit : float, optional
         Bound on the condition number at every pose, whatever the index; at least 1. None by default.
     poses : sequence of Pose or mappings
-        Where the design is judged; none, the default: at the neutral pose alone. See `ninedof.poses`.
+        Where the design is evaluated; by default at the neutral pose only. See `ninedof.poses`.
 
     Raises
     ------
@@ -95,7 +95,7 @@ class Objective:
 
     @property
     def words(self) -> str:
-        """What is made least, in words."""
+        """The objective in words."""
         index = INDICES[self.index]
         if not self.poses:
             return index
@@ -122,7 +122,7 @@ class Objective:
                     raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
                 found.extend(_named(where, make, **(defaults | dict(data[name]))))
         if defaults:
-            _named("objective", Pose, **defaults)  # a slip is told even where no pose takes the default
+            _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
         rest = {n: data[n] for n in ("index", "aggregate", "weight", "condition_limit") if n in data}
         return cls(poses=tuple(found), **rest)
 
@@ -157,7 +157,7 @@ def _condition_limit(value: Any) -> float | None:
 
 
 def _pose(index: int, value: Any, **defaults: Any) -> Pose:
-    """Return a pose, made from a table where it is one."""
+    """Return a pose, made from a table if one is given."""
     if isinstance(value, Pose):
         return value
     if not isinstance(value, Mapping):
@@ -167,7 +167,7 @@ def _pose(index: int, value: Any, **defaults: Any) -> Pose:
 
 
 def _named(where: str, make: Callable[..., Made], /, *arguments: Any, **named: Any) -> Made:
-    """Call a maker whose messages begin with the bare entry, and put the place before it."""
+    """Call `make` and prefix its error messages with the place of the entry."""
     try:
         return make(*arguments, **named)
     except ValueError as error:

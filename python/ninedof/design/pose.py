@@ -1,4 +1,4 @@
-"""One pose at which a design is judged, as shifts from its neutral pose."""
+"""One pose of an objective, as shifts from the neutral pose of a design."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ __all__ = ["Pose"]
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 UNITS = ("length", "zp")
-PLACES = ("stay", "best")
+INTERNAL_POINTS = ("stay", "best")
 POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit")
 
 
 @dataclass(frozen=True)
 class Pose:
-    """A pose of the platform and of O, told from the neutral pose of whatever design is judged there.
+    """A pose of the platform and of O, relative to the neutral pose of a design.
 
     Parameters
     ----------
     position : (3,) floats
-        Shift of p from its neutral place (0, 0, zp), base frame. None by default.
+        Shift of p from its neutral position (0, 0, zp), base frame. Zero by default.
     rotation : (3,) floats
-        Rotation vector in radians, base axes, applied after the neutral rotation. None by default.
+        Rotation vector in radians, base axes, applied after the neutral rotation. Zero by default.
     internal_point : (3,) floats, "stay" or "best"
-        Shift of s from its neutral place (0, 0, zs), base frame. "stay", the default, is no shift; "best" leaves the
-        place to the optimizer.
+        Shift of s from its neutral position (0, 0, zs), base frame. "stay", the default, is no shift; with "best" the
+        optimizer chooses the position.
     unit : {"length", "zp"}
         Of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger design
         moves farther.
@@ -57,19 +57,19 @@ class Pose:
         """Check and normalise every entry."""
         point = self.internal_point
         if isinstance(point, str):
-            place: Vector | str = choice("internal_point", point, PLACES)
+            chosen: Vector | str = choice("internal_point", point, INTERNAL_POINTS)
         elif point is None:
             raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'stay' or 'best'")
         else:
-            place = vector("internal_point", point)
+            chosen = vector("internal_point", point)
         object.__setattr__(self, "position", vector("position", self.position))
         object.__setattr__(self, "rotation", vector("rotation", self.rotation))
-        object.__setattr__(self, "internal_point", "stay" if place == ZERO else place)
+        object.__setattr__(self, "internal_point", "stay" if chosen == ZERO else chosen)
         object.__setattr__(self, "unit", choice("unit", self.unit, UNITS))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], internal_point: Any = "stay", unit: Any = "length") -> Pose:
-        """Make a pose from a table [[objective.poses]]; the last two arguments are for poses that do not say."""
+        """Make a pose from a table [[objective.poses]]; the last two arguments are the defaults of its entries."""
         known_keys("pose", data, POSE_KEYS)
         return cls(
             position=data.get("position", ZERO),
@@ -93,6 +93,6 @@ class Pose:
         return out
 
     def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool]:
-        """Return position, rotation vector, shift of s, whether s is placed by the tool, whether shifts are in zp."""
+        """Return position, rotation vector, shift of s, whether the optimizer chooses s, whether shifts are in zp."""
         shift = ZERO if isinstance(self.internal_point, str) else self.internal_point
         return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp"

@@ -14,7 +14,7 @@ from ninedof.support.arguments import Vector, finite, items, vector, whole
 
 __all__ = ["Pose", "ball", "box", "path"]
 
-MOST_POSES = 10_000  # in one study; each costs a decomposition an evaluation
+MOST_POSES = 10_000  # in one study; each takes one decomposition per evaluation
 
 
 def box(
@@ -69,8 +69,8 @@ def ball(
     radius : float
         Of the ball.
     points : int
-        How many, 33 by default. The first is the centre, the last lies on the surface; each holds the same share of
-        the volume.
+        Number of poses, 33 by default. The first is the centre, the last lies on the surface; each represents the same
+        share of the volume.
     tilt, tilt_deg, internal_point, unit
         As in `box`.
 
@@ -84,7 +84,7 @@ def ball(
     size = finite("radius", radius, least=0.0)
     count = whole("points", points, 1, MOST_POSES)
     places: list[Vector] = [ZERO]
-    # Directions by the two-dimensional sequence of the plastic number: one point more leaves the others in place.
+    # Directions by the two-dimensional sequence of the plastic number: another point leaves the others unchanged.
     plastic = 1.324717957244746
     for k in range(1, count):
         distance = size * (k / (count - 1)) ** (1.0 / 3.0)
@@ -112,8 +112,8 @@ def path(
     rotations, rotations_deg : sequence of (3,) floats, optional
         Rotation vector at each corner, radians or degrees, interpolated linearly in between. None by default.
     points : int
-        How many poses in all, 17 by default, both ends included, spread evenly over the arc length of the positions
-        (over the corners, if p does not move at all).
+        Number of poses, 17 by default, both ends included, evenly spaced over the arc length of the positions (over the
+        corners, if p does not move at all).
     internal_point, unit
         As in `Pose`, for all of them.
 

@@ -1,4 +1,4 @@
-"""A design study: which family, which variables are free, what is allowed, what is made least."""
+"""A design study: family, free variables, constraints and objective."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LENGTH = "characteristic_length"
 
 @dataclass(frozen=True)
 class Study:
-    """A design problem: the least value of an objective over the free variables of a family, within limits.
+    """A design problem: minimize an objective over the free variables of a family, subject to limits.
 
     Immutable; `dataclasses.replace` makes another.
 
@@ -41,8 +41,8 @@ class Study:
     variables : mapping
         Name to (low, high) for a free variable (either may be infinite) or to a number for a fixed one. Those left out
         take the family's defaults, in characteristic lengths if that is a number and in units of length otherwise; a
-        hexagonal design has sides in [0, 60], heights in [0.05, 80] and theta_z = 0. Lengths in one unit of your
-        choice, angles in radians.
+        hexagonal design has sides in [0, 60], heights in [0.05, 80] and theta_z = 0. Lengths in any one
+        unit, angles in radians.
     constraints : mapping
         Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
         {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
@@ -54,7 +54,7 @@ class Study:
         `radius` of a leg in place of min. angles: base_cone and platform_cone (`axis` of the cone, by default the
         leg's own neutral direction). singularity_free (min, `steps`): no singular pose on the way to any pose.
     objective : Objective or mapping
-        What is made least; by default the condition number at the neutral pose. A mapping is read as the table
+        What is minimized; by default the condition number at the neutral pose. A mapping is read as the table
         [objective] of a study file.
     characteristic_length : float, str or (low, high)
         l_c of eqs. (30)-(33), in the same unit: a number; a kind of `ninedof.characteristic_length`, taken at the
@@ -90,7 +90,7 @@ class Study:
     __hash__ = None  # type: ignore[assignment]  # mappings inside
 
     def __post_init__(self) -> None:
-        """Complete the variables, normalise numbers, and let the core check the whole."""
+        """Complete the variables, normalize numbers, and validate the problem in the core."""
         family = choice("family", self.family, _core.design_family_names())
         known = _core.family_variables(family)
         length = _length(self.characteristic_length)
@@ -160,7 +160,7 @@ class Study:
         return tuple(name for name, kind, *_ in _core.family_variables(self.family) if kind == "angle")
 
     def problem(self) -> _core.Problem:
-        """Return the study as the core takes it, checked there once more."""
+        """Return the study as the core's problem, validated there."""
         bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
         constraints = [limits.for_core(name, limit) for name, limit in self.constraints.items()]
         return _core.Problem(self.family, bounds, constraints, self.characteristic_length, self.objective.for_core())
@@ -180,7 +180,7 @@ class Study:
         """Return named values in the order of the problem.
 
         Fixed variables may be left out. So may a free characteristic length, which is then the one that is best at
-        the neutral pose, and free places of O, which then stay.
+        the neutral pose, and free offsets of O, which are then zero.
         """
         problem = self.problem()
         names = list(problem.names)
@@ -195,7 +195,7 @@ class Study:
             else:
                 out.append(bound)
         if LENGTH in names and LENGTH not in variables:
-            out[names.index(LENGTH)] = 1.0  # any will do to ask for the robot
+            out[names.index(LENGTH)] = 1.0  # any value: the robot does not depend on it
             out[names.index(LENGTH)] = self._best_length(problem, out)
         return out
 
@@ -206,7 +206,7 @@ class Study:
         return min(max(best if math.isfinite(best) else 1.0, low), high)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Pickle and copy plain dictionaries: a read-only view cannot be."""
+        """Return plain dictionaries: read-only views cannot be pickled or copied."""
         constraints = {n: dict(v) if isinstance(v, Mapping) else v for n, v in self.constraints.items()}
         return self.__dict__ | {"variables": dict(self.variables), "constraints": constraints}
 

@@ -16,7 +16,7 @@ __all__ = ["read_toml", "study_arguments", "study_tables", "write_toml"]
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Read a TOML file, with or without the mark that some editors put before UTF-8.
+    """Read a TOML file, with or without a byte order mark.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise ValueError(f"{name}: cannot be read (not UTF-8 text)") from None
     except RecursionError:
         raise ValueError(f"{name}: not a TOML file we can read: nested too deep") from None
-    except ValueError as error:  # TOML's own, or a whole number of thousands of digits
+    except ValueError as error:  # invalid TOML, or an integer of thousands of digits
         raise ValueError(f"{name}: not a TOML file: {error}") from None
 
 
@@ -45,7 +45,7 @@ def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:
 
 
 def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the arguments of `Study` that the tables of a study file stand for."""
+    """Return the arguments of `Study` for the tables of a study file."""
     if isinstance(data, Mapping) and "geometry" in data:
         raise ValueError("study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`")
     names = ["design", "variables", "constraints", "objective", "solver"]
@@ -63,7 +63,7 @@ def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the tables of a study file for the arguments of a `Study`, as it normalizes them."""
+    """Return the tables of a study file for the normalized arguments of a `Study`."""
     length = arguments["characteristic_length"]
     return {
         "design": {

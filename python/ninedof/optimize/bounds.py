@@ -1,6 +1,6 @@
-"""What no design can do better than: lower bounds of the condition number at the neutral pose.
+"""Lower bounds of the condition number at the neutral pose.
 
-Some are proved, some are the end of long searches that nothing has beaten; each says which. They hold for every
+Some are proved, some are the best values of long searches; each says which. They hold for every
 characteristic length l_c, since all lengths in them are measured in l_c.
 """
 
@@ -40,12 +40,12 @@ singular values do better than its sub-family."""
 
 @dataclass(frozen=True)
 class LowerBound:
-    """A number that the condition number at the neutral pose cannot be under."""
+    """A lower bound of the condition number at the neutral pose."""
 
     name: str
     value: float
     proved: bool
-    """Whether a proof stands behind it; otherwise searches that never beat it."""
+    """Whether it is proved; otherwise no search has found a smaller value."""
     sentence: str
 
 
@@ -197,7 +197,7 @@ def _symmetric(g: Geometry, c: Configuration, length: float) -> list[LowerBound]
 
 
 def _is_symmetric(g: Geometry, c: Configuration) -> bool:
-    """Whether the closed form on the symmetry axis takes the design: it refuses all others by name."""
+    """Whether the closed form on the symmetry axis accepts the design: it raises for all others."""
     try:
         axis_singular_values(g, c)
     except ValueError:

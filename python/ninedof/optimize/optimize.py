@@ -8,14 +8,12 @@ from time import perf_counter
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.optimize.result import Candidate, Result, Status, candidate_of
+from ninedof.optimize.result import Candidate, Result, candidate_from, result_from
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
 __all__ = ["Trace", "optimize", "trace"]
-
-MAX_EVALUATIONS = 500  # of one start; a converging one takes about 30
 
 
 def optimize(
@@ -26,11 +24,11 @@ def optimize(
     progress: Progress | None = None,
     warm: Warm | Iterable[Warm] | None = None,
 ) -> Result:
-    """Find the design of least objective: by default, of least condition number.
+    """Minimize the objective of a study: by default, the condition number.
 
     Multi-start sequential quadratic programming (NLopt's SLSQP) on the smooth minimax form of the problem, with exact
-    gradients; every end is polished by Newton's method and judged by checks that do not believe the solver. Ctrl-C
-    stops within a fraction of a second and returns what there is, with status "stopped".
+    gradients. Every end point is polished by Newton's method and checked independently of the solver. Ctrl-C stops
+    within a fraction of a second and returns the best designs so far, with status "stopped".
 
     Parameters
     ----------
@@ -38,18 +36,18 @@ def optimize(
     starts, seed : int, optional
         In place of the study's own.
     threads : int, optional
-        One a processor by default. The result is the same, bit for bit, for any number.
+        One per processor by default. The result is the same, bit for bit, for any number.
     progress : callable, optional
         Called as progress(starts done, starts in all, best objective so far); infinite before a start has found a
-        design that keeps all limits.
+        feasible design.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
-        Extra starts, tried first: a result of a similar study (its best four candidates), or a design you know. Moved
-        inside the bounds.
+        Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
+        are moved inside the bounds.
 
     Returns
     -------
     Result
-        Infeasible and unbounded studies are answers, not errors: see `Status`.
+        Infeasible and unbounded studies raise nothing: see `Status`.
 
     Raises
     ------
@@ -68,23 +66,12 @@ def optimize(
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
     progress_argument(progress)
     study = study.with_solver(starts, seed)
-    problem = study.problem()
-    extra = warm_starts(study, warm)
-    begin = perf_counter()
-    core = _core.optimize(problem, study.starts, study.seed, thread_argument(threads), MAX_EVALUATIONS, progress, extra)
-    return Result(
-        status=Status(core.status),
-        reason=core.reason,
-        causes=tuple(core.causes),
-        candidates=tuple(candidate_of(problem, c) for c in core.candidates),
-        evaluations=core.evaluations,
-        starts_done=core.starts_done,
-        seconds=perf_counter() - begin,
-        study=study,
-        interrupted=core.interrupted,
-        stopped_early=core.stopped_early,
-        followed=core.followed,
+    settings = _core.Settings(
+        starts=study.starts, seed=study.seed, threads=thread_argument(threads), warm=warm_starts(study, warm)
     )
+    begin = perf_counter()
+    found = _core.optimize(study.problem(), settings, progress)
+    return result_from(study, found | {"seconds": perf_counter() - begin})
 
 
 @dataclass(frozen=True)
@@ -92,7 +79,7 @@ class Trace:
     """One run from one start."""
 
     best: tuple[float, ...]
-    """Least objective of an allowed design after each evaluation; infinite before the first."""
+    """Least objective of a feasible design after each evaluation; infinite before the first."""
     end: Candidate
 
 
@@ -105,7 +92,7 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
     start : mapping
         Name to value of the free variables; moved inside the bounds.
     formulation : {"minimax", "plain"}
-        "plain" minimises log(objective) itself, as the paper's SQP run did, and jams where two singular values meet.
+        "plain" minimizes log(objective) itself, as in the paper's SQP run; it stops early where singular values meet.
 
     """
     if not isinstance(study, Study):
@@ -114,4 +101,4 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
         raise ValueError(f'formulation: got {formulation!r}, expected "minimax" or "plain"')
     problem = study.problem()
     best, end = _core.trace(problem, study.vector(start), formulation)
-    return Trace(tuple(best), candidate_of(problem, end))
+    return Trace(tuple(best), candidate_from(problem, end))

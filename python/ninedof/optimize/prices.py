@@ -1,4 +1,4 @@
-"""Prices in words: what relaxing a binding limit or bound gains."""
+"""Shadow prices in words: what relaxing an active limit or bound gains."""
 
 from __future__ import annotations
 

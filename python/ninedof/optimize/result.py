@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ninedof.design.study import Study
 from ninedof.optimize.prices import price_words
@@ -14,20 +15,23 @@ from ninedof.robot.geometry import Geometry
 if TYPE_CHECKING:
     from ninedof import _core
 
-__all__ = ["Candidate", "Result", "Status", "candidate_of"]
+__all__ = ["Candidate", "Result", "Status", "candidate_from", "result_from"]
 
 
 class Status(StrEnum):
     """How an optimization ended."""
 
     OPTIMAL = "optimal"
-    """Feasible and stationary by our own checks."""
+    """Feasible and stationary by independent checks of the design."""
     UNBOUNDED = "unbounded"
-    """No least value: the objective keeps falling as the variables in `causes` run away."""
+    """No least value: the objective keeps falling as the variables in `causes` grow."""
     INFEASIBLE = "infeasible"
-    """No design meets the limits; those in `causes` are in conflict."""
+    """No design satisfies all limits; those in `causes` are in conflict."""
     STOPPED = "stopped"
-    """Interrupted, or nothing passed the checks. What was found is returned, but it is no proved optimum."""
+    """Interrupted, or no design passed the checks. The best design found is returned, but it is not an optimum."""
+
+
+DERIVED = {"derived": True}  # fields that follow from others
 
 
 @dataclass(frozen=True)
@@ -35,18 +39,18 @@ class Candidate:
     """A local optimum that passed the checks."""
 
     objective: float
-    """What the study makes least."""
+    """The value of the study's objective."""
     condition_number: float
     """At the neutral pose."""
     conditions: tuple[float, ...]
     """Condition number at each pose of the objective."""
     characteristic_length: float
     variables: dict[str, float]
-    """Those of the family, then "characteristic_length" and the places of O, where they are free."""
-    geometry: Geometry
-    configuration: Configuration
+    """Those of the family, then "characteristic_length" and the offsets of O, where they are free."""
+    geometry: Geometry = field(metadata=DERIVED)
+    configuration: Configuration = field(metadata=DERIVED)
     """The neutral one."""
-    configurations: Configuration
+    configurations: Configuration = field(metadata=DERIVED)
     """The neutral one, then the poses of the objective: a stack."""
     active: tuple[str, ...]
     """Variables on a bound and constraints on their limit."""
@@ -60,10 +64,14 @@ class Candidate:
     reached: int
     """How many starts ended here."""
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
+        return _to_dict(self)
+
 
 @dataclass(frozen=True)
 class Result:
-    """What an optimization found. The fields of a design are those of the best candidate, or None without one."""
+    """What an optimization returns. The properties of a design are those of the best candidate, or None without one."""
 
     status: Status
     reason: str
@@ -75,15 +83,13 @@ class Result:
     evaluations: int
     starts_done: int
     seconds: float
-    study: Study
+    study: Study = field(metadata=DERIVED)
     interrupted: bool = False
     """Whether Ctrl-C ended the run."""
-    lower_bound: float | None = None
-    """A proved bound, where one was asked for."""
-    stopped_early: int = field(default=0, kw_only=True)
-    """Starts among those done that were given up as hopeless."""
-    followed: int | None = field(default=None, kw_only=True)
-    """Starts followed to their end in the round that found the best design, where that is known."""
+    runs_abandoned: int = field(default=0, kw_only=True)
+    """Starts among those done that were given up after a short run."""
+    runs_completed: int | None = field(default=None, kw_only=True)
+    """Starts run to their end in the round that found the best design, where that is known."""
 
     @property
     def best(self) -> Candidate | None:
@@ -92,13 +98,13 @@ class Result:
 
     @property
     def confidence(self) -> float:
-        """Fraction of the starts followed to their end that reached the best candidate, from 0 to 1; 0 without one."""
-        followed = self.starts_done - self.stopped_early if self.followed is None else self.followed
-        return min(1.0, self.best.reached / followed) if self.best and followed > 0 else 0.0
+        """Fraction of the starts run to their end that reached the best candidate, from 0 to 1; 0 without one."""
+        completed = self.starts_done - self.runs_abandoned if self.runs_completed is None else self.runs_completed
+        return min(1.0, self.best.reached / completed) if self.best and completed > 0 else 0.0
 
     @property
     def objective(self) -> float | None:
-        """What the study makes least, of the best candidate."""
+        """Objective of the best candidate."""
         return self.best.objective if self.best else None
 
     @property
@@ -138,12 +144,12 @@ class Result:
 
     @property
     def active(self) -> tuple[str, ...] | None:
-        """What binds at the best candidate."""
+        """Active bounds and constraints of the best candidate."""
         return self.best.active if self.best else None
 
     @property
     def prices(self) -> dict[str, float] | None:
-        """What relaxing each binding limit of the best candidate by 1 % would buy, in per cent of the objective."""
+        """Shadow prices of the best candidate: per cent of the objective for 1 % of each active limit."""
         return self.best.prices if self.best else None
 
     @property
@@ -156,8 +162,14 @@ class Result:
         """Violation of the best candidate."""
         return self.best.constraint_violation if self.best else None
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return every field but the study as plain values, and the confidence; the candidates come last."""
+        plain = _to_dict(self)
+        candidates = [c.to_dict() for c in plain.pop("candidates")]
+        return plain | {"confidence": self.confidence, "candidates": candidates}
+
     def summary(self) -> str:
-        """Return a few lines: status, objective, what binds and at what price, how many starts agree."""
+        """Return a few lines: status, objective, active limits and their prices, how many starts agree."""
         lines = [f"{self.status}: {self.reason}"]
         best = self.best
         if best is None:
@@ -178,22 +190,39 @@ class Result:
         return "\n".join(lines)
 
 
-def candidate_of(problem: _core.Problem, found: _core.Candidate) -> Candidate:
-    """Return a candidate of the core with its robot, poses and names."""
-    x = found.variables.tolist()
+def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate:
+    """Return the candidate of a mapping as the core or `Candidate.to_dict` makes it, with its robot and poses."""
+    x = [data["variables"][name] for name in problem.names]
     configurations = Configuration(*problem.configurations(x))
     return Candidate(
-        objective=found.objective,
-        condition_number=found.condition_number,
-        conditions=tuple(found.conditions),
-        characteristic_length=found.characteristic_length,
-        variables=dict(zip(problem.names, x, strict=True)),
+        **_known(Candidate, data),
         geometry=problem.geometry(x),
         configuration=configurations[0],
         configurations=configurations,
-        active=tuple(found.active),
-        prices=dict(found.prices),
-        optimality_residual=found.optimality_residual,
-        constraint_violation=found.constraint_violation,
-        reached=found.reached,
     )
+
+
+def result_from(study: Study, data: Mapping[str, Any]) -> Result:
+    """Return the result of a mapping as the core (with `seconds`) or `Result.to_dict` makes it."""
+    problem = study.problem()
+    known = _known(Result, data) | {
+        "status": Status(data["status"]),
+        "candidates": tuple(candidate_from(problem, entry) for entry in data["candidates"]),
+    }
+    return Result(**known, study=study)
+
+
+def _to_dict(found: Candidate | Result) -> dict[str, Any]:
+    return {f.name: _plain(getattr(found, f.name)) for f in fields(found) if not f.metadata.get("derived")}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Status):
+        return str(value)
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _known(kind: type[Candidate | Result], data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a mapping that are fields of a class, lists as tuples."""
+    names = [f.name for f in fields(kind) if not f.metadata.get("derived")]
+    return {n: tuple(data[n]) if isinstance(data[n], list) else data[n] for n in names if n in data}

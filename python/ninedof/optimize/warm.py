@@ -1,4 +1,4 @@
-"""Extra starts from what is known already: results, candidates or named values."""
+"""Additional starts from results, candidates or named values."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ["Warm", "warm_starts"]
 Warm = Result | Candidate | Mapping[str, float]
 """A start: a result stands for its best candidates."""
 
-MOST_OF_A_RESULT = 4  # candidates: more would crowd out the starts asked for
+MOST_OF_A_RESULT = 4  # candidates, so that most starts remain the low-discrepancy ones
 
 
 def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | None:
-    """Return extra starts as rows of full vectors, or None without any.
+    """Return additional starts as rows of full vectors, or None without any.
 
-    Fixed variables keep the study's value. A characteristic length or a place of O that this study does not leave free
-    is passed over, so that the answer to one study may start another.
+    Fixed variables keep the study's value. A characteristic length or an offset of O that is not free in this study is
+    ignored, so that the result of one study may start another.
     """
     if warm is None:
         return None

@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from ninedof.optimize.result import Result, Status, candidate_of
+from ninedof.optimize.result import Result, result_from
 from ninedof.pareto import Front
 from ninedof.pareto.limited import limited
 from ninedof.runs.records import Record, describe_result, load_record, write_record
@@ -61,18 +60,8 @@ def load_front(path: str | os.PathLike[str]) -> Front:
 
 def _result(record: Record, against: str, limit: float, data: Mapping[str, Any]) -> Result:
     study = limited(record.study, against, limit if np.isfinite(limit) else None)
-    problem = study.problem()
-    known = {name: value for name, value in data.items() if name in _PLAIN}
-    candidates = []
-    for entry in data["candidates"]:
-        x = np.array([entry["variables"][name] for name in problem.names], dtype=np.float64)
-        numbers: Any = SimpleNamespace(**{name: _number(value) for name, value in entry.items()} | {"variables": x})
-        candidates.append(candidate_of(problem, numbers))
-    status = Status(data["status"])
-    return Result(status=status, causes=tuple(data["causes"]), candidates=tuple(candidates), study=study, **known)
-
-
-_PLAIN = ("reason", "evaluations", "starts_done", "seconds", "interrupted", "lower_bound", "stopped_early")
+    candidates = [{name: _number(value) for name, value in entry.items()} for entry in data["candidates"]]
+    return result_from(study, {**data, "candidates": candidates})
 
 
 def _number(value: Any) -> Any:

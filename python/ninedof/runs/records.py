@@ -16,7 +16,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.optimize.result import Candidate, Result
+from ninedof.optimize.result import Result
 
 __all__ = ["Record", "load_record", "write_record"]
 
@@ -48,37 +48,9 @@ def versions() -> dict[str, str]:
     }
 
 
-def describe_candidate(candidate: Candidate) -> dict[str, Any]:
-    """Return a candidate as plain JSON values."""
-    return {
-        "objective": candidate.objective,
-        "condition_number": candidate.condition_number,
-        "conditions": list(candidate.conditions),
-        "characteristic_length": candidate.characteristic_length,
-        "variables": candidate.variables,
-        "active": list(candidate.active),
-        "prices": candidate.prices,
-        "optimality_residual": candidate.optimality_residual,
-        "constraint_violation": candidate.constraint_violation,
-        "reached": candidate.reached,
-    }
-
-
 def describe_result(result: Result) -> dict[str, Any]:
     """Return a result as plain JSON values."""
-    return {
-        "status": str(result.status),
-        "reason": result.reason,
-        "causes": list(result.causes),
-        "evaluations": result.evaluations,
-        "starts_done": result.starts_done,
-        "stopped_early": result.stopped_early,
-        "confidence": result.confidence,
-        "interrupted": result.interrupted,
-        "seconds": result.seconds,
-        "lower_bound": result.lower_bound,
-        "candidates": [describe_candidate(c) for c in result.candidates],
-    }
+    return result.to_dict()
 
 
 def to_json(value: Any) -> str:

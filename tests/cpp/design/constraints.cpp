@@ -1,5 +1,5 @@
-/// constraints.hpp and the constraints of the library's sources: margins against the same taken by hand from joints, legs and
-/// poses (hand.hpp), gradients of every row against differences, for every constraint there is.
+/// constraints.hpp and the constraints of the library's sources: margins against the same taken by hand from joints,
+/// legs and poses (hand.hpp), gradients of every row against differences, for every constraint there is.
 
 #include "ninedof/design/constraints.hpp"
 
@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "ninedof/optimize/optimize.hpp"
-#include "optimize/minimax/look.hpp"
+#include "ninedof/optimize/evaluate.hpp"
+#include "optimize/minimax/design_evaluation.hpp"
 #include "support/designs.hpp"
 #include "support/hand.hpp"
 
@@ -17,7 +17,7 @@ using namespace designs;
 
 namespace {
 
-/// A study of three poses, one of them with s left to the optimizer, or of a good many.
+/// A study of three poses, one of them with s chosen by the optimizer, or of many.
 Problem study(const std::string& family, const std::vector<Limit>& limits, bool displaced, int many = 0) {
   Problem p;
   p.family = family;
@@ -79,7 +79,7 @@ bool has_side(const std::string& name, bool low) {
 }  // namespace
 
 TEST_SUITE("constraints") {
-  TEST_CASE("the list above leaves no constraint out") {
+  TEST_CASE("the list above is complete") {
     for (const std::string& name : constraint_names())
       CHECK(std::any_of(limits.begin(), limits.end(), [&](const Limit& l) { return l.name == name; }));
   }
@@ -125,28 +125,28 @@ TEST_SUITE("constraints") {
             CAPTURE(limit.name);
             CAPTURE(displaced);
             CAPTURE(solve);
-            // Over many poses the solver's rows have helping variables.
+            // Over many poses the solver's rows have auxiliary variables.
             const bool stroke = limit.name.starts_with("stroke");
             Problem problem = study(family, {limit}, displaced, solve && displaced && stroke ? 8 : 0);
             if (family == "general")
               for (std::size_t k = 0; k < 36; ++k) problem.variables[k] = {-20.0, 20.0};
-            const Prepared p = solve ? Prepared(problem, 1e4) : Prepared(problem);
+            const PreparedProblem p = solve ? PreparedProblem(problem, 1e4) : PreparedProblem(problem);
             const Eigen::VectorXd x = random_full(p.problem, random);
-            const Eigen::VectorXd y = p.helped(p.coordinates.coordinates(x));
-            CHECK((p.helpers > 0) ==
+            const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(x));
+            CHECK((p.auxiliary_count > 0) ==
                   (solve && displaced && limit.high < infinity && (stroke || limit.name == "leg_ratio")));
-            Look l, there;
-            look(p, y, l);
-            REQUIRE(l.m.size() == static_cast<Eigen::Index>(p.margins.size()));
-            REQUIRE(l.m.size() > 0);
+            DesignEvaluation design, there;
+            evaluate_design(p, y, design);
+            REQUIRE(design.margins.size() == static_cast<Eigen::Index>(p.margins.size()));
+            REQUIRE(design.margins.size() > 0);
             const auto margins = [&](const Eigen::VectorXd& at) {
-              look(p, at, there);
-              return there.m;
+              evaluate_design(p, at, there);
+              return there.margins;
             };
             Eigen::Index compared = 0, kinks = 0;
             for (Eigen::Index k = 0; k < y.size(); ++k) {
               const Eigen::VectorXd fine = difference(margins, y, k, 1e-5), coarse = difference(margins, y, k, 3e-5);
-              for (Eigen::Index row = 0; row < l.m.size(); ++row) {
+              for (Eigen::Index row = 0; row < design.margins.size(); ++row) {
                 // A row may change its two joints or its two legs: there the two differences part.
                 const double size = std::max(1.0, std::abs(fine[row]));
                 if (std::abs(fine[row] - coarse[row]) > 1e-7 * size) {
@@ -156,10 +156,11 @@ TEST_SUITE("constraints") {
                 ++compared;
                 CAPTURE(k);
                 CAPTURE(row);
-                CHECK(std::abs(l.m_gradient(row, k) - fine[row]) <= 3e-7 * size);
+                CHECK(std::abs(design.margin_gradient(row, k) - fine[row]) <= 3e-7 * size);
               }
             }
-            // The neutral direction as axis of a cone, at the neutral pose: the angle is zero and has a kink everywhere.
+            // The neutral direction as axis of a cone, at the neutral pose: the angle is zero and has a kink
+            // everywhere.
             const bool tip = limit.name.ends_with("_cone") && limit.axis.isZero(0.0) && !displaced;
             if (!tip) CHECK(kinks <= compared / 20);
           }
@@ -170,19 +171,19 @@ TEST_SUITE("constraints") {
     for (const Limit& limit : limits) {
       CAPTURE(limit.name);
       const Problem p = study("symmetric_nonplanar", {limit}, true);
-      const Prepared all(p);
+      const PreparedProblem all(p);
       const Eigen::VectorXd x = random_full(p, random);
-      Look l;
-      look(all, x, l);
+      DesignEvaluation design;
+      evaluate_design(all, x, design);
       Eigen::Index smallest = 0;
-      l.m.minCoeff(&smallest);
+      design.margins.minCoeff(&smallest);
       const Evaluation e = evaluate(p, x);
-      CHECK(e.margins.front().value == l.m[smallest]);
-      CHECK(e.margins.front().gradient == l.m_gradient.row(smallest).transpose());
+      CHECK(e.margins.front().value == design.margins[smallest]);
+      CHECK(e.margins.front().gradient == design.margin_gradient.row(smallest).transpose());
     }
   }
 
-  TEST_CASE("legs on one joint have no clearance to keep; all others have") {
+  TEST_CASE("legs that share a joint have no clearance limit; all others have") {
     Problem p = study("hexagonal", {{.name = "leg_clearance", .low = 1e-3}}, false);
     const Eigen::VectorXd coupled{{0, 5.8, 2.9, 0, 4, 2.4, 0}};
     CHECK(evaluate(p, coupled).margins.front().value == -1.0);  // sides that are free may not meet by chance
@@ -215,33 +216,34 @@ TEST_SUITE("constraints") {
     }
   }
 
-  TEST_CASE("the solver's rows say what the margins say: repeated ones are dropped, helping variables take half") {
+  TEST_CASE(
+      "the solver's rows agree with the margins: repeated ones are dropped, auxiliary variables share the violation") {
     for (const Limit& limit : limits) {
       CAPTURE(limit.name);
       for (const int many : {0, 8}) {
         Problem p = study("symmetric", {limit}, true, many);
-        if (limit.name == "leg_ratio") p.limits.front().low = 0.0;  // has no helping variable
-        const Prepared solved(p, 1e4), looked(p);
+        if (limit.name == "leg_ratio") p.limits.front().low = 0.0;  // has no auxiliary variable
+        const PreparedProblem solved(p, 1e4), evaluated(p);
         if (limit.name == "footprint")
           CHECK(static_cast<int>(solved.margins.size()) <
                 solved.constraints.front()->rows());  // three joints of an orbit
         for (int n = 0; n < 20; ++n) {
-          Look some, every;
-          const Eigen::VectorXd y = solved.helped(solved.coordinates.start(n, 3));
-          look(solved, y, some);
-          look(looked, solved.without_helpers(solved.coordinates.variables(y)), every);
-          const double share = solved.helpers > 0 ? 0.5 : 1.0;
-          const double expected = share * every.m.minCoeff();
+          DesignEvaluation some, every;
+          const Eigen::VectorXd y = solved.with_auxiliary(solved.coordinates.start(n, 3));
+          evaluate_design(solved, y, some);
+          evaluate_design(evaluated, solved.without_auxiliary(solved.coordinates.variables(y)), every);
+          const double share = solved.auxiliary_count > 0 ? 0.5 : 1.0;
+          const double expected = share * every.margins.minCoeff();
           double least = infinity;  // of this limit: O between the plates is a margin too where it is placed
-          for (int k = 0; k < some.m.size(); ++k)
-            if (solved.margin_name(k) == limit.name) least = std::min(least, some.m[k]);
+          for (int k = 0; k < some.margins.size(); ++k)
+            if (solved.margin_name(k) == limit.name) least = std::min(least, some.margins[k]);
           CHECK(std::abs(least - expected) <= 1e-10 * std::max(1.0, std::abs(expected)));
         }
       }
     }
   }
 
-  TEST_CASE("limits that are none are refused by name") {
+  TEST_CASE("invalid limits throw, naming the argument") {
     for (const std::string& name : constraint_names()) {
       CAPTURE(name);
       const auto refused = [&](double low, double high) {

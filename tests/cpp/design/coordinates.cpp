@@ -1,5 +1,5 @@
-/// full_variables.hpp and coordinates.hpp of the library's sources: what the optimizer may move, and the coordinates it moves
-/// it in.
+/// full_variables.hpp and coordinates.hpp of the library's sources: the full set of variables and the solver's
+/// coordinates.
 
 #include "design/coordinates.hpp"
 
@@ -12,7 +12,7 @@ using namespace studies;
 
 namespace {
 
-constexpr double cap = 1e4;
+constexpr double size_limit = 1e4;
 
 Problem of_family(const std::string& family) {
   Problem p;
@@ -21,25 +21,27 @@ Problem of_family(const std::string& family) {
   return p;
 }
 
-Pose placed(const Vec3& position, const Vec3& rotation = Vec3::Zero()) {
+Pose with_free_point(const Vec3& position, const Vec3& rotation = Vec3::Zero()) {
   return {.position = position, .rotation = rotation, .best_internal = true};
 }
 
-/// Every kind of variable at once: lengths, angles, heights of either sign, a free length, s placed on and off the axis.
+/// Every kind of variable at once: lengths, angles, heights of either sign, a free length, s chosen on and off the
+/// axis.
 Problem everything() {
   Problem p = of_family("symmetric_nonplanar");
   p.variables[2] = {-1.0, 2.0};
   p.variables[4] = {0.3, 0.3};
   p.variables[10] = {0.0, 0.5};
   p.characteristic_length = {.choice = StudyLength::Choice::free, .bounds = {0.5, 4.0}};
-  p.objective.poses = {placed({0.0, 0.0, 0.1}), Pose{}, placed({0.1, 0.0, 0.0}), placed(Vec3::Zero(), {0.0, 0.1, 0.0})};
+  p.objective.poses = {with_free_point({0.0, 0.0, 0.1}), Pose{}, with_free_point({0.1, 0.0, 0.0}),
+                       with_free_point(Vec3::Zero(), {0.0, 0.1, 0.0})};
   return p;
 }
 
 }  // namespace
 
 TEST_SUITE("coordinates") {
-  TEST_CASE("names: the family's variables, the length where it is free, s where it is placed") {
+  TEST_CASE("names: the family's variables, the length where it is free, s where the optimizer chooses it") {
     Problem p = everything();
     std::vector<std::string> expected;
     for (const auto& v : design_family(p.family).variables()) expected.push_back(v.name);
@@ -63,29 +65,29 @@ TEST_SUITE("coordinates") {
       CHECK(offset_variables(p, 0) == std::array{-1, -1, 13});
     }
     Problem general = of_family("general");  // has no axis
-    general.objective.poses = {placed({0.0, 0.0, 0.1})};
+    general.objective.poses = {with_free_point({0.0, 0.0, 0.1})};
     CHECK(general.names().back() == "pose1.s_z");
     CHECK(general.names().size() == 39 + 3);
   }
 
-  TEST_CASE("whose bounds: the study's own, or a range of ours") {
+  TEST_CASE("bounds of the study and internal bounds") {
     Problem p = everything();
-    for (const Variable& v : full_variables(p)) CHECK(v.ours == v.name.starts_with("pose"));
+    for (const Variable& v : full_variables(p)) CHECK(v.internal_bounds == v.name.starts_with("pose"));
     CHECK(full_variables(p)[13].bounds.low == 0.5);
     CHECK(full_variables(p)[13].bounds.high == 4.0);
     p.characteristic_length = {.choice = StudyLength::Choice::kind, .kind = LengthKind::optimal};
-    CHECK(full_variables(p)[13].ours);
-    const Coordinates c(p, cap);
+    CHECK(full_variables(p)[13].internal_bounds);
+    const Coordinates c(p, size_limit);
     for (int k = 0; k < c.size(); ++k) {
-      const bool ours = c.info(k).ours;
+      const bool internal_bounds = c.info(k).internal_bounds;
       const bool open = c.info(k).name == "base_internal_angle" ? false : c.info(k).kind == VariableKind::angle;
       CAPTURE(c.info(k).name);
-      CHECK(c.capped_low(k) == (ours || open));
-      CHECK(c.capped_high(k) == (ours || open));
+      CHECK(c.internal_low(k) == (internal_bounds || open));
+      CHECK(c.internal_high(k) == (internal_bounds || open));
     }
   }
 
-  TEST_CASE("there and back: variables -> coordinates -> variables, in metres and in millimetres") {
+  TEST_CASE("round trip: variables -> coordinates -> variables, in metres and in millimetres") {
     Random random(231);
     for (const double unit : {1.0, 1000.0}) {
       Problem p = of_family("symmetric_nonplanar");
@@ -96,7 +98,7 @@ TEST_SUITE("coordinates") {
         }
       p.characteristic_length.value = unit;
       p.variables[4] = {0.3, 0.3};
-      const Coordinates c(p, cap * unit);
+      const Coordinates c(p, size_limit * unit);
       CHECK(c.size() == 12);
       CHECK(c.coordinate(4) == -1);
       for (int n = 0; n < 200; ++n) {
@@ -116,9 +118,9 @@ TEST_SUITE("coordinates") {
     }
   }
 
-  TEST_CASE("bounds are met exactly, from the bound itself, from rounding beside it and from beyond it") {
+  TEST_CASE("bounds are met exactly, from the bound itself, within rounding of it and beyond it") {
     const Problem p = everything();
-    const Coordinates c(p, cap);
+    const Coordinates c(p, size_limit);
     const std::vector<Variable> all = full_variables(p);
     for (const double off : {0.0, 5e-14, -5e-14, -1.0}) {
       const Eigen::VectorXd low = c.variables(c.low().array() + off), high = c.variables(c.high().array() - off);
@@ -134,25 +136,25 @@ TEST_SUITE("coordinates") {
     CHECK(c.coordinates(-far) == c.low());
   }
 
-  TEST_CASE("what has no bound is cut where we say: sizes at the cap, angles a little more than once round") {
+  TEST_CASE("variables without bounds get internal ones: sizes the size limit, angles a little more than one turn") {
     Problem p = of_family("symmetric_nonplanar");
     p.variables[7].high = infinity;
     p.variables[9] = {-infinity, 1e8};
-    const Coordinates c(p, cap);
+    const Coordinates c(p, size_limit);
     const Eigen::VectorXd high = c.variables(c.high()), low = c.variables(c.low());
-    CHECK(high[7] == cap);
+    CHECK(high[7] == size_limit);
     CHECK(low[7] == 0.05);
-    CHECK(high[9] == cap);
-    CHECK(low[9] == -cap);
-    CHECK((c.capped_high(7) && !c.capped_low(7) && c.capped_high(9) && c.capped_low(9)));
+    CHECK(high[9] == size_limit);
+    CHECK(low[9] == -size_limit);
+    CHECK((c.internal_high(7) && !c.internal_low(7) && c.internal_high(9) && c.internal_low(9)));
     CHECK(high[2] - low[2] > 2.0 * pi);
     p.variables[2] = {1.0, infinity};
-    CHECK(Coordinates(p, cap).variables(Coordinates(p, cap).low())[2] == 1.0);
+    CHECK(Coordinates(p, size_limit).variables(Coordinates(p, size_limit).low())[2] == 1.0);
   }
 
   TEST_CASE("slopes against differences") {
     const Problem p = everything();
-    const Coordinates c(p, cap);
+    const Coordinates c(p, size_limit);
     const Eigen::VectorXd y = 0.5 * (c.low() + c.high()) + 0.1 * (c.high() - c.low());
     const Eigen::VectorXd slopes = c.slopes(c.variables(y));
     for (int k = 0; k < c.size(); ++k) {
@@ -164,11 +166,11 @@ TEST_SUITE("coordinates") {
     }
   }
 
-  TEST_CASE("the order of zs and zp, whichever of them is fixed") {
+  TEST_CASE("the order of zs and zp, with either of them fixed") {
     for (const int fixed : {-1, 4, 5}) {
       Problem p = of_family("hexagonal");
       if (fixed >= 0) p.variables[static_cast<std::size_t>(fixed)] = {3.0, 3.0};
-      const Coordinates c(p, cap);
+      const Coordinates c(p, size_limit);
       for (const auto& [zp, zs] : {std::pair{3.0, 2.9}, {3.1, 3.0}, {3.0, 3.1}, {2.9, 3.0}}) {
         Eigen::VectorXd x{{0, 6, 3, 0, zp, zs, 0}};
         if (fixed >= 0) x[fixed] = 3.0;
@@ -178,10 +180,10 @@ TEST_SUITE("coordinates") {
     }
   }
 
-  TEST_CASE("starts: inside bounds and order; s at its stated place, an optimal length at half the height") {
+  TEST_CASE("starts: inside bounds and order; s at its stated position, an optimal length at half the height") {
     Problem p = everything();
     p.characteristic_length = {.choice = StudyLength::Choice::kind, .kind = LengthKind::optimal};
-    const Coordinates c(p, cap);
+    const Coordinates c(p, size_limit);
     for (int n = 0; n < 100; ++n) {
       const Eigen::VectorXd y = c.start(n, 7), x = c.variables(y);
       CHECK((y.array() >= c.low().array()).all());
@@ -205,7 +207,7 @@ TEST_SUITE("coordinates") {
     for (int k = 0; k < c.size(); ++k) CHECK(c.coordinate(k) == k);
   }
 
-  TEST_CASE("a full set is refused by name where it is none") {
+  TEST_CASE("an incomplete set throws, naming the argument") {
     const Problem p = everything();
     const auto n = static_cast<Eigen::Index>(p.names().size());
     require_full("warm", p, Eigen::VectorXd::Ones(n));

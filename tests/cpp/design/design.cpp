@@ -1,5 +1,5 @@
-/// design.hpp, the closed form on the axis: singular values against the general path, gradients against differences, and what
-/// must not come out of designs that are none.
+/// design.hpp, the closed form on the axis: singular values against the general path, gradients against differences,
+/// and invalid designs.
 
 #include "ninedof/design/design.hpp"
 
@@ -26,7 +26,7 @@ AxisShift random_shift(Random& random, const std::string& family, const Eigen::V
           random.uniform(-most, most), random.uniform(-0.6, 0.6)};
 }
 
-/// The configuration a shift leads to, by hand.
+/// The shifted configuration, by hand.
 Configuration shifted(const std::string& family, const Eigen::VectorXd& x, const AxisShift& by) {
   const DesignFamily& f = design_family(family);
   Configuration c = f.configuration(span(x));
@@ -53,7 +53,7 @@ Vec6 all_six(const AxisPoint& p) {
 }  // namespace
 
 TEST_SUITE("design") {
-  TEST_CASE("on the axis: the six singular values of the robot the family builds, wherever on the axis it stands") {
+  TEST_CASE("on the axis: the six singular values of the family's robot, at any point of the axis") {
     Random random(111);
     for (const std::string& name : axis_families)
       for (int n = 0; n < 500; ++n) {
@@ -113,7 +113,7 @@ TEST_SUITE("design") {
     CHECK(compared > 5000);
   }
 
-  TEST_CASE("what vanishes is given as 1e-300 with no slope") {
+  TEST_CASE("vanishing singular values are 1e-300 with zero gradient") {
     const Eigen::VectorXd x{{1, 2, 2, 1, 3, 0, 0}};  // O in the base: no leg resists it along z
     const AxisPoint p = axis_at("hexagonal", x, 1.0);
     CHECK(p.value[AxisPoint::axial_min] == std::log(1e-300));
@@ -123,7 +123,7 @@ TEST_SUITE("design") {
     CHECK(p.gradient.allFinite());
   }
 
-  TEST_CASE("a design of NaN or infinity has no plausible condition number") {
+  TEST_CASE("designs with NaN or infinity have no finite condition number") {
     for (const std::string& name : axis_families)
       for (const Machine machine : {Machine::nine_legged, Machine::six_legged}) {
         Random random(113);
@@ -145,7 +145,7 @@ TEST_SUITE("design") {
       }
   }
 
-  TEST_CASE("refused: a characteristic length that is none, too few or too many variables, a family with no axis") {
+  TEST_CASE("throws: invalid characteristic length, too few or too many variables, a family without axis") {
     Random random(114);
     for (const std::string& name : axis_families) {
       const Eigen::VectorXd x = random_design(name, random);

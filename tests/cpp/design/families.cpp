@@ -1,5 +1,5 @@
-/// blueprint.hpp and the families: joints and neutral configuration against the constructors of Geometry, derivatives against
-/// differences.
+/// blueprint.hpp and the families: joints and neutral configuration against the constructors of Geometry, derivatives
+/// against differences.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ Eigen::VectorXd numbers(const DesignFamily& family, const Eigen::VectorXd& x) {
   return out;
 }
 
-/// Largest distance of two joints that should be in one place.
+/// Largest distance of two joints that should coincide.
 double apart(const Geometry& a, const Geometry& b) {
   double most = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -167,7 +167,7 @@ TEST_SUITE("families") {
     }
   }
 
-  TEST_CASE("general stands by default at the published coupled triangles") {
+  TEST_CASE("general: the defaults are the published coupled triangles") {
     const DesignFamily& family = design_family("general");
     Eigen::VectorXd x(39);
     for (Eigen::Index k = 0; k < 39; ++k) {
@@ -188,7 +188,7 @@ TEST_SUITE("families") {
     }
   }
 
-  TEST_CASE("refused by name: unknown families, too few variables, plates that are none") {
+  TEST_CASE("unknown families, too few variables and invalid plates throw, naming the argument") {
     CHECK(refuses("family", [] { design_family("hexagon"); }));
     for (const std::string& name : families)
       CHECK(message_of([] { design_family(""); }).find("\"" + name + "\"") != std::string::npos);

@@ -46,11 +46,4 @@ TEST_SUITE("error") {
     for (const double x : {5e-324, -std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::lowest()})
       CHECK(std::strtod(format_number(x).c_str(), nullptr) == x);
   }
-
-  TEST_CASE("status words") {
-    CHECK(std::string(to_string(Status::optimal)) == "optimal");
-    CHECK(std::string(to_string(Status::unbounded)) == "unbounded");
-    CHECK(std::string(to_string(Status::infeasible)) == "infeasible");
-    CHECK(std::string(to_string(Status::stopped)) == "stopped");
-  }
 }

@@ -1,11 +1,12 @@
-/// optimize.hpp, evaluate and configurations: every index, aggregate and choice of characteristic length against the general
-/// path at poses worked out by hand (hand.hpp); gradients against differences.
+/// evaluate.hpp, and configurations and characteristic_length of problem.hpp: every index, aggregate and choice of
+/// length against the general path at poses computed by hand (hand.hpp); gradients against differences.
+
+#include "ninedof/optimize/evaluate.hpp"
 
 #include <doctest/doctest.h>
 
 #include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
-#include "ninedof/optimize/optimize.hpp"
 #include "support/designs.hpp"
 #include "support/hand.hpp"
 
@@ -59,7 +60,7 @@ double length_by_hand(const Problem& p, const Eigen::VectorXd& x) {
   return characteristic_length(d.geometry, d.at.front(), l.kind);
 }
 
-/// The objective, from singular values of J' at every pose looked at.
+/// The objective, from singular values of J' at every evaluated pose.
 double objective_by_hand(const Problem& p, const Eigen::VectorXd& x) {
   const hand::Design d = hand::design(p, x);
   const double lc = length_by_hand(p, x);
@@ -174,7 +175,7 @@ TEST_SUITE("evaluate") {
     CHECK(compared > 20 * kinks);
   }
 
-  TEST_CASE("six_legged: the other machine's condition number, and the neutral one of ours beside it") {
+  TEST_CASE("six_legged: its condition number as the objective, and the neutral one of the nine-legged robot") {
     Random random(244);
     for (const std::string& family : axis_families) {
       Problem p = study(family, lengths.front(), {});
@@ -217,7 +218,7 @@ TEST_SUITE("evaluate") {
     }
   }
 
-  TEST_CASE("every variable's unit scales away: a thousand times the robot and the length, the same numbers") {
+  TEST_CASE("units cancel: a thousand times the robot and the length give the same numbers") {
     Random random(246);
     for (const std::string& family : families) {
       Problem p = study(family, lengths.front(), {{.position = {0.1, 0.0, 0.05}, .in_zp = true}}), big = p;
@@ -230,7 +231,7 @@ TEST_SUITE("evaluate") {
     }
   }
 
-  TEST_CASE("singular designs: enormous or infinite, finite gradients, never NaN") {
+  TEST_CASE("singular designs: large or infinite objective, finite gradients, never NaN") {
     for (const Eigen::VectorXd& x : {Eigen::VectorXd{{1, 2, 0.5, 1, 5, 3, 0}},  // similar hexagons
                                      Eigen::VectorXd{{1, 2, 1.5, 1, 5, 0, 0}},  // O in the base
                                      Eigen::VectorXd{{1, 2, 1.5, 1, 5, 5, 0}}})  // O in the platform
@@ -247,7 +248,7 @@ TEST_SUITE("evaluate") {
         }
   }
 
-  TEST_CASE("refused by name: what is no full set, and lengths below zero") {
+  TEST_CASE("incomplete sets and negative lengths throw, naming the argument") {
     const Problem p = study("hexagonal", lengths.back(), {});
     const Eigen::VectorXd good{{1, 6, 3, 1, 5, 3, 0.1, 1.0}};
     CHECK(std::isfinite(evaluate(p, good).log_objective));

@@ -1,5 +1,6 @@
-/// optimize.hpp: the answers. Values to reach come from the theory notes (found there by another program, one of them
-/// proved); what the answers are worth is judged by the general path of conditioning.hpp and by chance, see studies.hpp.
+/// optimize.hpp: optimal designs. Reference values come from the theory pages (found by another program, one of them
+/// proved); the candidates are checked by the general path of conditioning.hpp and against random designs, see
+/// studies.hpp.
 
 #include "ninedof/optimize/optimize.hpp"
 
@@ -121,7 +122,7 @@ TEST_SUITE("optimize") {
     }
   }
 
-  TEST_CASE("the published base and height kept: 3.7866; base side kept: 3.5503") {
+  TEST_CASE("the published base and height fixed: 3.7866; base side fixed: 3.5503") {
     Problem p = open_study(60.0, 80.0);
     p.variables[0] = {0.0, 0.0};
     p.variables[1] = {5.8124, 5.8124};
@@ -139,7 +140,7 @@ TEST_SUITE("optimize") {
     CHECK(std::abs(r.candidates.front().condition_number - 3.5503) <= 6e-5);
   }
 
-  TEST_CASE("a twist range beyond half a turn is taken as it stands") {
+  TEST_CASE("a twist range beyond half a turn is used unchanged") {
     // The same range a full turn lower or higher holds the same robots.
     const auto best = [](double low, double high) {
       Problem p = paper_study();
@@ -159,7 +160,7 @@ TEST_SUITE("optimize") {
     CHECK(best(3.0, 4.0) <= best(4.0, 4.0) * (1.0 + 1e-9));
   }
 
-  TEST_CASE("random problems: nothing returned violates, and no allowed design drawn by chance is better") {
+  TEST_CASE("random problems: every candidate is feasible, and no random feasible design is better") {
     Random random(152);
     int solved = 0;
     for (int n = 0; n < 120; ++n) {
@@ -252,7 +253,7 @@ TEST_SUITE("optimize") {
     }
   }
 
-  TEST_CASE("a warm start at an optimum stays there, whatever the other starts do") {
+  TEST_CASE("a warm start at an optimum keeps it") {
     const Candidate best = optimize(paper_study()).candidates.at(0);
     const Result r = optimize(paper_study(), {.starts = 1, .seed = 7, .warm = {best.variables}});
     REQUIRE(r.status == Status::optimal);
@@ -262,7 +263,7 @@ TEST_SUITE("optimize") {
     CHECK(refuses("warm", [&] { optimize(paper_study(), {.warm = {Eigen::VectorXd::Ones(6)}}); }));
   }
 
-  TEST_CASE("a price is what a limit is worth: the objective falls by so many per cent when it is relaxed by one") {
+  TEST_CASE("shadow prices: per cent of the objective when a limit is relaxed by one per cent") {
     const auto objective = [](double limit) {
       Problem p = paper_study();
       p.limits.front().high = limit;

@@ -1,8 +1,10 @@
-/// active_set.hpp and cluster.hpp of the library's sources: the first-order test where singular values coincide, at a known
-/// optimum that stands on a tie of three and three.
+/// active_set.hpp and cluster.hpp of the library's sources: the first-order test where singular values coincide, at a
+/// known optimum with three largest and three smallest singular values that coincide.
 
 #include <doctest/doctest.h>
 
+#include "math/linear/nnls.hpp"
+#include "ninedof/optimize/trace.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/cluster.hpp"
 #include "support/studies.hpp"
@@ -14,7 +16,8 @@ namespace {
 
 constexpr double tie = 1e-6;
 
-/// Planar triples within a footprint, no leg too short: at the optimum axial and transverse singular values meet at both ends.
+/// Planar triples within a footprint, no leg too short: at the optimum axial and transverse singular values meet at
+/// both ends.
 Problem symmetric_study() {
   Problem p;
   p.family = "symmetric";
@@ -52,74 +55,75 @@ Eigen::VectorXd general_variables(const Eigen::VectorXd& x) {
   return out;
 }
 
-/// A look at that design, with others in the place of the singular vectors of each cluster: any orthonormal ones will do.
+/// That design, evaluated; `turn` replaces the singular vectors of each cluster by other orthonormal ones.
 struct Tied {
-  Prepared p;
+  PreparedProblem p;
   Eigen::VectorXd y;
-  Look l;
+  DesignEvaluation design;
 
   explicit Tied(const Problem& problem, const Eigen::VectorXd& symmetric = optimum().variables)
       : p(problem, 1e4), y(p.coordinates.coordinates(general_variables(symmetric))) {
-    look(p, y, l);
+    evaluate_design(p, y, design);
   }
 
   void turn(Random& random) {
-    Spectrum& s = l.spectra[0].general;
+    Spectrum& s = design.spectra[0].general;
     for (const Eigen::Index first : {0, 3}) {
       const Mat3 q = random.rotation();
       s.twist.middleCols<3>(first) *= q;
       s.sdot.middleCols<3>(first) *= q;
       s.rates.middleCols<3>(first) *= q;
     }
-    const PoseView& at = l.view.pose(0);
+    const PoseState& at = design.state.pose(0);
     for (int k = 0; k < 6; ++k) {
       PointGradient g = zero_gradient();
       add_spectrum_gradient(at.at, at.legs, s, k, k, 0.5 / (s.sigma[k] * s.sigma[k]), g);
-      l.spectra[0].gradient.row(k).setZero();
-      l.view.add(0, g, l.spectra[0].gradient.row(k));
+      design.spectra[0].gradient.row(k).setZero();
+      design.state.add(0, g, design.spectra[0].gradient.row(k));
     }
-    fill_index(p.problem.objective.index, l.spectra[0], 0, l.f, l.f_gradient);
+    fill_index(p.problem.objective.index, design.spectra[0], 0, design.objective_rows, design.row_gradient);
   }
 
-  Stationarity test() const { return stationarity(p, l, active_set(p, l, y)); }
+  Stationarity test() const { return stationarity(p, design, active_set(p, design, y)); }
 
   /// The same test with nothing but the rows there are.
   double residual_of_rows() const {
-    const ActiveSet a = active_set(p, l, y);
-    const Eigen::Index n = p.coordinates.size(), rows = static_cast<Eigen::Index>(a.uses.size());
+    const ActiveSet a = active_set(p, design, y);
+    const Eigen::Index n = p.coordinates.size(), rows = static_cast<Eigen::Index>(a.row_levels.size());
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 1, rows + static_cast<Eigen::Index>(a.margins.size()));
     for (Eigen::Index k = 0; k < rows; ++k)
-      system.col(k)
-          << l.f_gradient.row(p.uses[static_cast<std::size_t>(a.uses[static_cast<std::size_t>(k)])].row).transpose(),
+      system.col(k) << design.row_gradient
+                           .row(p.row_levels[static_cast<std::size_t>(a.row_levels[static_cast<std::size_t>(k)])].row)
+                           .transpose(),
           1e3;
     for (std::size_t k = 0; k < a.margins.size(); ++k)
-      system.col(rows + static_cast<Eigen::Index>(k)).head(n) = -l.m_gradient.row(a.margins[k]).transpose();
+      system.col(rows + static_cast<Eigen::Index>(k)).head(n) = -design.margin_gradient.row(a.margins[k]).transpose();
     const Eigen::VectorXd target = 1e3 * Eigen::VectorXd::Unit(n + 1, n);
     return (system * nonnegative_least_squares(system, target)).head(n).norm();
   }
 };
 
 /// log(condition number) of the design at `y`, by conditioning.hpp.
-double log_index(const Prepared& p, const Eigen::VectorXd& y) {
+double log_index(const PreparedProblem& p, const Eigen::VectorXd& y) {
   return std::log(studies::condition_number(p.problem, p.coordinates.variables(y)));
 }
 
 }  // namespace
 
 TEST_SUITE("stationarity") {
-  TEST_CASE("the case at hand: an optimum with three largest and three smallest singular values alike") {
+  TEST_CASE("the optimum has three largest and three smallest singular values that coincide") {
     CHECK(optimum().stationary());
     CHECK(optimum().prices.size() == 2);
     const Tied at(general_study());
-    const auto& s = at.l.spectra[0];
+    const auto& s = at.design.spectra[0];
     REQUIRE_FALSE(s.closed);
     CHECK(s.log_sigma[0] - s.log_sigma[2] <= 1e-10);
     CHECK(s.log_sigma[3] - s.log_sigma[5] <= 1e-10);
-    CHECK(at.l.log_objective == doctest::Approx(std::log(optimum().condition_number)).epsilon(1e-12));
-    CHECK(violation(at.p, at.l, at.y) <= 1e-10);
+    CHECK(at.design.log_objective == doctest::Approx(std::log(optimum().condition_number)).epsilon(1e-12));
+    CHECK(violation(at.p, at.design, at.y) <= 1e-10);
   }
 
-  TEST_CASE("an optimum of the symmetric designs is stationary among all, whatever the singular vectors") {
+  TEST_CASE("an optimum of the symmetric designs is stationary among all designs, for any choice of singular vectors") {
     // By symmetry: a subgradient averaged over the turns by 120 degrees is one of the symmetric problem.
     Random random(251);
     Tied at(general_study());
@@ -137,7 +141,7 @@ TEST_SUITE("stationarity") {
     }
   }
 
-  TEST_CASE("not stationary is not called so: the limit left away, a design beside the optimum") {
+  TEST_CASE("not stationary: without the limit, and beside the optimum") {
     Random random(252);
     Problem problem = general_study();
     problem.limits.clear();
@@ -159,7 +163,7 @@ TEST_SUITE("stationarity") {
     CHECK(std::abs(best.condition_number - 2.3430924) <= 5e-8);
     CHECK(best.stationary());
     const Tied at(general, best.variables);
-    CHECK(violation(at.p, at.l, at.y) <= 1e-10);
+    CHECK(violation(at.p, at.design, at.y) <= 1e-10);
     CHECK(at.test().residual > 1e-2);
     const Candidate lower = trace(general, general_variables(best.variables)).end;
     CHECK(lower.feasible());
@@ -171,7 +175,7 @@ TEST_SUITE("stationarity") {
     Tied at(general_study());
     for (int n = 0; n < 20; ++n) {
       at.turn(random);
-      const Cluster cluster(at.p, at.l, 0, tie);
+      const Cluster cluster(at.p, at.design, 0, tie);
       REQUIRE(cluster.ambiguous());
       const Eigen::VectorXd along =
           Eigen::VectorXd::NullaryExpr(at.y.size(), [&] { return random.normal(); }).normalized();
@@ -184,17 +188,18 @@ TEST_SUITE("stationarity") {
       // No other direction in the cluster points further.
       for (int m = 0; m < 50; ++m) {
         at.turn(random);
-        for (Eigen::Index k = 0; k < at.p.rows; ++k) CHECK(at.l.f_gradient.row(k).dot(along) >= row.dot(along) - 1e-9);
+        for (Eigen::Index k = 0; k < at.p.rows; ++k)
+          CHECK(at.design.row_gradient.row(k).dot(along) >= row.dot(along) - 1e-9);
       }
     }
   }
 
-  TEST_CASE("where nothing coincides, or symmetry moves a pair together, there is no choice of directions") {
+  TEST_CASE("no cluster where nothing coincides, or where symmetry keeps a pair equal") {
     const auto ambiguous = [](const Problem& p, const Eigen::VectorXd& x) {
-      const Prepared prepared(p, 1e4);
-      Look l;
-      look(prepared, prepared.coordinates.coordinates(x), l);
-      return Cluster(prepared, l, 0, tie).ambiguous();
+      const PreparedProblem prepared(p, 1e4);
+      DesignEvaluation design;
+      evaluate_design(prepared, prepared.coordinates.coordinates(x), design);
+      return Cluster(prepared, design, 0, tie).ambiguous();
     };
     CHECK(ambiguous(general_study(), general_variables(optimum().variables)));
     CHECK_FALSE(ambiguous(symmetric_study(), optimum().variables));
@@ -208,17 +213,17 @@ TEST_SUITE("stationarity") {
     CHECK_FALSE(ambiguous(smooth, general_variables(optimum().variables)));
   }
 
-  TEST_CASE("conflict: bounds that merely touch are not blamed") {
+  TEST_CASE("conflict: active bounds without weight are not named") {
     Problem p = symmetric_study();
     p.limits = {{.name = "height", .low = 5.0}};
     p.variables[7] = {1.0, 4.0};
-    const Prepared prepared(p, 1e4);
+    const PreparedProblem prepared(p, 1e4);
     Eigen::VectorXd x{{4, 4, 1, 2, 2, 2, 3, 4, 2}};
     x[0] = p.variables[0].high;
     const Eigen::VectorXd y = prepared.coordinates.coordinates(x);
-    Look l;
-    look(prepared, y, l);
-    const std::vector<std::string> names = conflict(prepared, l, y);
+    DesignEvaluation design;
+    evaluate_design(prepared, y, design);
+    const std::vector<std::string> names = conflict(prepared, design, y);
     CHECK(contains(names, "height"));
     CHECK(contains(names, "zp"));
     CHECK_FALSE(contains(names, "base_external_radius"));

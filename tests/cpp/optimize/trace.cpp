@@ -1,8 +1,10 @@
-/// optimize.hpp: single runs and the starts. The smooth minimax problem gets there where the condition number itself jams.
+/// trace.hpp, and the starts of optimize.hpp. The minimax form converges where the plain condition number stops at
+/// kinks.
+
+#include "ninedof/optimize/trace.hpp"
 
 #include <doctest/doctest.h>
 
-#include "ninedof/optimize/optimize.hpp"
 #include "support/studies.hpp"
 
 using namespace studies;
@@ -13,8 +15,8 @@ using ninedof::Trace;
 
 namespace {
 
-/// Runs from 200 random starts on the paper's study: how many reached the optimum, and evaluations in all. The starts are
-/// drawn here, not by the library: sides by their logarithm from `smallest` up, O below the platform.
+/// Runs from 200 random starts on the paper's study: how many reached the optimum, and evaluations in all. The starts
+/// are drawn here, not by the library: sides by their logarithm from `smallest` up, O below the platform.
 struct Tally {
   int reached = 0;
   std::size_t evaluations = 0;
@@ -39,7 +41,8 @@ Tally tally(Formulation formulation, double smallest, std::uint64_t seed) {
 }  // namespace
 
 TEST_SUITE("trace") {
-  TEST_CASE("200 random starts on the paper's study: minimax arrives from all; plain jams, and takes longer") {
+  TEST_CASE(
+      "200 random starts on the paper's study: minimax converges from all; plain stops at kinks, and takes longer") {
     const Tally minimax = tally(Formulation::minimax, 0.1, 171), plain = tally(Formulation::plain, 0.1, 171);
     MESSAGE("minimax " << minimax.reached << " of 200 in " << minimax.evaluations / 200 << " evaluations each, plain "
                        << plain.reached << " in " << plain.evaluations / 200);
@@ -48,11 +51,11 @@ TEST_SUITE("trace") {
     CHECK(minimax.evaluations < plain.evaluations);
   }
 
-  TEST_CASE("from robots down to a thousandth of their final size, too") {
+  TEST_CASE("also from robots down to a thousandth of their final size") {
     CHECK(tally(Formulation::minimax, 0.005, 172).reached == 200);
   }
 
-  TEST_CASE("the record of a run never rises, ends where the run ends, and comes out the same again") {
+  TEST_CASE("the recorded objective never rises, ends at the end point, and is repeatable") {
     const Problem p = paper_study();
     const Eigen::MatrixXd x = starts(p, {.starts = 20});
     for (Eigen::Index k = 0; k < x.cols(); ++k)
@@ -90,7 +93,7 @@ TEST_SUITE("trace") {
     CHECK((starts(p, {.starts = 200, .seed = 1}) - x).bottomRows(6).cwiseAbs().minCoeff() > 0.0);
   }
 
-  TEST_CASE("starts spread: each tenth of a variable's range in solver coordinates gets its share") {
+  TEST_CASE("starts are spread evenly: each tenth of a variable's range in solver coordinates gets its share") {
     const Problem p = paper_study();
     const Eigen::MatrixXd x = starts(p, {.starts = 1000});
     for (Eigen::Index k = 0; k < 4; ++k) {
@@ -103,7 +106,7 @@ TEST_SUITE("trace") {
     }
   }
 
-  TEST_CASE("a start outside the bounds is moved inside; one that is none is refused by name") {
+  TEST_CASE("a start outside the bounds is moved inside; an invalid one throws, naming the argument") {
     const Problem p = paper_study();
     const Trace t = trace(p, Eigen::VectorXd{{-5.0, 1e9, 3.0, 0.0, 1e9, -1.0, 2.0}});
     CHECK(allowed(p, t.end.variables, 1e-8));

@@ -1,11 +1,11 @@
 #pragma once
-/// Poses and constraints once more, by hand: from Geometry, legs.hpp and vectors, one plain formula each. Shares nothing with
-/// the library's views and rows.
+/// Poses and constraints once more, by hand: from Geometry, legs.hpp and vectors, one plain formula each. Shares
+/// nothing with the library's views and rows.
 
 #include <cmath>
 
 #include "ninedof/math/rotation.hpp"
-#include "ninedof/optimize/optimize.hpp"
+#include "ninedof/design/problem.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/support.hpp"
 
@@ -37,8 +37,8 @@ inline Configuration displaced(const Configuration& home, const ninedof::Pose& p
   return c;
 }
 
-/// Offsets of s follow the family's variables and a free length, three a pose that leaves s to the optimizer; poses on the
-/// axis of a symmetric family have only the last of the three.
+/// Offsets of s follow the family's variables and a free length, three a pose that leaves s to the optimizer; poses on
+/// the axis of a symmetric family have only the last of the three.
 inline Design design(const Problem& p, const Eigen::VectorXd& x, double fraction = 1.0) {
   const ninedof::DesignFamily& family = ninedof::design_family(p.family);
   const std::span<const double> own{x.data(), family.variables().size()};

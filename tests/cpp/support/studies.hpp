@@ -1,6 +1,6 @@
 #pragma once
-/// Design problems for the tests of the optimizer, and an opinion on its answers that does not come from it: limits by hand
-/// from joints and legs, condition numbers by the general path of conditioning.hpp.
+/// Design problems for the tests of the optimizer, and an opinion on its answers that does not come from it: limits by
+/// hand from joints and legs, condition numbers by the general path of conditioning.hpp.
 
 #include <algorithm>
 #include <array>
@@ -54,8 +54,8 @@ inline std::span<const double> span(const Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
-/// Condition number of the robot the variables describe, the characteristic length a number; infinite where they describe
-/// none.
+/// Condition number of the robot the variables describe, the characteristic length a number; infinite where they
+/// describe none.
 inline double condition_number(const Problem& p, const Eigen::VectorXd& x) {
   try {
     const ninedof::DesignFamily& family = ninedof::design_family(p.family);
@@ -121,7 +121,7 @@ inline bool same_bits(const Candidate& a, const Candidate& b) {
 
 inline bool same_bits(const Result& a, const Result& b) {
   return a.status == b.status && a.reason == b.reason && a.causes == b.causes && a.evaluations == b.evaluations &&
-         a.starts_done == b.starts_done && a.stopped_early == b.stopped_early &&
+         a.starts_done == b.starts_done && a.runs_abandoned == b.runs_abandoned &&
          std::equal(a.candidates.begin(), a.candidates.end(), b.candidates.begin(), b.candidates.end(),
                     [](const Candidate& x, const Candidate& y) { return same_bits(x, y); });
 }

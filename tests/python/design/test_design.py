@@ -126,7 +126,7 @@ def test_least_leg_ratio_has_a_margin_of_its_own():
         assert p.margins["leg_ratio"] == pytest.approx(legs.max() - legs.min() - math.log(2.0), abs=1e-13)
 
 
-def test_a_design_holds_what_it_is_made_of():
+def test_a_design_point_has_its_robot_and_poses():
     x = designs("random")[0]
     p = point(x)
     assert p.variables == dict(zip(NAMES, x, strict=True))

@@ -201,7 +201,7 @@ def test_joints_and_poses(family):
 
 
 @BY_FAMILY
-def test_a_study_tells_what_its_problem_does(family):
+def test_a_study_evaluates_as_its_problem(family):
     data, design = of_family(family)[5]
     point = nd.Study.from_dict(data).evaluate({n: float(x) for n, x in design.items()})
     expected = Oracle(data).evaluate(list(design), np.array(list(design.values())))
@@ -262,7 +262,7 @@ def test_the_unit_of_length_does_not_matter(family, unit):
 # --- Shared joints ----------------------------------------------------------------------------------------------------
 
 
-def test_legs_that_meet_by_construction_have_no_distance():
+def test_legs_that_share_a_joint_have_no_clearance_limit():
     """Coupled triangles, a1 and b2 fixed at 0: pairs of an external and an internal leg on one joint do not count."""
     values = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435, "theta_z": 0.0}
     limits = {"leg_clearance": {"min": 0.05, "of": "zp"}}

@@ -1,4 +1,4 @@
-"""Studies at singular designs and poses: infinite, never a plausible number, and margins that still say something."""
+"""Studies at singular designs and poses: an infinite objective, and margins that stay meaningful."""
 
 import math
 
@@ -42,7 +42,7 @@ def test_a_singular_design_is_infinite(values, index):
     assert point.margins["singularity_free"] < 0.0
 
 
-def test_speed_alone_does_not_see_a_singular_platform():
+def test_speed_is_finite_where_the_platform_is_singular():
     """1/sigma_min(J') stays finite where J' has an infinite singular value: hence the bound on the condition number."""
     study, design = singular_study(SINGULAR["O in the platform"], {"index": "speed"})
     point = study.evaluate(design)
@@ -51,7 +51,7 @@ def test_speed_alone_does_not_see_a_singular_platform():
 
 
 @pytest.mark.parametrize("aggregate", ["worst", "weighted"])
-def test_one_singular_pose_spoils_the_worst(aggregate):
+def test_one_singular_pose_makes_the_worst_infinite(aggregate):
     """O carried down into the base by one of the poses."""
     poses = [{}, {"internal_point": [0.0, 0.0, -1.0]}, {"position": [0.1, 0.0, 0.0]}]
     study, design = singular_study((0.0, 2.0, 1.0, 0.0, 3.0, 1.0, 0.0), {"aggregate": aggregate, "poses": poses})
@@ -62,7 +62,7 @@ def test_one_singular_pose_spoils_the_worst(aggregate):
     assert point.margins["singularity_free"] < 0.0
 
 
-def test_the_mean_of_the_inverse_forgives_one_singular_pose():
+def test_the_mean_of_the_inverse_stays_finite_with_one_singular_pose():
     """1 / infinity is 0: the other poses still count."""
     poses = [{}, {"internal_point": [0.0, 0.0, -1.0]}]
     design = (0.0, 2.0, 1.0, 0.0, 3.0, 1.0, 0.0)

@@ -1,4 +1,4 @@
-"""Objectives, poses and sets of poses: what they hold, and what they refuse. Study files are in test_study_file.py."""
+"""Objectives, poses and sets of poses: valid and invalid entries. Study files are in test_study_file.py."""
 
 import math
 import pickle
@@ -70,7 +70,7 @@ def test_bad_words_of_a_pose(entry, slip, hint):
         nd.Pose(**{entry: slip})
 
 
-def test_best_place_takes_no_shift():
+def test_best_internal_point_has_no_shift():
     assert nd.Pose(internal_point="best").for_core()[2:4] == ((0.0, 0.0, 0.0), True)
     assert nd.Pose(internal_point=(1, 0, 0)).for_core()[2:4] == ((1.0, 0.0, 0.0), False)
 
@@ -131,7 +131,7 @@ def test_path_turns_between_its_corners():
     assert [p.rotation[2] for p in in_place] == [0.0, 0.5, 1.0]
 
 
-def test_unit_and_place_of_o_hold_for_the_whole_set():
+def test_unit_and_internal_point_apply_to_the_whole_set():
     same = {"unit": "zp", "internal_point": "best"}
     for found in (
         poses.box((0.1, 0.1, 0.1), tilt_deg=(1, 1, 1), **same),
@@ -218,7 +218,7 @@ def test_bad_entries_of_an_objective(entry, values):
             nd.Objective(**{entry.split("\\")[0]: bad})
 
 
-def test_six_legs_have_the_neutral_pose_alone():
+def test_six_legged_index_has_the_neutral_pose_only():
     with pytest.raises(ValueError, match=message(r"objective\.poses")):
         nd.Objective(index="six_legged", poses=(nd.Pose(),))
 

@@ -32,7 +32,7 @@ def test_variables_left_out_take_defaults():
     assert s.constraints == {}
 
 
-def test_default_lengths_grow_with_the_characteristic_length():
+def test_default_lengths_scale_with_the_characteristic_length():
     s = nd.Study(characteristic_length=1000.0, variables={"a2": (0, 7)})
     assert s.variables["a1"] == (0.0, 60_000.0)
     assert s.variables["zp"] == (50.0, 80_000.0)

@@ -100,7 +100,7 @@ def test_the_example_of_the_interface(write):
     assert nd.Study.load(write(text)) == nd.Study(constraints=limits, starts=32, seed=5)
 
 
-def test_the_mark_before_utf_8_is_read_over(write):
+def test_a_byte_order_mark_is_ignored(write):
     text = "[solver]\nstarts = 3\n"
     assert nd.Study.load(write(b"\xef\xbb\xbf" + text.encode())) == nd.Study.load(write(text)) == nd.Study(starts=3)
 

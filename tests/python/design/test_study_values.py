@@ -1,4 +1,4 @@
-"""A study as an object: lengths, families, copies that nobody can change, full vectors of variables."""
+"""A study as an object: lengths, families, immutable copies, full vectors of variables."""
 
 import copy
 import dataclasses
@@ -34,7 +34,7 @@ def test_default_lengths_are_plain_where_the_characteristic_length_is_no_number(
         assert nd.Study(characteristic_length=length).variables == nd.Study().variables
 
 
-def test_default_coordinates_grow_with_the_characteristic_length_and_angles_do_not():
+def test_default_coordinates_scale_with_the_characteristic_length_and_angles_do_not():
     one, thousand = (nd.Study(family="general", characteristic_length=lc) for lc in (1.0, 1000.0))
     for name, bound in one.variables.items():
         scale = 1.0 if name in one.angles else 1000.0
@@ -82,7 +82,7 @@ def test_copies_are_equal_and_immutable():
     assert all(other.defaulted == study.defaulted for other in copies[:3])
 
 
-def test_another_number_of_starts_keeps_what_was_assumed():
+def test_another_number_of_starts_keeps_the_defaulted_variables():
     study = nd.Study(variables={"a1": (0.0, 1.0)})
     assert study.with_solver(starts=3).defaulted == study.defaulted == ("a2", "b1", "b2", "zp", "zs")
 
@@ -95,7 +95,7 @@ def test_objective_may_be_given_as_a_table():
             nd.Study(objective=bad)
 
 
-def test_vector_fills_in_what_the_tool_finds():
+def test_vector_completes_free_lengths_and_offsets():
     design = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745}
     at = nd.Objective(poses=(nd.Pose(position=(0.1, 0, 0), internal_point="best"),))
     study = nd.Study(characteristic_length="optimal", objective=at)

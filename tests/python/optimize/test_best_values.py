@@ -1,4 +1,4 @@
-"""The best values known, all with the default settings: reached or beaten, and honest.
+"""The best known values, all with the default settings: reached or improved, with consistent checks.
 
 Oracles: values of the theory notes (long searches by other programs), bounds proved there, and design_oracle for what a
 result says of itself. What is found may be better than what is printed; it may not be better than what is proved.
@@ -99,7 +99,7 @@ def test_reached_or_beaten(name):
 
 
 @EVERY
-def test_what_it_says_of_itself(name):
+def test_study_reports_its_own_checks(name):
     """Condition number through J' and LAPACK, margins from the joints; bounds; the proved bound at this |s - p|."""
     data = KNOWN[name][0]
     v = solved(name).variables
@@ -134,7 +134,7 @@ def test_planar_designs_reach_the_proved_bound(ratio, legs):
     assert bound * (1.0 - 1e-8) <= result.condition_number <= bound * (1.0 + 1e-6)
 
 
-def test_twice_the_bounds_change_nothing_that_did_not_bind():
+def test_doubled_inactive_bounds_change_nothing():
     wide = hexagonal(120.0, 160.0, constraints=limits(2.0))
     assert nd.optimize(nd.Study.from_dict(wide)).condition_number == pytest.approx(3.762659078596047, rel=1e-10)
 
@@ -199,13 +199,13 @@ def test_a_start_at_the_optimum_stays_there(name):
 # --- Statuses ---------------------------------------------------------------------------------------------------------
 
 
-def test_equations_8_and_9_alone_have_no_least_value():
+def test_equations_8_and_9_alone_are_unbounded():
     result = nd.optimize(nd.Study.from_dict(hexagonal(INF, INF, 0.0)))
     assert result.status == "unbounded"
     assert set(result.causes) & {"a2", "b1", "zp", "zs"}
 
 
-def test_planar_triples_without_a_size_have_no_least_value():
+def test_planar_triples_without_a_size_are_unbounded():
     """Theory of limits, section 1: the infimum of planar designs is 1, with ever larger robots."""
     data = symmetric()
     data["variables"] |= {f"{t}_radius": [0.05, INF] for t in TRIPLES} | {key: [0.05, INF] for key in HEIGHTS}

@@ -53,7 +53,7 @@ def test_kappa_star_is_the_smallest_root(rho):
     assert np.all(below > 0.0)  # positive at 1, so no root before k
 
 
-def test_kappa_star_falls_between_its_ends():
+def test_kappa_star_decreases_between_its_end_values():
     rho = np.concatenate([[0.0], np.geomspace(1e-9, 1e9, 2001), [math.inf]])
     values = np.array([kappa_star(float(r)) for r in rho])
     assert values[0] == pytest.approx(math.sqrt(12.0), rel=1e-15)
@@ -97,7 +97,7 @@ def test_planar_bound_holds_for_random_planar_designs():
     assert 1.0 - 1e-9 <= nearest < 2.5
 
 
-def test_planar_bound_is_attained_where_legs_alone_bind():
+def test_planar_bound_is_attained_where_only_the_legs_are_active():
     """All legs equal: c = 2 sqrt2, so c + sqrt(1 + c^2) = 3 + 2 sqrt2, and a hexagonal design reaches it."""
     found = nd.optimize(nd.Study(constraints={"leg_ratio": (None, 1.0)}))
     assert found.condition_number == pytest.approx(3.0 + 2.0 * math.sqrt(2.0), abs=1e-6)
@@ -117,7 +117,7 @@ def test_hexagonal_designs_stay_above_their_limit(theta_z, limit):
     assert limit < result.condition_number
 
 
-def test_bounds_of_a_result_are_sorted_and_say_their_number():
+def test_bounds_of_a_result_are_sorted_and_state_their_value():
     result = nd.optimize(nd.Study.paper())
     bounds = applicable_bounds(result)
     assert [b.name for b in bounds] == ["leg ratio", "hexagonal", "distance of O", "isotropy"]
@@ -151,7 +151,7 @@ def test_result_without_a_design_is_named():
         applicable_bounds(nothing)
 
 
-def test_the_distance_bound_is_not_claimed_where_designs_beat_it():
+def test_the_distance_bound_is_omitted_where_it_does_not_hold():
     """Below |s - p| = 0.5 l_c two threefold singular values do better than the family kappa_star is the least of."""
     near = nd.optimize(nd.Study(variables={"zp": 1.0, "zs": 0.8}), starts=4)
     far = nd.optimize(nd.Study(variables={"zp": 2.0, "zs": 0.8}), starts=4)

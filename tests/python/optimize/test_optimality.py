@@ -38,7 +38,7 @@ def test_the_polynomial_is_the_printed_one():
     assert least_by_height(1.5396) == pytest.approx(1.4118, abs=5e-5)
 
 
-def test_every_candidate_is_what_it_says(result):
+def test_every_candidate_agrees_with_independent_computations(result):
     study, lc = result.study, result.study.characteristic_length
     assert result.status == "optimal"
     kappas = [c.condition_number for c in result.candidates]
@@ -75,7 +75,7 @@ def neighbour(study, base, size, rng):
     return point if x["zs"] < x["zp"] and min(point.margins.values(), default=0.0) >= 0.0 else None
 
 
-def test_no_allowed_neighbour_is_better(result):
+def test_no_feasible_neighbour_is_better(result):
     """2000 random steps of every size from the best design; 200 small ones from every other local optimum."""
     rng, study = np.random.default_rng(0), result.study
     for k, candidate in enumerate(result.candidates):
@@ -87,7 +87,7 @@ def test_no_allowed_neighbour_is_better(result):
         assert min(kappa) >= candidate.condition_number * (1.0 - 1e-9)
 
 
-def test_ends_that_fail_the_checks_are_no_candidates():
+def test_end_points_that_fail_the_checks_are_not_candidates():
     """In a narrow room runs have stopped where the condition number could still fall: none of those may be shown."""
     room = {"radius_ratio": (1.0, 1.1), "leg_ratio": (2.0, 2.1), "zs_fraction": (0.3, 0.35)}
     found = nd.optimize(nd.Study(variables={"theta_z": (-7.0, 7.0)}, constraints=room, starts=200))

@@ -1,4 +1,4 @@
-"""A long run from outside: what it reports, how it is stopped, from which threads it may be called."""
+"""A long run: progress, interruption, and calls from several threads."""
 
 import itertools
 import math
@@ -56,7 +56,7 @@ def test_fixed_study_reports_a_total_it_reaches():
 
 
 @pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3), GeneratorExit()], ids=repr)
-def test_exception_of_the_callback_stops_the_run_and_arrives(error):
+def test_exception_of_the_callback_stops_the_run_and_is_passed_on(error):
     calls = []
 
     def report(*arguments):
@@ -75,7 +75,7 @@ def test_callback_with_the_wrong_signature_is_an_error():
         nd.optimize(nd.Study.paper(), starts=HUGE, progress=lambda done: None)
 
 
-def test_keyboard_interrupt_of_the_callback_returns_what_there_is():
+def test_keyboard_interrupt_of_the_callback_returns_the_best_so_far():
     def report(done, total, best):
         raise KeyboardInterrupt
 
@@ -195,7 +195,7 @@ def test_own_signal_handler_is_called_and_decides():
     assert (status, int(done)) == ("optimal", 3000)
 
 
-def test_an_interruption_at_the_very_end_is_heard():
+def test_an_interruption_at_the_very_end_is_reported():
     """Of a run that has nothing left to do: its result is whole, so that only the exception can tell."""
 
     def stop(done, total, best):

@@ -1,4 +1,4 @@
-"""What a result tells about its best candidate, in numbers and in words."""
+"""Properties and summary of a result."""
 
 import copy
 import dataclasses
@@ -21,7 +21,7 @@ def result():
     return nd.optimize(STUDY)
 
 
-def test_a_result_tells_its_best_candidate(result):
+def test_properties_of_a_result_are_those_of_the_best_candidate(result):
     best = result.best
     assert (result.objective, result.prices, result.conditions) == (best.objective, best.prices, best.conditions)
     assert len(best.conditions) == 3
@@ -46,7 +46,7 @@ def test_without_a_candidate_there_is_no_confidence(result):
     assert nothing.summary() == f"infeasible: {result.reason}"
 
 
-def test_summary_says_what_matters(result):
+def test_summary_names_status_objective_and_active_limits(result):
     text = result.summary()
     assert text.startswith(f"{result.status}: {result.reason}")
     for part in (f"{result.objective:.6f}", f"{result.condition_number:.6f}", "over 3 poses", "radius_ratio", "starts"):
@@ -61,13 +61,13 @@ def test_summary_says_what_matters(result):
         ((1.0, 2.0), "wider radius_ratio"),
     ],
 )
-def test_prices_say_which_way_a_limit_gives(result, constraint, words):
+def test_prices_state_the_direction_that_relaxes_a_limit(result, constraint, words):
     study = dataclasses.replace(STUDY, constraints={"radius_ratio": constraint})
     best = dataclasses.replace(result.best, prices={"radius_ratio": 0.1234, "a1": 1e-9})
     assert price_words(study, best.variables, best.prices) == [f"1 % {words} buys 0.123 %"]
 
 
-def test_prices_of_bounds_say_which_bound(result):
+def test_prices_of_bounds_state_which_bound(result):
     study = dataclasses.replace(STUDY, variables={"a2": (1.0, 6.0), "zp": (2.0, math.inf)})
     best = dataclasses.replace(
         result.best, prices={"a2": 0.5, "zp": 0.25}, variables=result.best.variables | {"a2": 6.0, "zp": 2.0}
@@ -77,5 +77,5 @@ def test_prices_of_bounds_say_which_bound(result):
 
 def test_a_result_can_be_written(result):
     text = to_json(describe_result(result))
-    for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "stopped_early"):
+    for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "runs_abandoned"):
         assert f'"{entry}"' in text

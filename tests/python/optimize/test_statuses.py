@@ -1,4 +1,4 @@
-"""How an optimization may end other than well: unbounded, infeasible, nothing to do, nothing but singular designs.
+"""Optimizations that do not end in an optimum: unbounded, infeasible, no free variables, singular designs only.
 
 Oracles: the theory notes for the unbounded study; for the others the truth is plain from how the study is made.
 """
@@ -51,7 +51,7 @@ def test_open_bounds_alone_are_not_unbounded():
     assert result.causes == ()
 
 
-def test_leg_ratio_stops_the_flight():
+def test_leg_ratio_makes_the_problem_bounded():
     """Legs of comparable length keep a planar machine from growing to advantage (theory of limits, section 3)."""
     far, near = solve(OPEN, {"leg_ratio": (None, 3.0)}), solve({}, {"leg_ratio": (None, 3.0)})
     assert far.status == near.status == "optimal"
@@ -76,7 +76,7 @@ def test_value_at_sides_of_1e5():
 
 
 @pytest.mark.parametrize("limit", [30.0, 100.0, 1000.0])
-def test_no_answer_stands_on_a_bound_that_nobody_set(limit):
+def test_no_optimum_lies_on_an_internal_bound(limit):
     """However the run treats open bounds inside: a wider study is never worse, and what is called active must exist."""
     constraints = {"leg_ratio": (None, limit)}
     wide, narrow = solve(OPEN, constraints), solve(dict.fromkeys(OPEN, (1e-3, 5000.0)), constraints)
@@ -86,7 +86,7 @@ def test_no_answer_stands_on_a_bound_that_nobody_set(limit):
         assert not {name for name in wide.active if wide.variables.get(name, 0.0) > 0.0}
 
 
-def test_the_whole_circle_has_no_wall():
+def test_an_angle_without_bounds_has_no_internal_bound_at_its_optimum():
     """theta_z without bounds: where a run is cut inside, no local optimum may be claimed there."""
     for seed in range(8):
         result = solve({"theta_z": (-INF, INF)}, TWICE, seed=seed)
@@ -188,7 +188,7 @@ SINGULAR = {
 
 
 @pytest.mark.parametrize("variables", SINGULAR.values(), ids=SINGULAR.keys())
-def test_nothing_but_singular_designs(variables):
+def test_singular_designs_only(variables):
     """Every design of these studies is singular: none is an optimum, and no finite condition number may be quoted."""
     result = solve(variables)
     assert result.status != "optimal"
@@ -236,12 +236,12 @@ def test_zs_fraction_of_one_is_infeasible():
     assert set(result.causes) == {"zs_fraction", "zp > zs"}
 
 
-def test_conflict_is_told_as_the_ratio_it_is():
+def test_conflict_is_reported_as_a_ratio():
     """zp at most 1 and zs at least 2: off by a factor of two, ln 2 = 0.6931."""
     assert "0.6931" in solve({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}).reason
 
 
-def test_an_optimum_far_out_is_no_flight():
+def test_an_optimum_far_out_is_not_unbounded():
     """Legs of at most 1000 to 1 stop the flight at a base of 17 466: beyond the first cuts, not beyond all."""
     result = solve(OPEN, {"leg_ratio": (None, 1000.0)})
     assert result.status == "optimal"

@@ -1,4 +1,4 @@
-"""Single runs from chosen starts: the minimax form reaches the optimum from everywhere, the plain one jams on kinks.
+"""Single runs from chosen starts: the minimax form converges from every start, the plain one stops at kinks.
 
 Oracle: the proved least value. The shares (100 % and about three quarters) are those of the conditioning note.
 """
@@ -107,7 +107,7 @@ def test_awkward_starts(changes):
     ],
     ids=["a1 long", "b2 long"],
 )
-def test_run_that_ends_where_no_robot_is(start):
+def test_run_that_ends_at_an_invalid_robot(start):
     """Legs of very different length push some runs into a plate without size: an end like another, only a bad one."""
     study = nd.Study(constraints={"radius_ratio": (None, 2.0), "leg_ratio": (4.0, None)})
     t = nd.trace(study, dict(zip(START, start, strict=True)))

@@ -1,4 +1,4 @@
-"""Extra starts from what is known: a result of one study starts another."""
+"""Warm starts: the result of one study starts another."""
 
 import dataclasses
 import math

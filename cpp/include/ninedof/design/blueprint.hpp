@@ -1,6 +1,6 @@
 #pragma once
-/// A design as the optimizer differentiates it: twelve joints in their bodies' frames, the neutral configuration (eq. 6), and
-/// the partial derivatives of both with respect to the variables of a family.
+/// A design as the optimizer differentiates it: twelve joints in their bodies' frames, the neutral configuration (eq.
+/// 6), and the partial derivatives of both with respect to the variables of a family.
 
 #include <array>
 

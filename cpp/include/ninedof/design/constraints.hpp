@@ -1,6 +1,6 @@
 #pragma once
-/// Design constraints as signed margins, positive where the design is allowed: relative to their limit, so that 0.01 is one
-/// per cent to spare.
+/// Design constraints as signed margins, positive where the design is allowed: relative to their limit, so that 0.01 is
+/// one per cent to spare.
 
 #include <limits>
 #include <string>
@@ -27,8 +27,8 @@ enum class Unit {
 
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
 ///
-/// What each name means is said in the file of that name in src/constraints. 0 < zs < zp (eq. 9b) holds everywhere without
-/// being asked for.
+/// What each name means is said in the file of that name in src/constraints. 0 < zs < zp (eq. 9b) holds everywhere
+/// without being asked for.
 struct Limit {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
@@ -36,10 +36,10 @@ struct Limit {
   Unit of = Unit::length;
   Vec3 axis =
       Vec3::Zero();  ///< of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration
-  int steps = 4;             ///< of singularity_free: parts of the way to each pose that are looked at
+  int steps = 4;             ///< of singularity_free: parts of the displacement to each pose that are checked
 
-  /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the constraint
-  /// does not have.
+  /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
+  /// constraint does not have.
   void validate() const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Bad input throws InvalidArgument. An answer that mathematics may refuse comes back as a Status.
+/// Bad input throws InvalidArgument. An answer that mathematics may refuse comes back as a status of the result.
 
 #include <stdexcept>
 #include <string>
@@ -11,17 +11,6 @@ class InvalidArgument : public std::invalid_argument {
  public:
   InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected);
 };
-
-/// How a solver ended.
-enum class Status {
-  optimal,     ///< feasible and stationary by checks that do not rely on the solver
-  unbounded,   ///< the index keeps improving while the named variables grow without limit; no optimum exists
-  infeasible,  ///< no design satisfies the named constraints
-  stopped,     ///< interrupted, or no start passed the checks; the best point found is returned
-};
-
-/// The word for a status: "optimal", "unbounded", "infeasible", "stopped".
-const char* to_string(Status status);
 
 /// The shortest decimal that reads back as the same double.
 std::string format_number(double value);

@@ -26,17 +26,17 @@ class BetweenPlates : public Constraint {
   }
   Form form() const override { return Form::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
-  int pose(const View& v, int item) const { return v.first + poses_[static_cast<std::size_t>(item / 2)]; }
-  static Vec3 below(const PoseView& at) { return at.at[point_p] - at.at[point_s]; }
+  int pose(const DesignState& v, int item) const { return v.first_pose + poses_[static_cast<std::size_t>(item / 2)]; }
+  static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }
 
-  double value(const View& v, Side, int item) const override {
-    const PoseView& at = v.pose(pose(v, item));
+  double value(const DesignState& v, Side, int item) const override {
+    const PoseState& at = v.pose(pose(v, item));
     const double height = item % 2 == 0 ? at.at[point_s].z() : below(at).dot(at.rotation.col(2));
     return height / v.blueprint.zp;
   }
-  void add_value_gradient(const View& v, Side side, int item, double scale, Row out) const override {
+  void add_value_gradient(const DesignState& v, Side side, int item, double scale, Row out) const override {
     const int k = pose(v, item);
-    const PoseView& at = v.pose(k);
+    const PoseState& at = v.pose(k);
     const double size = scale / v.blueprint.zp;
     v.add_zp(-size * value(v, side, item), out);
     if (item % 2 == 0) return v.add_point(k, point_s, Vec3(0.0, 0.0, size), out);

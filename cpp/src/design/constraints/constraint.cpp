@@ -14,12 +14,12 @@ std::pair<Side, int> Constraint::item_of(int row) const {
   return {Side::low, row - high};
 }
 
-double Constraint::margin(const View& v, int row) const {
+double Constraint::margin(const DesignState& v, int row) const {
   const auto [side, item] = item_of(row);
   return item_margin(v, side, item);
 }
 
-void Constraint::add_gradient(const View& v, int row, Row out) const {
+void Constraint::add_gradient(const DesignState& v, int row, Row out) const {
   const auto [side, item] = item_of(row);
   add_item_gradient(v, side, item, out);
 }
@@ -28,7 +28,7 @@ double Constraint::price_factor(int) const {
   return form() == Form::plain ? limit_.low : 1.0;
 }
 
-double Constraint::item_margin(const View& v, Side side, int item) const {
+double Constraint::item_margin(const DesignState& v, Side side, int item) const {
   const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
     case Form::logarithm: return sign * std::log(limit / now);
@@ -38,7 +38,7 @@ double Constraint::item_margin(const View& v, Side side, int item) const {
   return 0.0;
 }
 
-void Constraint::add_item_gradient(const View& v, Side side, int item, Row out) const {
+void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
   const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
     case Form::logarithm:
@@ -49,7 +49,7 @@ void Constraint::add_item_gradient(const View& v, Side side, int item, Row out) 
   }
 }
 
-double Constraint::unit(const View& v) const {
+double Constraint::unit(const DesignState& v) const {
   switch (limit_.of) {
     case Unit::length: return 1.0;
     case Unit::zp: return v.blueprint.zp;
@@ -58,16 +58,16 @@ double Constraint::unit(const View& v) const {
   return 1.0;
 }
 
-void Constraint::add_unit_gradient(const View& v, double scale, Row out) const {
+void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out) const {
   if (limit_.of == Unit::zp) v.add_zp(scale, out);
   if (limit_.of == Unit::radius) add_joint_radius(v, widest_joint(v, -1), scale, out);
 }
 
-double joint_radius(const View& v, int joint) {
+double joint_radius(const DesignState& v, int joint) {
   return v.blueprint.joint[static_cast<std::size_t>(joint)].head<2>().norm();
 }
 
-int widest_joint(const View& v, int body) {
+int widest_joint(const DesignState& v, int body) {
   const int begin = body < 0 ? 0 : body, end = body < 0 ? 12 : body + 6;
   int widest = begin;
   double most = -1.0;
@@ -80,7 +80,7 @@ int widest_joint(const View& v, int body) {
   return widest;
 }
 
-void add_joint_radius(const View& v, int joint, double scale, Row out) {
+void add_joint_radius(const DesignState& v, int joint, double scale, Row out) {
   const Vec3& at = v.blueprint.joint[static_cast<std::size_t>(joint)];
   const double radius = at.head<2>().norm();
   if (radius > 0.0) v.add_joint(joint, scale * Vec3(at.x() / radius, at.y() / radius, 0.0), out);

@@ -12,8 +12,10 @@ class Height : public Constraint {
 
  private:
   int items(Side) const override { return 1; }
-  double value(const View& v, Side, int) const override { return v.blueprint.zp; }
-  void add_value_gradient(const View& v, Side, int, double scale, Row out) const override { v.add_zp(scale, out); }
+  double value(const DesignState& v, Side, int) const override { return v.blueprint.zp; }
+  void add_value_gradient(const DesignState& v, Side, int, double scale, Row out) const override {
+    v.add_zp(scale, out);
+  }
 };
 
 }  // namespace

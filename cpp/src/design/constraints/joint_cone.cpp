@@ -28,25 +28,27 @@ class JointCone : public Constraint {
   }
   double sense(int item) const { return platform_ && item % 6 < 3 ? -1.0 : 1.0; }
 
-  Vec3 direction(const View& v, int pose, int item) const {
+  Vec3 direction(const DesignState& v, int pose, int item) const {
     return sense(item) * v.pose(pose).legs.direction[static_cast<std::size_t>(leg(item))];
   }
-  Mat3 frame(const View& v, int pose) const { return platform_ ? v.pose(pose).rotation : Mat3(Mat3::Identity()); }
+  Mat3 frame(const DesignState& v, int pose) const {
+    return platform_ ? v.pose(pose).rotation : Mat3(Mat3::Identity());
+  }
 
   /// The axis at a pose, base frame.
-  Vec3 axis(const View& v, int pose, int item) const {
+  Vec3 axis(const DesignState& v, int pose, int item) const {
     if (axis_given()) return frame(v, pose) * limit().axis.normalized();
     return frame(v, pose) * (frame(v, 0).transpose() * direction(v, 0, item));
   }
 
-  double value(const View& v, Side, int item) const override {
-    const int pose = v.first + item / 6;
+  double value(const DesignState& v, Side, int item) const override {
+    const int pose = v.first_pose + item / 6;
     const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
     return std::atan2(d.cross(a).norm(), d.dot(a));
   }
 
   /// Adds scale * d(direction . g) with g fixed in the base frame.
-  void add_direction(const View& v, int pose, int item, const Vec3& g, double scale, Row out) const {
+  void add_direction(const DesignState& v, int pose, int item, const Vec3& g, double scale, Row out) const {
     const int k = leg(item);
     const double length = v.pose(pose).legs.length[k];
     if (!(length > 0.0)) return;
@@ -56,8 +58,8 @@ class JointCone : public Constraint {
     v.add_point(pose, leg_ends(k).from, -across, out);
   }
 
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
-    const int pose = v.first + item / 6;
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
+    const int pose = v.first_pose + item / 6;
     const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
     const double sine = d.cross(a).norm();
     if (!(sine > 1e-12)) return;  // the tip of the cone: no direction is uphill to first order

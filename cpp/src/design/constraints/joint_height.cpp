@@ -16,12 +16,12 @@ class JointHeight : public Constraint {
   Form form() const override { return Form::linear; }
   // Above and below apart: |z| itself has a kink at zero.
   int items(Side) const override { return 24; }
-  static double height(const View& v, int item) {
+  static double height(const DesignState& v, int item) {
     const double z = v.blueprint.joint[static_cast<std::size_t>(item % 12)].z();
     return item < 12 ? z : -z;
   }
-  double value(const View& v, Side, int item) const override { return height(v, item) / unit(v); }
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+  double value(const DesignState& v, Side, int item) const override { return height(v, item) / unit(v); }
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const double u = unit(v);
     v.add_joint(item % 12, Vec3(0.0, 0.0, (item < 12 ? scale : -scale) / u), out);
     add_unit_gradient(v, -scale * height(v, item) / (u * u), out);

@@ -23,18 +23,18 @@ class JointSpacing : public Constraint {
     const int body = item < pairs ? 0 : point_u;
     return {body + a, body + a + 1 + left};
   }
-  static Vec3 between(const View& v, int a, int b) {
+  static Vec3 between(const DesignState& v, int a, int b) {
     return v.blueprint.joint[static_cast<std::size_t>(a)] - v.blueprint.joint[static_cast<std::size_t>(b)];
   }
-  double body_unit(const View& v, int joint) const {
+  double body_unit(const DesignState& v, int joint) const {
     if (limit().of != Unit::radius) return unit(v);
     return joint_radius(v, widest_joint(v, joint < point_u ? 0 : point_u));
   }
-  double value(const View& v, Side, int item) const override {
+  double value(const DesignState& v, Side, int item) const override {
     const auto [a, b] = joints(item);
     return between(v, a, b).norm() / body_unit(v, a);
   }
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const auto [a, b] = joints(item);
     const Vec3 d = between(v, a, b);
     const double distance = d.norm(), u = body_unit(v, a);

@@ -18,18 +18,18 @@ class LegClearance : public Constraint {
   /// Where two segments come nearest changes from design to design.
   bool analytic() const override { return false; }
 
-  void learn(const std::vector<View>& designs) override {
+  void learn(const std::vector<DesignState>& designs) override {
     for (int item = 0; item < leg_pairs; ++item) {
       const auto [a, b] = leg_pair(item);
       share_joint_[static_cast<std::size_t>(item)] =
-          std::ranges::all_of(designs, [&](const View& v) { return share_joint(v, a, b); });
+          std::ranges::all_of(designs, [&](const DesignState& v) { return share_joint(v, a, b); });
     }
   }
 
  private:
   Form form() const override { return Form::linear; }
   int items(Side) const override { return leg_pairs * poses_; }
-  static bool share_joint(const View& v, int a, int b) {
+  static bool share_joint(const DesignState& v, int a, int b) {
     const auto same = [&](int i, int j) {
       return joints_coincide(v.blueprint.joint[static_cast<std::size_t>(i)],
                              v.blueprint.joint[static_cast<std::size_t>(j)]);
@@ -38,24 +38,24 @@ class LegClearance : public Constraint {
     const LegEnds one = leg_ends(a), two = leg_ends(b);
     return same(two.from < point_u ? one.from : one.to, two.from) || (b < 3 && same(one.to, two.to));
   }
-  Nearest look(const View& v, int item) const {
+  Nearest look(const DesignState& v, int item) const {
     const auto [a, b] = leg_pair(item % leg_pairs);
-    const Points& at = v.pose(v.first + item / leg_pairs).at;
+    const Points& at = v.pose(v.first_pose + item / leg_pairs).at;
     const auto end = [&](int k) -> const Vec3& { return at[static_cast<std::size_t>(k)]; };
     return nearest(end(leg_ends(a).from), end(leg_ends(a).to), end(leg_ends(b).from), end(leg_ends(b).to));
   }
-  double value(const View& v, Side, int item) const override {
+  double value(const DesignState& v, Side, int item) const override {
     if (share_joint_[static_cast<std::size_t>(item % leg_pairs)]) return exempt;
     return look(v, item).apart.norm() / unit(v);
   }
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     if (share_joint_[static_cast<std::size_t>(item % leg_pairs)]) return;
     const auto [a, b] = leg_pair(item % leg_pairs);
     const Nearest n = look(v, item);
     const double distance = n.apart.norm(), u = unit(v);
     if (!(distance > 0.0)) return;
     const Vec3 g = scale / (distance * u) * n.apart;
-    const int pose = v.first + item / leg_pairs;
+    const int pose = v.first_pose + item / leg_pairs;
     v.add_point(pose, leg_ends(a).from, (1.0 - n.s) * g, out);
     v.add_point(pose, leg_ends(a).to, n.s * g, out);
     v.add_point(pose, leg_ends(b).from, -(1.0 - n.t) * g, out);

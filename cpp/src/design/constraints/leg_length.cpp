@@ -16,9 +16,11 @@ class LegLength : public Constraint {
 
  private:
   int items(Side) const override { return count_ * poses_; }
-  LegExtreme leg(const View& v, int item) const { return {v.first + item / count_, first_ + item % count_}; }
-  double value(const View& v, Side, int item) const override { return v.length(leg(v, item)) / unit(v); }
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+  LegExtreme leg(const DesignState& v, int item) const {
+    return {v.first_pose + item / count_, first_ + item % count_};
+  }
+  double value(const DesignState& v, Side, int item) const override { return v.length(leg(v, item)) / unit(v); }
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const LegExtreme l = leg(v, item);
     const double u = unit(v);
     v.add_leg(l.pose, l.leg, scale / u, out);

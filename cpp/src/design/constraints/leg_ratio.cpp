@@ -12,9 +12,9 @@ class LegRatio : public Spread {
       : Spread(limit, Measure::ratio, 1, 9 * std::max(poses, 1), purpose) {}
 
  private:
-  LegExtreme leg(const View& v, int, int k) const override { return {v.first + k / 9, k % 9}; }
-  LegExtreme longest(const View& v, int) const override { return v.longest; }
-  LegExtreme shortest(const View& v, int) const override { return v.shortest; }
+  LegExtreme leg(const DesignState& v, int, int k) const override { return {v.first_pose + k / 9, k % 9}; }
+  LegExtreme longest(const DesignState& v, int) const override { return v.longest; }
+  LegExtreme shortest(const DesignState& v, int) const override { return v.shortest; }
 };
 
 }  // namespace

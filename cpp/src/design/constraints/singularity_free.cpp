@@ -29,7 +29,7 @@ class SingularityFree : public Constraint {
   enum Which { det_b, det_c, det_m };
 
   /// Unit rows, and for M their lengths before.
-  static Triplet rows(const PoseView& p, Which which, Vec3& length) {
+  static Triplet rows(const PoseState& p, Which which, Vec3& length) {
     Triplet out;
     for (std::size_t i = 0; i < 3; ++i) {
       if (which != det_m) {
@@ -43,21 +43,21 @@ class SingularityFree : public Constraint {
     return out;
   }
 
-  static double neutral_sign(const View& v, Which which) {
+  static double neutral_sign(const DesignState& v, Which which) {
     Vec3 length;
     return determinant(rows(v.pose(0), which, length)) < 0.0 ? -1.0 : 1.0;
   }
 
-  double value(const View& v, Side, int item) const override {
+  double value(const DesignState& v, Side, int item) const override {
     const auto which = static_cast<Which>(item % 3);
     Vec3 length;
     return neutral_sign(v, which) * determinant(rows(v.pose(item / 3), which, length));
   }
 
-  void add_value_gradient(const View& v, Side, int item, double scale, Row out) const override {
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const auto which = static_cast<Which>(item % 3);
     const int pose = item / 3;
-    const PoseView& p = v.pose(pose);
+    const PoseState& p = v.pose(pose);
     Vec3 length;
     const Triplet r = rows(p, which, length);
     const double sign = scale * neutral_sign(v, which);
@@ -76,8 +76,8 @@ class SingularityFree : public Constraint {
   }
 
   /// Row i of M before it is made a unit vector is w x e: w from O to the platform joint, e along the external leg.
-  static void add_turning_row(const View& v, int pose, int i, const Vec3& across, double length, Row out) {
-    const PoseView& p = v.pose(pose);
+  static void add_turning_row(const DesignState& v, int pose, int i, const Vec3& across, double length, Row out) {
+    const PoseState& p = v.pose(pose);
     const auto k = static_cast<std::size_t>(i);
     if (!(length > 0.0) || !(p.legs.length[i] > 0.0)) return;
     const Vec3 g = across / length;

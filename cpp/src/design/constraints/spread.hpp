@@ -19,28 +19,28 @@ class Spread : public Constraint {
 
   double price_factor(int row) const override;
   double violation_factor(int row) const override;
-  int helpers() const override { return way_ == Way::helped ? groups_ : 0; }
-  double helper(const View& v, int group) const override;
+  int auxiliary_count() const override { return way_ == Way::auxiliary ? groups_ : 0; }
+  double auxiliary_value(const DesignState& v, int group) const override;
 
  protected:
   /// Leg `k` of a group, and which rule it now.
-  virtual LegExtreme leg(const View& v, int group, int k) const = 0;
-  virtual LegExtreme longest(const View& v, int group) const = 0;
-  virtual LegExtreme shortest(const View& v, int group) const = 0;
+  virtual LegExtreme leg(const DesignState& v, int group, int k) const = 0;
+  virtual LegExtreme longest(const DesignState& v, int group) const = 0;
+  virtual LegExtreme shortest(const DesignState& v, int group) const = 0;
 
  private:
-  enum class Way { pairs, helped, ruling };
+  enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;
 
   int each() const;
   int items(Side side) const override;
-  double item_margin(const View& v, Side side, int item) const override;
-  void add_item_gradient(const View& v, Side side, int item, Row out) const override;
+  double item_margin(const DesignState& v, Side side, int item) const override;
+  void add_item_gradient(const DesignState& v, Side side, int item, Row out) const override;
 
   double room() const;
-  double phi(const View& v, const LegExtreme& l) const;
-  void add_phi(const View& v, const LegExtreme& l, double scale, Row out) const;
-  std::pair<LegExtreme, LegExtreme> pair(const View& v, int group, int item) const;
+  double phi(const DesignState& v, const LegExtreme& l) const;
+  void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const;
+  std::pair<LegExtreme, LegExtreme> pair(const DesignState& v, int group, int item) const;
 
   Measure measure_;
   int groups_, count_;

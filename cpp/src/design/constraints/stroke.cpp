@@ -13,11 +13,11 @@ class Stroke : public Spread {
                purpose) {}
 
  private:
-  LegExtreme leg(const View& v, int group, int k) const override { return {v.first + k, group}; }
-  LegExtreme longest(const View& v, int group) const override {
+  LegExtreme leg(const DesignState& v, int group, int k) const override { return {v.first_pose + k, group}; }
+  LegExtreme longest(const DesignState& v, int group) const override {
     return {v.longest_of[static_cast<std::size_t>(group)], group};
   }
-  LegExtreme shortest(const View& v, int group) const override {
+  LegExtreme shortest(const DesignState& v, int group) const override {
     return {v.shortest_of[static_cast<std::size_t>(group)], group};
   }
 };

@@ -12,8 +12,8 @@ class ZsFraction : public Constraint {
 
  private:
   int items(Side) const override { return 1; }
-  double value(const View& v, Side, int) const override { return v.blueprint.zs / v.blueprint.zp; }
-  void add_value_gradient(const View& v, Side, int, double scale, Row out) const override {
+  double value(const DesignState& v, Side, int) const override { return v.blueprint.zs / v.blueprint.zp; }
+  void add_value_gradient(const DesignState& v, Side, int, double scale, Row out) const override {
     const double zp = v.blueprint.zp;
     v.add_zs(scale / zp, out);
     v.add_zp(-scale * v.blueprint.zs / (zp * zp), out);

@@ -1,11 +1,9 @@
-/// Declared in optimize/polish/active_set.hpp.
+#include "math/linear/nnls.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
-
-#include "optimize/polish/active_set.hpp"
 
 namespace ninedof {
 

@@ -19,7 +19,9 @@ std::string solver_version() {
 
 namespace {
 
-/// NLopt asks for objective and constraints one after the other at the same point; we compute both at once.
+constexpr double constraint_tolerance = 1e-10;
+
+/// NLopt asks for objective and constraints one after the other at the same point; both are computed at once.
 struct Session {
   const Nlp& nlp;
   nlopt_opt opt;
@@ -27,12 +29,12 @@ struct Session {
   Nlp::Values values;
   std::exception_ptr failure;
 
-  /// Nothing may be thrown through NLopt's C frames: an exception waits here until it has returned.
+  /// Nothing may be thrown through NLopt's C frames: an exception is kept here until NLopt has returned.
   void update(const double* y) noexcept {
     try {
       const Eigen::Map<const Eigen::VectorXd> point(y, nlp.variables);
       if (at.size() == point.size() && at == point) return;
-      // A step of SLSQP's own arithmetic gone wrong: no design. The last values stand, and the run ends.
+      // SLSQP's own arithmetic has failed, and this is no design. The last values are kept, and the run ends.
       if (!point.allFinite()) return void(nlopt_force_stop(opt));
       at = point;
       if (!nlp.evaluate(at, values)) nlopt_force_stop(opt);
@@ -70,8 +72,8 @@ Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpS
   nlopt_set_lower_bounds(opt.get(), nlp.low.data());
   nlopt_set_upper_bounds(opt.get(), nlp.high.data());
   nlopt_set_min_objective(opt.get(), objective, &session);
-  // With a tolerance of zero NLopt would keep the start as its "best feasible" point: iterates meet constraints to rounding only.
-  const Eigen::VectorXd slack = Eigen::VectorXd::Constant(nlp.constraints, settings.constraint_tolerance);
+  // With a tolerance of zero NLopt would return the start: iterates satisfy constraints up to rounding only.
+  const Eigen::VectorXd slack = Eigen::VectorXd::Constant(nlp.constraints, constraint_tolerance);
   if (nlp.constraints > 0)
     nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(nlp.constraints), constraints, &session,
                                      slack.data());

@@ -1,12 +1,12 @@
 #pragma once
-/// NLopt's SLSQP behind one function. Its return code is not reported: callers check the point themselves.
+/// NLopt's SLSQP as one function. Its return code is not reported: callers check the point themselves.
 
 #include <Eigen/Core>
 #include <functional>
 
 namespace ninedof {
 
-/// minimise f(y) subject to c(y) <= 0 and low <= y <= high. Jacobians are row-major, one row a constraint.
+/// Minimize f(y) subject to c(y) <= 0 and low <= y <= high. Jacobians are row-major, one row a constraint.
 struct Nlp {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   struct Values {
@@ -23,7 +23,6 @@ struct Nlp {
 
 struct SlsqpSettings {
   double tolerance = 1e-13;  ///< relative, on f and y
-  double constraint_tolerance = 1e-10;
   int max_evaluations = 500;
 };
 

@@ -1,64 +1,65 @@
 #pragma once
-/// What one call of SLSQP is about: objective and constraints as smooth rows, the ones that can matter.
+/// One call of SLSQP: objective and constraints as smooth rows, reduced to those that can be active.
 ///
-/// SLSQP's own arithmetic grows with the number of rows times the square of the number of variables; a study over many poses
-/// has thousands of rows, of which a few dozen ever come near zero. Those near zero are taken; where the answer violates
-/// another, it joins them and the run goes on.
+/// SLSQP's own arithmetic grows with the number of rows times the square of the number of variables. A study over many
+/// poses has thousands of rows, of which a few dozen ever come near zero. Only those are selected; rows that the answer
+/// violates are added, and the run continues.
 
 #include <functional>
 
-#include "optimize/minimax/look.hpp"
+#include "ninedof/optimize/trace.hpp"
+#include "optimize/minimax/design_evaluation.hpp"
 #include "optimize/minimax/slsqp.hpp"
 
 namespace ninedof {
 
-/// Violation up to which a design on the way counts as allowed: well inside what Candidate::feasible grants, so that the
-/// little it gains in the index is rounding.
-constexpr double clearly_allowed = 1e-9;
+/// Violation up to which an iterate counts as feasible: well below that of Candidate::feasible, so that what it gains
+/// in the index is rounding.
+constexpr double clearly_feasible = 1e-9;
 
-/// Called with the logarithm of the objective and the violation of each design a run looks at.
+/// Called with the logarithm of the objective and the violation of each design a run evaluates.
 using Observer = std::function<void(double, double)>;
 
-/// The gradient of the objective, with one of the rows that rule each level.
-Eigen::VectorXd ruling_gradient(const Prepared& p, const Look& l, const Eigen::VectorXd& slopes);
+/// The gradient of the objective; of the rows that tie for a level, one counts.
+Eigen::VectorXd objective_gradient(const PreparedProblem& p, const DesignEvaluation& design,
+                                   const Eigen::VectorXd& slopes);
 
 class Subproblem {
  public:
-  Subproblem(const Prepared& p, Formulation formulation, std::stop_token stop, Observer observer)
+  Subproblem(const PreparedProblem& p, Formulation formulation, std::stop_token stop, Observer observer)
       : p_(p), formulation_(formulation), stop_(std::move(stop)), observer_(std::move(observer)) {}
 
-  /// The point SLSQP ends at, from `from`, in solver coordinates. `smoothing`: see Look; `tolerance`:
+  /// The end point of SLSQP from `from`, in solver coordinates. `smoothing`: see DesignEvaluation; `tolerance`:
   /// relative, on objective and coordinates.
   Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, double tolerance, int max_evaluations);
 
-  /// The allowed design of least objective that the last call looked at, or where it began. NLopt returns its own choice among
-  /// the points it saw, by a measure that counts the levels.
-  const Eigen::VectorXd& seen() const { return seen_; }
+  /// The feasible design of least objective that the last call evaluated, or its start. NLopt returns another one of
+  /// the evaluated points, by a measure that counts the levels.
+  const Eigen::VectorXd& best_seen() const { return best_seen_; }
 
   long evaluations() const { return evaluations_; }
 
  private:
-  void choose(const Look& l);
-  bool add_violated(const Look& l);
-  void note_wanted();
-  void fill(const Look& l, const Eigen::VectorXd& at, Nlp::Values& out) const;
+  void select_rows();
+  void select_poses();
+  bool add_violated();
+  void fill(const Eigen::VectorXd& at, Nlp::Values& out) const;
   Eigen::VectorXd run(const Eigen::VectorXd& from, double tolerance, int max_evaluations);
   bool minimax() const { return formulation_ == Formulation::minimax; }
 
-  const Prepared& p_;
+  const PreparedProblem& p_;
   Formulation formulation_;
   std::stop_token stop_;
   Observer observer_;
-  Look l_;
-  std::vector<int> uses_;  ///< rows taken, and the margins in `wanted_`
-  Wanted wanted_;
-  Eigen::VectorXd seen_;
-  double seen_objective_ = 0.0;
+  DesignEvaluation design_;
+  RowSelection selection_;
+  Eigen::VectorXd best_seen_;
+  double best_seen_objective_ = 0.0;
   long evaluations_ = 0;
 };
 
-/// Minimises t >= 0 with every margin >= -t, zs < zp included: the point of least violation near a start.
-Eigen::VectorXd least_violation_point(const Prepared& p, const Eigen::VectorXd& start, int max_evaluations,
+/// Minimizes t >= 0 subject to every margin >= -t, zs < zp included: the point of least violation near a start.
+Eigen::VectorXd least_violation_point(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
                                       const std::stop_token& stop, long& evaluations);
 
 }  // namespace ninedof

@@ -1,7 +1,8 @@
 #include "optimize/polish/active_set.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "math/linear/nnls.hpp"
 
 namespace ninedof {
 namespace {
@@ -17,14 +18,16 @@ void add_once(std::vector<std::string>& list, const std::string& name) {
 
 }  // namespace
 
-ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y, Contact contact) {
+ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y,
+                     Contact contact) {
   const double bound_contact = contact == Contact::exact ? 1e-12 : near_bound;
   const Coordinates& c = p.coordinates;
   ActiveSet a;
-  for (std::size_t k = 0; k < p.uses.size(); ++k)
-    if (l.levels[p.uses[k].level] - l.f[p.uses[k].row] <= tie) a.uses.push_back(static_cast<int>(k));
-  for (Eigen::Index k = 0; k < l.m.size(); ++k)
-    if (l.m[k] <= limit_contact) a.margins.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < p.row_levels.size(); ++k)
+    if (design.levels[p.row_levels[k].level] - design.objective_rows[p.row_levels[k].row] <= tie)
+      a.row_levels.push_back(static_cast<int>(k));
+  for (Eigen::Index k = 0; k < design.margins.size(); ++k)
+    if (design.margins[k] <= limit_contact) a.margins.push_back(static_cast<int>(k));
   for (int k = 0; k < c.size(); ++k) {
     if (y[k] - c.low()[k] <= bound_contact) a.at_low.push_back(k);
     if (c.high()[k] - y[k] <= bound_contact) a.at_high.push_back(k);
@@ -33,30 +36,30 @@ ActiveSet active_set(const Prepared& p, const Look& l, const Eigen::VectorXd& y,
   return a;
 }
 
-std::vector<std::string> names(const Prepared& p, const ActiveSet& a) {
+std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a) {
   std::vector<std::string> out;
-  // A range of ours is no bound of the study, but the reach of O is worth a word.
-  const auto shown = [&](int k, bool ours) {
-    if (!ours || p.coordinates.info(k).kind == VariableKind::fraction) add_once(out, p.coordinates.info(k).name);
+  // Internal bounds are not reported, except for that of the offset of O.
+  const auto report = [&](int k, bool internal) {
+    if (!internal || p.coordinates.info(k).kind == VariableKind::fraction) add_once(out, p.coordinates.info(k).name);
   };
-  for (const int k : a.at_low) shown(k, p.coordinates.capped_low(k));
-  for (const int k : a.at_high) shown(k, p.coordinates.capped_high(k));
+  for (const int k : a.at_low) report(k, p.coordinates.internal_low(k));
+  for (const int k : a.at_high) report(k, p.coordinates.internal_high(k));
   for (const int k : a.margins) add_once(out, p.margin_name(k));
   if (a.order) add_once(out, "zp > zs");
   return out;
 }
 
-std::vector<std::string> conflict(const Prepared& p, const Look& l, const Eigen::VectorXd& y) {
+std::vector<std::string> conflict(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y) {
   const Eigen::Index n = p.coordinates.size();
-  const double worst = violation(p, l, y);
+  const double worst = violation(p, design, y);
   std::vector<Eigen::VectorXd> columns;
   std::vector<std::string> labels;
-  for (Eigen::Index k = 0; k < l.m.size(); ++k) {
-    if (l.m[k] > -worst + limit_contact) continue;
-    columns.emplace_back(l.m_gradient.row(k));
+  for (Eigen::Index k = 0; k < design.margins.size(); ++k) {
+    if (design.margins[k] > -worst + limit_contact) continue;
+    columns.emplace_back(design.margin_gradient.row(k));
     labels.push_back(p.margin_name(static_cast<int>(k)));
   }
-  const double out_of_order = order_violation(p, l, y);
+  const double out_of_order = order_violation(p, design, y);
   if (out_of_order > 0.0 && out_of_order >= worst - limit_contact) {
     columns.emplace_back(p.coordinates.order().gradient);
     labels.emplace_back("zp > zs");

@@ -1,13 +1,12 @@
 #include "optimize/polish/cluster.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <cmath>
 
 namespace ninedof {
 
-Cluster::Cluster(const Prepared& p, const Look& l, int pose, double tie) {
+Cluster::Cluster(const PreparedProblem& p, const DesignEvaluation& design, int pose, double tie) {
   const Index index = p.problem.objective.index;
-  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
+  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
   // The closed form's pairs move together by symmetry, and the Frobenius form is smooth.
   if (s.closed || index == Index::frobenius) return;
   condition_ = index == Index::condition_number;
@@ -16,21 +15,22 @@ Cluster::Cluster(const Prepared& p, const Look& l, int pose, double tie) {
     if (condition_ && s.log_sigma[k] - s.log_sigma[5] <= tie) bottoms_.push_back(k);
   }
   if (!ambiguous()) return;
-  top_ = {tops_, cluster_block(l, pose, tops_)};
-  bottom_ = {bottoms_, cluster_block(l, pose, bottoms_)};
+  top_ = {tops_, cluster_block(design, pose, tops_)};
+  bottom_ = {bottoms_, cluster_block(design, pose, bottoms_)};
 }
 
-std::vector<Eigen::RowVectorXd> cluster_block(const Look& l, int pose, const std::vector<int>& members) {
-  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
-  const PoseView& at = l.view.pose(l.view.first + pose);
+std::vector<Eigen::RowVectorXd> cluster_block(const DesignEvaluation& design, int pose,
+                                              const std::vector<int>& members) {
+  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
+  const PoseState& at = design.state.pose(design.state.first_pose + pose);
   std::vector<Eigen::RowVectorXd> out;
   for (std::size_t i = 0; i < members.size(); ++i)
     for (std::size_t j = i; j < members.size(); ++j) {
       const int a = members[i], b = members[j];
       PointGradient g = zero_gradient();
       add_spectrum_gradient(at.at, at.legs, s.general, a, b, 0.5 / (s.general.sigma[a] * s.general.sigma[b]), g);
-      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(l.view.columns());
-      l.view.add(l.view.first + pose, g, row);
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(design.state.columns());
+      design.state.add(design.state.first_pose + pose, g, row);
       out.push_back(std::move(row));
     }
   return out;

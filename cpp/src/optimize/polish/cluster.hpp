@@ -1,21 +1,22 @@
 #pragma once
-/// Coinciding singular values: their joint derivative is a symmetric matrix, and any direction in it is a row.
+/// Coinciding singular values: their joint derivative is a symmetric matrix, and each direction in it gives a row.
 
-#include "optimize/minimax/look.hpp"
+#include "optimize/minimax/design_evaluation.hpp"
 
 namespace ninedof {
 
-/// Derivatives of the matrix of logarithms of some singular values of a pose, in the basis of their own vectors: entries
-/// (a, b), a <= b, row after row. Exact where they coincide.
-std::vector<Eigen::RowVectorXd> cluster_block(const Look& l, int pose, const std::vector<int>& members);
+/// Derivatives of the matrix of logarithms of some singular values of a pose, in the basis of their own vectors:
+/// entries (a, b), a <= b, row after row. Exact where they coincide.
+std::vector<Eigen::RowVectorXd> cluster_block(const DesignEvaluation& design, int pose,
+                                              const std::vector<int>& members);
 
 /// Singular values of one displaced pose that tie for largest, and for smallest.
 class Cluster {
  public:
   /// `tie`: difference of logarithms that counts as equal.
-  Cluster(const Prepared& p, const Look& l, int pose, double tie);
+  Cluster(const PreparedProblem& p, const DesignEvaluation& design, int pose, double tie);
 
-  /// Whether there is a choice of directions at all.
+  /// Whether at least two singular values coincide.
   bool ambiguous() const { return tops_.size() > 1 || bottoms_.size() > 1; }
 
   /// The row of derivatives of the index, among all directions, that points most against `along`.

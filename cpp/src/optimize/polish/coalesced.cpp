@@ -4,27 +4,27 @@
 
 namespace ninedof {
 
-Coalesced::Coalesced(const Look& reference, int pose, std::vector<int> members)
+Coalesced::Coalesced(const DesignEvaluation& reference, int pose, std::vector<int> members)
     : pose_(pose), members_(std::move(members)) {
   basis_ = vectors(reference);
 }
 
-Eigen::MatrixXd Coalesced::vectors(const Look& l) const {
-  const Mat6& twist = l.spectra[static_cast<std::size_t>(pose_)].general.twist;
+Eigen::MatrixXd Coalesced::vectors(const DesignEvaluation& design) const {
+  const Mat6& twist = design.spectra[static_cast<std::size_t>(pose_)].general.twist;
   Eigen::MatrixXd out(6, size());
   for (int k = 0; k < size(); ++k) out.col(k) = twist.col(members_[static_cast<std::size_t>(k)]);
   return out;
 }
 
-Coalesced::Entries Coalesced::at(const Look& l) const {
-  const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose_)];
-  // The reference basis carried into the subspace of now: the orthogonal matrix nearest to the overlap.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> overlap(vectors(l).transpose() * basis_,
+Coalesced::Entries Coalesced::at(const DesignEvaluation& design) const {
+  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose_)];
+  // Transport of the reference basis into the present subspace: the orthogonal matrix nearest to the overlap.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> overlap(vectors(design).transpose() * basis_,
                                                   Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::MatrixXd turn = overlap.matrixU() * overlap.matrixV().transpose();
-  const std::vector<Eigen::RowVectorXd> block = cluster_block(l, pose_, members_);
+  const std::vector<Eigen::RowVectorXd> block = cluster_block(design, pose_, members_);
   const int n = size(), entries = n * (n + 1) / 2;
-  Entries out{Eigen::VectorXd::Zero(entries), Rows::Zero(entries, l.view.columns())};
+  Entries out{Eigen::VectorXd::Zero(entries), Rows::Zero(entries, design.state.columns())};
   int entry = 0;
   for (int i = 0; i < n; ++i)
     for (int j = i; j < n; ++j, ++entry) {
@@ -39,19 +39,21 @@ Coalesced::Entries Coalesced::at(const Look& l) const {
   return out;
 }
 
-std::vector<Coalesced> coalesced_groups(const Prepared& p, const Look& l, const std::vector<int>& poses, double gap) {
+std::vector<Coalesced> coalesced_groups(const PreparedProblem& p, const DesignEvaluation& design,
+                                        const std::vector<int>& poses, double gap) {
   std::vector<Coalesced> out;
-  if (!p.kinked()) return out;
+  if (!p.has_kinks()) return out;
   for (const int pose : poses) {
-    const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose)];
+    const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
     if (s.closed) continue;
     std::vector<int> tops, bottoms;
     for (int k = 0; k < 6; ++k) {
       if (s.log_sigma[0] - s.log_sigma[k] <= gap) tops.push_back(k);
       if (s.log_sigma[5 - k] - s.log_sigma[5] <= gap) bottoms.push_back(5 - k);
     }
-    if (tops.size() > 1) out.emplace_back(l, pose, tops);
-    if (bottoms.size() > 1 && p.problem.objective.index == Index::condition_number) out.emplace_back(l, pose, bottoms);
+    if (tops.size() > 1) out.emplace_back(design, pose, tops);
+    if (bottoms.size() > 1 && p.problem.objective.index == Index::condition_number)
+      out.emplace_back(design, pose, bottoms);
   }
   return out;
 }

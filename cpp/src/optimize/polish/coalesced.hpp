@@ -1,9 +1,9 @@
 #pragma once
-/// Singular values of one pose that coincide at a solution: as smooth equations, after Overton (SIAM J. Matrix Anal. Appl. 9,
-/// 1988, 256-268).
+/// Singular values of one pose that coincide at a solution, as smooth equations, after Overton (SIAM J. Matrix Anal.
+/// Appl. 9, 1988, 256-268).
 ///
-/// Singular values that meet have a kink there, each of them. The symmetric matrix S of the logarithms in a fixed basis of
-/// their common subspace, carried along, is smooth; that they coincide says that S is a multiple of the identity: two
+/// Where singular values meet, each has a kink. The symmetric matrix S of their logarithms in a basis of their common
+/// subspace, transported from a reference point, is smooth. They coincide where S is a multiple of the identity: two
 /// equations for a pair, five for three.
 
 #include "optimize/polish/cluster.hpp"
@@ -14,7 +14,7 @@ namespace ninedof {
 class Coalesced {
  public:
   /// `members`: 0, 1, ... for the largest, 5, 4, ... for the smallest.
-  Coalesced(const Look& reference, int pose, std::vector<int> members);
+  Coalesced(const DesignEvaluation& reference, int pose, std::vector<int> members);
 
   int pose() const { return pose_; }
   bool top() const { return members_.front() == 0; }
@@ -25,20 +25,22 @@ class Coalesced {
     Eigen::VectorXd value;
     Rows gradient;
   };
-  Entries at(const Look& l) const;
+  Entries at(const DesignEvaluation& design) const;
 
-  /// Place of S(i, i) among the entries.
+  /// PoseSpec of S(i, i) among the entries.
   int diagonal(int i) const { return i * size() - i * (i - 1) / 2; }
 
  private:
-  Eigen::MatrixXd vectors(const Look& l) const;
+  Eigen::MatrixXd vectors(const DesignEvaluation& design) const;
 
   int pose_;
   std::vector<int> members_;
   Eigen::MatrixXd basis_;  ///< of the subspace at the reference, 6 x size
 };
 
-/// Groups of the largest, and of the smallest, of the given poses that lie within `gap` of the extreme one, in logarithms.
-std::vector<Coalesced> coalesced_groups(const Prepared& p, const Look& l, const std::vector<int>& poses, double gap);
+/// Groups of the largest, and of the smallest, of the given poses that lie within `gap` of the extreme one, in
+/// logarithms.
+std::vector<Coalesced> coalesced_groups(const PreparedProblem& p, const DesignEvaluation& design,
+                                        const std::vector<int>& poses, double gap);
 
 }  // namespace ninedof

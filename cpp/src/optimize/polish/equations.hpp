@@ -1,35 +1,35 @@
 #pragma once
-/// The first-order conditions' equations at an active set: rows on their level, margins at zero, singular values that coincide.
+/// The equations of an active set: rows equal to their level, margins at zero, singular values that coincide.
 
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/coalesced.hpp"
 
 namespace ninedof {
 
-/// Values and derivatives of the equations; `level` says of which level's t the value is the equal, -1 for zero.
+/// Values and derivatives of the equations; each value equals t of its `level`, or 0 where that is -1.
 struct Equations {
   Eigen::VectorXd value;
   Eigen::MatrixXd gradient;  ///< one row each, by free coordinate
   std::vector<int> level;
 };
 
-/// What is held as an equation while Newton's method runs.
+/// The equations of Newton's method.
 class ActiveEquations {
  public:
-  /// `gap`: singular values of a ruling pose no farther apart than this, in logarithms, are held together; 0: none are.
-  ActiveEquations(const Prepared& p, const Look& l, const ActiveSet& a, double gap);
+  /// `gap`: singular values of an active pose no farther apart than this, in logarithms, are held equal; 0: none are.
+  ActiveEquations(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a, double gap);
 
-  Equations at(const Look& l) const;
+  Equations at(const DesignEvaluation& design) const;
 
  private:
-  struct PoseUse {
+  struct PoseLevel {
     int pose, level;
   };
 
-  const Prepared* p_;
-  std::vector<int> plain_;  ///< uses held as they are
+  const PreparedProblem* p_;
+  std::vector<int> plain_;  ///< indices into PreparedProblem::row_levels, of the other poses
   std::vector<int> margins_;
-  std::vector<PoseUse> ruled_;  ///< poses with singular values held together
+  std::vector<PoseLevel> pose_levels_;  ///< of poses with singular values held equal
   std::vector<Coalesced> groups_;
 };
 

@@ -1,7 +1,6 @@
 #include "optimize/polish/polish.hpp"
 
 #include <Eigen/QR>
-#include <cmath>
 
 #include "optimize/polish/equations.hpp"
 
@@ -9,12 +8,12 @@ namespace ninedof {
 namespace {
 
 constexpr int newton_steps = 6;
-/// Soft singular values that matter in the limit are within this many smoothings of the extreme one.
-constexpr double held_together = 7.0;
+/// Smoothed singular values that coincide in the limit are within this many smoothings of the extreme one.
+constexpr double group_width = 7.0;
 constexpr double difference_step = 1e-6;  // of solver coordinates, which are of order one
 
 /// Curvature of the objective in its levels, by differences of its slopes.
-Eigen::MatrixXd level_curvature(const Prepared& p, const Eigen::VectorXd& levels) {
+Eigen::MatrixXd level_curvature(const PreparedProblem& p, const Eigen::VectorXd& levels) {
   Eigen::MatrixXd out(p.levels, p.levels);
   Eigen::VectorXd slopes, ahead;
   p.objective(levels, &slopes);
@@ -29,14 +28,14 @@ Eigen::MatrixXd level_curvature(const Prepared& p, const Eigen::VectorXd& levels
 
 }  // namespace
 
-Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double smoothing) {
+Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, double smoothing) {
   const int n = p.coordinates.size();
   Eigen::VectorXd y = start;
-  Look l, ahead;
-  l.smoothing = smoothing;
-  look(p, y, l);
-  const ActiveSet active = active_set(p, l, y, Contact::near);
-  l.smoothing = 0.0;
+  DesignEvaluation design, ahead;
+  design.smoothing = smoothing;
+  evaluate_design(p, y, design);
+  const ActiveSet active = active_set(p, design, y, Contact::near);
+  design.smoothing = 0.0;
   std::vector<bool> held(static_cast<std::size_t>(n), false);
   for (const int k : active.at_low) {
     held[static_cast<std::size_t>(k)] = true;
@@ -46,18 +45,18 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double s
     held[static_cast<std::size_t>(k)] = true;
     y[k] = p.coordinates.high()[k];
   }
-  look(p, y, l);
+  evaluate_design(p, y, design);
   std::vector<Eigen::Index> moving;
   for (int k = 0; k < n; ++k)
     if (!held[static_cast<std::size_t>(k)]) moving.push_back(k);
   const auto m = static_cast<Eigen::Index>(moving.size());
-  const ActiveEquations equations(p, l, active, held_together * smoothing);
+  const ActiveEquations equations(p, design, active, group_width * smoothing);
   const Eigen::Index levels = p.levels, unknowns = m + levels;
-  Eigen::VectorXd t = l.levels;
+  Eigen::VectorXd t = design.levels;
 
   for (int step = 0; step < newton_steps && m > 0; ++step) {
     // Unknowns (y, t); equations value = t of their level, or 0.
-    const Equations e = equations.at(l);
+    const Equations e = equations.at(design);
     const Eigen::Index rows = e.value.size();
     const Eigen::MatrixXd g = e.gradient(Eigen::all, moving);
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, unknowns);
@@ -78,7 +77,7 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double s
     for (Eigen::Index k = 0; k < m; ++k) {
       Eigen::VectorXd near = y;
       near[moving[static_cast<std::size_t>(k)]] += difference_step;
-      look(p, near, ahead);
+      evaluate_design(p, near, ahead);
       kkt.col(k).head(m) =
           (equations.at(ahead).gradient(Eigen::all, moving) - g).transpose() * multipliers / difference_step;
     }
@@ -94,7 +93,7 @@ Eigen::VectorXd polish(const Prepared& p, const Eigen::VectorXd& start, double s
     for (Eigen::Index k = 0; k < m; ++k) y[moving[static_cast<std::size_t>(k)]] += move[k];
     y = y.cwiseMax(p.coordinates.low()).cwiseMin(p.coordinates.high());
     t += move.tail(levels);
-    look(p, y, l);
+    evaluate_design(p, y, design);
     if (move.head(m).norm() < 1e-12) break;
   }
   return y;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/linear/nnls.hpp"
 #include "math/numbers.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/cluster.hpp"
@@ -28,8 +29,8 @@ struct Weights {
   Eigen::VectorXd w, residual;
 };
 
-/// Least residual over nonnegative weights; the sums that belong to levels are rows of the problem, weighted like the largest
-/// gradient, and met exactly afterwards. Where the residual vanishes they are met anyway.
+/// Least residual over nonnegative weights. That the weights of a level sum to its slope is a row of the problem,
+/// scaled like the largest gradient, and is made exact afterwards.
 Weights balance(const Columns& c, const Eigen::VectorXd& slopes, Eigen::Index n) {
   const Eigen::Index levels = slopes.size();
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + levels, c.count());
@@ -53,21 +54,22 @@ Weights balance(const Columns& c, const Eigen::VectorXd& slopes, Eigen::Index n)
   return out;
 }
 
-/// Adds directions of clusters until none helps.
-Weights settle(const Prepared& p, const Look& l, const ActiveSet& a, const Eigen::VectorXd& slopes, Columns& columns) {
+/// Adds directions of clusters until none reduces the residual.
+Weights balance_clusters(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a,
+                         const Eigen::VectorXd& slopes, Columns& columns) {
   const Eigen::Index n = p.coordinates.size();
   Weights now = balance(columns, slopes, n);
   std::vector<std::pair<Cluster, int>> clusters;  // with the level they belong to
-  const int poses = std::max(p.looked, 1);
+  const int poses = p.evaluated_poses();
   for (int pose = 0; pose < poses; ++pose) {
     std::vector<int> levels;
-    for (const int k : a.uses) {
-      const Use& u = p.uses[static_cast<std::size_t>(k)];
+    for (const int k : a.row_levels) {
+      const RowLevel& u = p.row_levels[static_cast<std::size_t>(k)];
       const bool of_pose = u.row >= p.first_row(pose) && u.row < p.first_row(pose + 1);
       if (of_pose && std::ranges::find(levels, u.level) == levels.end()) levels.push_back(u.level);
     }
     if (levels.empty()) continue;
-    const Cluster cluster(p, l, pose, cluster_tie);
+    const Cluster cluster(p, design, pose, cluster_tie);
     if (!cluster.ambiguous()) continue;
     for (const int level : levels) clusters.emplace_back(cluster, level);
   }
@@ -89,53 +91,56 @@ Weights settle(const Prepared& p, const Look& l, const ActiveSet& a, const Eigen
   return now;
 }
 
-/// Condition numbers of 1 (6 in the Frobenius norm) have nothing below them, and at that tip no derivatives.
-bool least_possible(const Prepared& p, const Look& l) {
+/// Whether the index has its least possible value, 1 or, in the Frobenius norm, 6; it has no derivatives there.
+bool least_possible(const PreparedProblem& p, const DesignEvaluation& design) {
   const Index index = p.problem.objective.index;
   const double least = index == Index::frobenius ? std::log(6.0) : 0.0;
-  return index != Index::speed && l.levels.maxCoeff() <= least + 1e-9;
+  return index != Index::speed && design.levels.maxCoeff() <= least + 1e-9;
 }
 
 /// Per cent of the objective for one per cent of a bound: the weight is per unit of the coordinate.
-double bound_price(const Prepared& p, const Look& l, int coordinate, double weight) {
-  const double x = l.view.x[p.coordinates.variable(coordinate)];
-  return weight * std::abs(x) / p.coordinates.slopes(l.view.x)[coordinate];
+double bound_price(const PreparedProblem& p, const DesignEvaluation& design, int coordinate, double weight) {
+  const double x = design.state.x[p.coordinates.variable(coordinate)];
+  return weight * std::abs(x) / p.coordinates.slopes(design.state.x)[coordinate];
 }
 
 }  // namespace
 
-Stationarity stationarity(const Prepared& p, const Look& l, const ActiveSet& a) {
+Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a) {
   const Eigen::Index n = p.coordinates.size();
   if (n == 0) return {};
-  if (!l.f.allFinite() || !l.f_gradient.allFinite() || !l.m_gradient.allFinite()) return {infinity, {}};
-  if (least_possible(p, l)) return {};
+  if (!design.objective_rows.allFinite() || !design.row_gradient.allFinite() || !design.margin_gradient.allFinite())
+    return {infinity, {}};
+  if (least_possible(p, design)) return {};
   Columns columns;
-  for (const int k : a.uses) {
-    const Use& u = p.uses[static_cast<std::size_t>(k)];
-    columns.add(l.f_gradient.row(u.row), u.level);
+  for (const int k : a.row_levels) {
+    const RowLevel& u = p.row_levels[static_cast<std::size_t>(k)];
+    columns.add(design.row_gradient.row(u.row), u.level);
   }
-  // Margins are relative to their limit: the weight is the price, but for rows that only help others.
+  // Margins are relative to their limit: the weight times a factor of 1, or 0 for rows of auxiliary variables, is the
+  // price.
   std::vector<std::pair<std::string, double>> named;  // and the factor from weight to price
   const auto limited = static_cast<std::size_t>(columns.count());
   for (const int k : a.margins) {
-    columns.add(-l.m_gradient.row(k));
+    columns.add(-design.margin_gradient.row(k));
     named.emplace_back(p.margin_name(k), p.margin_price(k));
   }
   for (const int k : a.at_low) {
     columns.add(-Eigen::VectorXd::Unit(n, k));
-    named.emplace_back(p.coordinates.capped_low(k) ? "" : p.coordinates.info(k).name, bound_price(p, l, k, 1.0));
+    named.emplace_back(p.coordinates.internal_low(k) ? "" : p.coordinates.info(k).name, bound_price(p, design, k, 1.0));
   }
   for (const int k : a.at_high) {
     columns.add(Eigen::VectorXd::Unit(n, k));
-    named.emplace_back(p.coordinates.capped_high(k) ? "" : p.coordinates.info(k).name, bound_price(p, l, k, 1.0));
+    named.emplace_back(p.coordinates.internal_high(k) ? "" : p.coordinates.info(k).name,
+                       bound_price(p, design, k, 1.0));
   }
   if (a.order) {
     columns.add(-p.coordinates.order().gradient);
     named.emplace_back("", 0.0);
   }
   Eigen::VectorXd slopes;
-  p.objective(l.levels, &slopes);
-  const Weights settled = settle(p, l, a, slopes, columns);
+  p.objective(design.levels, &slopes);
+  const Weights settled = balance_clusters(p, design, a, slopes, columns);
   Stationarity out;
   out.residual = settled.residual.norm();
   for (std::size_t k = 0; k < named.size(); ++k) {

@@ -45,10 +45,10 @@ def price_text(result: Result) -> list[str]:
     """Return what the table does not say: which limits cost what at the best candidate, and how many starts agree."""
     if result.best is None:
         return []
-    which = "starts followed to their end" if result.stopped_early else "starts"
+    which = "starts followed to their end" if result.runs_abandoned else "starts"
     sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
     hopeless = (
-        f"; {result.stopped_early} of {result.starts_done} were given up as hopeless" if result.stopped_early else ""
+        f"; {result.runs_abandoned} of {result.starts_done} were given up as hopeless" if result.runs_abandoned else ""
     )
     return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure + hopeless])]
 

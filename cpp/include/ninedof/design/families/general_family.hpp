@@ -5,8 +5,9 @@
 
 namespace ninedof {
 
-/// Variables: base_external_1_x ... platform_internal_3_z, zp, zs, theta_z. Those not given stand at the published coupled
-/// triangles (base side 5.8124, platform side 2.9062, in characteristic lengths), so that any subset may be freed.
+/// Variables: base_external_1_x ... platform_internal_3_z, zp, zs, theta_z. Those not given stand at the published
+/// coupled triangles (base side 5.8124, platform side 2.9062, in characteristic lengths), so that any subset may be
+/// freed.
 class GeneralFamily : public DesignFamily {
  public:
   GeneralFamily();

@@ -5,8 +5,8 @@
 
 namespace ninedof {
 
-/// Variables: radius of the external base triple (at angle 0), then radius and angle of the other three, zp, zs; and, where
-/// N = 13, the four heights.
+/// Variables: radius of the external base triple (at angle 0), then radius and angle of the other three, zp, zs; and,
+/// where N = 13, the four heights.
 template <int N>
 class SymmetricFamily : public AxisFamily<SymmetricFamily<N>, N> {
   static_assert(N == 9 || N == 13);

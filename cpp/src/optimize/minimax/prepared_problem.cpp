@@ -1,18 +1,18 @@
-#include "optimize/minimax/prepared.hpp"
+#include "optimize/minimax/prepared_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/minimax/look.hpp"
+#include "optimize/minimax/design_evaluation.hpp"
 
 namespace ninedof {
 namespace {
 
-/// Unrelated designs from which it is learned what is so in all of them.
+/// Number of unrelated designs. What holds in all of them is taken to hold in every design.
 constexpr int probes = 3;
 
-/// Size up to which such designs are drawn where a variable has no serious bound and the solver is not asked.
-constexpr double caps_end = 100.0;
+/// Their size limit where single designs are evaluated.
+constexpr double probe_size = 100.0;
 
 const std::string condition_limit_name = "condition_limit";
 
@@ -20,57 +20,43 @@ int pair_rows(bool closed) {
   return index_rows(Index::condition_number, closed);
 }
 
-int count_helpers(const Problem& problem) {
+int count_auxiliary(const Problem& problem) {
   int count = 0;
   for (const Limit& limit : problem.limits)
-    count += make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve)->helpers();
+    count +=
+        make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve)->auxiliary_count();
   return count;
 }
 
 }  // namespace
 
-Prepared::Prepared(const Problem& given, double cap)
-    : problem(given), family(&design_family(given.family)), coordinates(given, cap, count_helpers(given)) {
-  place_poses();
+PreparedProblem::PreparedProblem(const Problem& given, double size_limit)
+    : problem(given),
+      family(&design_family(given.family)),
+      coordinates(given, size_limit, count_auxiliary(given)),
+      pose_specs(ninedof::pose_specs(given, coordinates)),
+      objective_poses(static_cast<int>(given.objective.poses.size())) {
   count_rows(Purpose::solve);
-  teach_constraints(coordinates);
+  learn_constraints(coordinates);
   drop_repeated_margins();
 }
 
-Prepared::Prepared(const Problem& given)
-    : problem(given), family(&design_family(given.family)), coordinates(Coordinates::plain(given)) {
-  place_poses();
-  count_rows(Purpose::look);
-  teach_constraints(Coordinates(given, caps_end * given.unit()));
+PreparedProblem::PreparedProblem(const Problem& given)
+    : problem(given),
+      family(&design_family(given.family)),
+      coordinates(Coordinates::plain(given)),
+      pose_specs(ninedof::pose_specs(given, coordinates)),
+      objective_poses(static_cast<int>(given.objective.poses.size())) {
+  count_rows(Purpose::evaluate);
+  learn_constraints(Coordinates(given, probe_size * given.unit()));
 }
 
-void Prepared::place_poses() {
-  const auto& poses = problem.objective.poses;
-  looked = static_cast<int>(poses.size());
-  places.push_back({});
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    Place place{poses[k], 1.0, offset_variables(problem, k)};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (place.offset[axis] >= 0) place.coordinate[axis] = coordinates.coordinate(place.offset[axis]);
-    places.push_back(place);
-  }
-  int steps = 1;
-  for (const Limit& l : problem.limits)
-    if (l.name == "singularity_free") steps = l.steps;
-  for (std::size_t k = 1; k <= poses.size(); ++k)
-    for (int step = 1; step < steps; ++step) {
-      Place between = places[k];
-      between.fraction = static_cast<double>(step) / steps;
-      places.push_back(between);
-    }
-}
-
-void Prepared::count_rows(Purpose purpose) {
+void PreparedProblem::count_rows(Purpose purpose) {
   const Objective& o = problem.objective;
-  const int poses = std::max(looked, 1);
+  const int poses = evaluated_poses();
   for (int k = 0; k < poses; ++k) {
-    const Place& place = places[static_cast<std::size_t>(looked > 0 ? k + 1 : 0)];
-    closed.push_back(on_axis(problem, place.pose));
+    const PoseSpec& spec = pose_specs[static_cast<std::size_t>(objective_poses > 0 ? k + 1 : 0)];
+    closed.push_back(on_axis(problem, spec.pose));
     first_row_.push_back(rows);
     rows += index_rows(o.index, closed.back());
   }
@@ -79,21 +65,22 @@ void Prepared::count_rows(Purpose purpose) {
   levels = single ? 1 : o.aggregate == Aggregate::mean_inverse ? poses : poses + 1;
   for (int k = 0; k < poses; ++k)
     for (int row = first_row(k); row < first_row(k + 1); ++row) {
-      uses.push_back({row, single ? 0 : k});
-      if (!single && o.aggregate == Aggregate::weighted) uses.push_back({row, poses});
+      row_levels.push_back({row, single ? 0 : k});
+      if (!single && o.aggregate == Aggregate::weighted) row_levels.push_back({row, poses});
     }
-  const auto visible = static_cast<int>(full_variables(problem).size());
+  const auto full = static_cast<int>(full_variables(problem).size());
   for (const Limit& limit : problem.limits) {
-    constraints.push_back(make_constraint(limit, looked, purpose));
-    const int own = constraints.back()->helpers();
-    if (own > 0) constraints.back()->set_helpers(visible + helpers, coordinates.coordinate(visible + helpers));
-    helpers += own;
+    constraints.push_back(make_constraint(limit, objective_poses, purpose));
+    const int own = constraints.back()->auxiliary_count();
+    if (own > 0)
+      constraints.back()->set_auxiliary(full + auxiliary_count, coordinates.coordinate(full + auxiliary_count));
+    auxiliary_count += own;
   }
-  std::vector<int> placed_poses;
-  for (int k = 0; k < looked; ++k)
-    if (placed(problem.objective.poses[static_cast<std::size_t>(k)])) placed_poses.push_back(k);
-  if (purpose == Purpose::solve && !placed_poses.empty())
-    constraints.push_back(make_between_plates(std::move(placed_poses)));
+  std::vector<int> optimized_points;
+  for (int k = 0; k < objective_poses; ++k)
+    if (optimizes_internal_point(problem.objective.poses[static_cast<std::size_t>(k)])) optimized_points.push_back(k);
+  if (purpose == Purpose::solve && !optimized_points.empty())
+    constraints.push_back(make_between_plates(std::move(optimized_points)));
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
   if (std::isfinite(o.condition_limit))
@@ -102,32 +89,32 @@ void Prepared::count_rows(Purpose purpose) {
         margins.push_back({-1 - k, pair});
 }
 
-void Prepared::teach_constraints(const Coordinates& within) {
+void PreparedProblem::learn_constraints(const Coordinates& within) {
   if (constraints.empty()) return;
-  std::vector<View> designs(probes);
+  std::vector<DesignState> designs(probes);
   for (int k = 0; k < probes; ++k)
     designs[static_cast<std::size_t>(k)].set(*family, within, problem.characteristic_length, {{}}, 0,
                                              within.start(7 * k + 1, 12345));
   for (const auto& c : constraints) c->learn(designs);
 }
 
-void Prepared::drop_repeated_margins() {
-  // Symmetry makes many margins the same function: those that agree at a few unrelated designs.
-  std::vector<Eigen::VectorXd> seen;
-  Look l;
+void PreparedProblem::drop_repeated_margins() {
+  // Symmetry makes many margins the same function; these agree at a few unrelated designs.
+  std::vector<Eigen::VectorXd> probed;
+  DesignEvaluation design;
   for (int k = 0; k < probes; ++k) {
-    // Places of s and helping variables are their own: no two margins may agree for their sake.
+    // Offsets of s and auxiliary variables take unrelated values, so that margins do not agree by chance.
     Eigen::VectorXd y = coordinates.start(7 * k + 1, 12345);
     for (int v = 0; v < coordinates.size(); ++v)
-      if (coordinates.info(v).ours && coordinates.info(v).kind == VariableKind::fraction)
+      if (coordinates.info(v).internal_bounds && coordinates.info(v).kind == VariableKind::fraction)
         y[v] = 0.01 * std::sin(1.0 + 3.0 * v + 7.0 * k);
-    look(*this, y, l);
-    seen.push_back(l.m);
+    evaluate_design(*this, y, design);
+    probed.push_back(design.margins);
   }
   const auto same = [&](std::size_t a, std::size_t b) {
-    return std::ranges::all_of(seen, [&](const Eigen::VectorXd& m) {
+    return std::ranges::all_of(probed, [&](const Eigen::VectorXd& m) {
       const double x = m[static_cast<Eigen::Index>(a)], y = m[static_cast<Eigen::Index>(b)];
-      return std::abs(x - y) <= 1e-11 * std::max(1.0, std::abs(x)) && x > hopeless_margin;
+      return std::abs(x - y) <= 1e-11 * std::max(1.0, std::abs(x)) && x > worst_margin;
     });
   };
   std::vector<MarginRow> kept;
@@ -145,50 +132,54 @@ void Prepared::drop_repeated_margins() {
   margins = std::move(kept);
 }
 
-const std::string& Prepared::margin_name(int k) const {
+const std::string& PreparedProblem::margin_name(int k) const {
   const int constraint = margins[static_cast<std::size_t>(k)].constraint;
   return constraint < 0 ? condition_limit_name : constraints[static_cast<std::size_t>(constraint)]->limit().name;
 }
 
-bool Prepared::kinked() const {
+bool PreparedProblem::has_kinks() const {
   const Index index = problem.objective.index;
   return (index == Index::condition_number || index == Index::speed) &&
          std::ranges::find(closed, false) != closed.end();
 }
 
-int Prepared::pose_of(int row) const {
+int PreparedProblem::pose_of(int row) const {
   const auto next = std::ranges::upper_bound(first_row_, row);
   return static_cast<int>(next - first_row_.begin()) - 1;
 }
 
-double Prepared::margin_price(int k) const {
+double PreparedProblem::margin_price(int k) const {
   const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
   return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->price_factor(row);
 }
 
-double Prepared::violation_factor(int k) const {
+double PreparedProblem::violation_factor(int k) const {
   const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
   return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->violation_factor(row);
 }
 
-Eigen::VectorXd Prepared::helped(const Eigen::VectorXd& y) const {
-  if (helpers == 0) return y;
-  View v;
-  v.set(*family, coordinates, problem.characteristic_length, places, looked, y);
-  v.unit = problem.unit();
-  Eigen::VectorXd x = v.x;
+void PreparedProblem::set_state(const Eigen::VectorXd& y, DesignState& state) const {
+  state.set(*family, coordinates, problem.characteristic_length, pose_specs, objective_poses, y);
+  state.unit = problem.unit();
+}
+
+Eigen::VectorXd PreparedProblem::with_auxiliary(const Eigen::VectorXd& y) const {
+  if (auxiliary_count == 0) return y;
+  DesignState state;
+  set_state(y, state);
+  Eigen::VectorXd x = state.x;
   for (const auto& c : constraints)
-    for (int k = 0; k < c->helpers(); ++k) x[c->helper_variable() + k] = c->helper(v, k);
+    for (int k = 0; k < c->auxiliary_count(); ++k) x[c->auxiliary_variable() + k] = c->auxiliary_value(state, k);
   return coordinates.coordinates(x);
 }
 
-double Prepared::objective(const Eigen::VectorXd& t, Eigen::VectorXd* slopes) const {
+double PreparedProblem::objective(const Eigen::VectorXd& t, Eigen::VectorXd* slopes) const {
   if (levels == 1) {
     if (slopes != nullptr) slopes->setOnes(1);
     return t[0];
   }
   const Objective& o = problem.objective;
-  const Eigen::Index poses = std::max(looked, 1);
+  const Eigen::Index poses = evaluated_poses();
   const double least = t.head(poses).minCoeff();
   const Eigen::VectorXd share = (least - t.head(poses).array()).exp();
   const double sum = share.sum();

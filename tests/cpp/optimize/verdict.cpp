@@ -1,4 +1,4 @@
-/// optimize.hpp: how a run ends when it does not end in an optimum, what it tells meanwhile, and what it refuses.
+/// optimize.hpp: results other than an optimum, progress, stopping, and invalid arguments.
 
 #include <doctest/doctest.h>
 
@@ -37,8 +37,15 @@ void check_infeasible(const Problem& p, const std::vector<std::string>& causes) 
 
 }  // namespace
 
-TEST_SUITE("optimize_status") {
-  TEST_CASE("eqs. (8)-(9) alone are unbounded: the base and both heights run away") {
+TEST_SUITE("verdict") {
+  TEST_CASE("status words") {
+    CHECK(std::string(to_string(Status::optimal)) == "optimal");
+    CHECK(std::string(to_string(Status::unbounded)) == "unbounded");
+    CHECK(std::string(to_string(Status::infeasible)) == "infeasible");
+    CHECK(std::string(to_string(Status::stopped)) == "stopped");
+  }
+
+  TEST_CASE("eqs. (8)-(9) alone are unbounded: the base and both heights grow") {
     for (const double most : {infinity, 1e9}) {
       const Result r = optimize(open_study(most, most));
       CAPTURE(r.reason);
@@ -54,7 +61,7 @@ TEST_SUITE("optimize_status") {
     }
   }
 
-  TEST_CASE("no upper bounds, but a ratio that holds the base: optimal all the same") {
+  TEST_CASE("no upper bounds, but a ratio that limits the base: optimal") {
     Problem p = open_study(infinity, infinity);
     p.limits = paper_study().limits;
     const Result r = optimize(p);
@@ -63,7 +70,7 @@ TEST_SUITE("optimize_status") {
     CHECK(std::abs(r.candidates.front().condition_number - paper_optimum) <= 1e-6);
   }
 
-  TEST_CASE("finite sides are bounds, however large: heights without bounds do not run away") {
+  TEST_CASE("finite sides are bounds, however large: heights without bounds stay finite") {
     // With sides up to 1e5 the optimum is 2.53645, at heights of about a quarter of the base.
     const Result r = optimize(open_study(1e5, infinity));
     CAPTURE(r.reason);
@@ -108,7 +115,7 @@ TEST_SUITE("optimize_status") {
     check_infeasible(p, {"zs_fraction"});
   }
 
-  TEST_CASE("all variables fixed: the design as it stands") {
+  TEST_CASE("all variables fixed: the design itself") {
     Problem p = fixed_study({0.0, 6.0, 3.0, 0.0, 5.0, 3.0, 0.0});
     const Result r = optimize(p);
     CHECK(r.status == Status::optimal);
@@ -121,7 +128,7 @@ TEST_SUITE("optimize_status") {
     check_infeasible(p, {"radius_ratio"});
   }
 
-  TEST_CASE("zs closely below zp is allowed: the order asks for no distance") {
+  TEST_CASE("zs just below zp is feasible: the order has no minimum distance") {
     for (const double gap : {1e-3, 1e-6, 1e-9}) {
       CAPTURE(gap);
       const Problem p = fixed_study({0.0, 6.0, 3.0, 0.0, 5.0, 5.0 - gap, 0.0});
@@ -133,7 +140,7 @@ TEST_SUITE("optimize_status") {
     }
   }
 
-  TEST_CASE("a singular design is never called optimal, and its condition number is no number") {
+  TEST_CASE("a singular design is never optimal, and its condition number is infinite") {
     Problem flat = open_study(10.0, 10.0);
     flat.variables[5] = {0.0, 0.0};
     Problem similar = open_study(10.0, 10.0);
@@ -150,7 +157,7 @@ TEST_SUITE("optimize_status") {
     CHECK(refuses("a1, a2", [] { optimize(fixed_study({0.0, 0.0, 1.5, 1.0, 5.0, 3.0, 0.0})); }));
   }
 
-  TEST_CASE("too few evaluations: stopped, with the best allowed design found") {
+  TEST_CASE("too few evaluations: stopped, with the best feasible design found") {
     const Result r = optimize(paper_study(), {.starts = 8, .max_evaluations = 3});
     CHECK(r.status == Status::stopped);
     CHECK(!r.reason.empty());
@@ -158,7 +165,7 @@ TEST_SUITE("optimize_status") {
     CHECK(allowed(paper_study(), r.candidates.front().variables, 1e-8));
   }
 
-  TEST_CASE("stopped before it began: no answer, and none claimed") {
+  TEST_CASE("stopped before the first start: no candidate") {
     std::stop_source source;
     source.request_stop();
     const Result r = optimize(paper_study(), {}, {.stop = source.get_token(), .progress = {}});
@@ -167,7 +174,7 @@ TEST_SUITE("optimize_status") {
     CHECK(r.candidates.empty());
   }
 
-  TEST_CASE("stopped in the middle of very many starts: back within a fifth of a second with the best so far") {
+  TEST_CASE("stopped among very many starts: returns the best so far within a fifth of a second") {
     using clock = std::chrono::steady_clock;
     std::vector<Problem> problems{paper_study(), open_study(infinity, infinity)};
     for (const Problem& p : problems) {
@@ -189,7 +196,7 @@ TEST_SUITE("optimize_status") {
     }
   }
 
-  TEST_CASE("progress counts every start once, its best never rises, one call at a time") {
+  TEST_CASE("progress: every start is counted once, the best never rises, one call at a time") {
     for (const int threads : {1, 3}) {
       long last = 0;
       double best = infinity;
@@ -215,7 +222,7 @@ TEST_SUITE("optimize_status") {
     CHECK(last == total);
   }
 
-  TEST_CASE("an exception in progress ends the run and comes out of it") {
+  TEST_CASE("an exception in progress ends the run and is passed on") {
     Control control;
     control.progress = [](long done, long, double) {
       if (done == 5) throw std::runtime_error("enough");
@@ -223,7 +230,7 @@ TEST_SUITE("optimize_status") {
     CHECK_THROWS_WITH_AS(optimize(paper_study(), {.threads = 2}, control), "enough", std::runtime_error);
   }
 
-  TEST_CASE("problems and settings that are none are refused by name") {
+  TEST_CASE("invalid problems and settings throw, naming the argument") {
     const auto refused = [](const std::string& name, const auto& change) {
       Problem p = paper_study();
       change(p);

@@ -1,5 +1,5 @@
 #pragma once
-/// One design at every pose a study looks at, and how numbers made of its points move with the solver's coordinates.
+/// One design at every evaluated pose, and the derivatives of its points with respect to the solver's coordinates.
 
 #include <array>
 #include <vector>
@@ -14,16 +14,19 @@ namespace ninedof {
 using Row = Eigen::Ref<Eigen::RowVectorXd>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A pose as the solver takes it.
-struct Place {
+/// What fixes a pose: the displacement, and the variables that move s.
+struct PoseSpec {
   Pose pose;
-  double fraction = 1.0;                        ///< of the straight way from the neutral configuration
+  double fraction = 1.0;                        ///< of the displacement from the neutral configuration
   std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
   std::array<int, 3> coordinate{-1, -1, -1};    ///< free coordinates behind them
 };
 
-/// One design at one place.
-struct PoseView {
+/// The neutral pose, the poses of the objective, and poses between them for singularity_free.
+std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates);
+
+/// One design at one pose.
+struct PoseState {
   Points at;
   NineLegs legs;
   Mat3 rotation;       ///< Q
@@ -33,36 +36,36 @@ struct PoseView {
   std::array<int, 3> coordinate;
 };
 
-/// The longest and the shortest of the legs over the poses looked at: pose and leg.
+/// A leg at a pose, the longest or shortest of some.
 struct LegExtreme {
   int pose = 0, leg = 0;
 };
 
-class View {
+class DesignState {
  public:
-  /// Places: the neutral configuration, the poses of the objective, and whatever lies between.
+  /// `objective_poses`: how many of the specs, from the second on, belong to the objective.
   void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
-           const std::vector<Place>& places, int looked, const Eigen::VectorXd& y);
+           const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y);
 
   Eigen::VectorXd x;  ///< full variables
   Blueprint blueprint;
-  double unit = 1.0;  ///< of the problem: what lengths are divided by before a logarithm is taken
+  double unit = 1.0;  ///< Problem::unit; lengths are divided by it before a logarithm is taken
   double characteristic_length = 1.0;
   Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
-  std::vector<PoseView> poses;
+  std::vector<PoseState> poses;
 
-  /// Poses looked at: those of the objective, or the neutral one where there are none.
-  int first = 0, looked = 1;
+  /// The evaluated poses: those of the objective, or the neutral one where there are none.
+  int first_pose = 0, pose_count = 1;
   Eigen::Index columns() const { return jet_.cols(); }
-  const PoseView& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
+  const PoseState& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
 
-  /// Over the poses looked at: of all legs, and of each.
+  /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
   LegExtreme longest, shortest;
   std::array<int, 9> longest_of{}, shortest_of{};
   double length(const LegExtreme& l) const { return pose(l.pose).legs.length[l.leg]; }
 
-  /// Each adds the effect of a derivative `g` of some number to its row of derivatives.
-  void add_joint(int joint, const Vec3& g, Row out) const;  ///< with respect to a joint in its body's frame
+  // Chain rule: each adds to the row `out` of a number the effect of its derivative `g` with respect to ...
+  void add_joint(int joint, const Vec3& g, Row out) const;  ///< a joint in its body's frame
   void add_zp(double g, Row out) const { out += g * jet_.row(row_zp); }
   void add_zs(double g, Row out) const { out += g * jet_.row(row_zs); }
   void add_point(int pose, int point, const Vec3& g, Row out) const;  ///< a point in the base frame
@@ -70,17 +73,16 @@ class View {
   void add_leg(int pose, int leg, double g, Row out) const;           ///< a leg length
   void add_length(double g, Row out) const;                           ///< the characteristic length
   void add(int pose, const PointGradient& g, Row out) const;          ///< all of them
-
-  /// Derivatives of a family's variables and the characteristic length (one more column) as derivatives of coordinates.
+  /// ... the family's variables and, in one more column, the characteristic length
   void add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const;
 
  private:
   void set_length(const StudyLength& length, int coordinate);
-  void set_natural_length(const PoseView& home);
-  void set_pose(const Place& place, PoseView& out) const;
+  void set_natural_length(const PoseState& home);
+  void set_pose(const PoseSpec& spec, PoseState& out) const;
   void set_extremes();
 
-  Rows jet_;  ///< Blueprint::gradient with respect to the free coordinates
+  Rows jet_;  ///< Blueprint::gradient by free coordinate
   Eigen::VectorXd slopes_;
   std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
 };

@@ -1,4 +1,4 @@
-#include "design/view.hpp"
+#include "design/design_state.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -14,8 +14,28 @@ constexpr std::size_t at_index(int k) {
 
 }  // namespace
 
-void View::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
-               const std::vector<Place>& places, int poses_looked, const Eigen::VectorXd& y) {
+std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates) {
+  std::vector<PoseSpec> specs{{}};
+  for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
+    PoseSpec spec{problem.objective.poses[k], 1.0, offset_variables(problem, k)};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (spec.offset[axis] >= 0) spec.coordinate[axis] = coordinates.coordinate(spec.offset[axis]);
+    specs.push_back(spec);
+  }
+  int steps = 1;
+  for (const Limit& limit : problem.limits)
+    if (limit.name == "singularity_free") steps = limit.steps;
+  for (std::size_t k = 1; k <= problem.objective.poses.size(); ++k)
+    for (int step = 1; step < steps; ++step) {
+      PoseSpec between = specs[k];
+      between.fraction = static_cast<double>(step) / steps;
+      specs.push_back(between);
+    }
+  return specs;
+}
+
+void DesignState::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
+                      const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y) {
   x = c.variables(y);
   slopes_ = c.slopes(x);
   const std::size_t own = family.variables().size();
@@ -29,23 +49,23 @@ void View::set(const DesignFamily& family, const Coordinates& c, const StudyLeng
   for (std::size_t v = 0; v < own; ++v)
     if (column_[v] >= 0)
       jet_.col(column_[v]) = slopes_[column_[v]] * blueprint.gradient.col(static_cast<Eigen::Index>(v));
-  first = poses_looked > 0 ? 1 : 0;
-  looked = std::max(poses_looked, 1);
-  poses.resize(places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) set_pose(places[k], poses[k]);
+  first_pose = objective_poses > 0 ? 1 : 0;
+  pose_count = std::max(objective_poses, 1);
+  poses.resize(specs.size());
+  for (std::size_t k = 0; k < specs.size(); ++k) set_pose(specs[k], poses[k]);
   set_extremes();
   const bool as_variable = c.length_variable() >= 0;
   set_length(study_length, as_variable ? c.coordinate(c.length_variable()) : -1);
   if (as_variable) characteristic_length = x[c.length_variable()];
 }
 
-void View::set_pose(const Place& place, PoseView& out) const {
-  const Pose& pose = place.pose;
-  const double f = place.fraction;
+void DesignState::set_pose(const PoseSpec& spec, PoseState& out) const {
+  const Pose& pose = spec.pose;
+  const double f = spec.fraction;
   const double size = pose.in_zp ? blueprint.zp : 1.0;
   Vec3 offset = Vec3::Zero();  // of s, in zp
   for (int axis = 0; axis < 3; ++axis)
-    if (place.offset[at_index(axis)] >= 0) offset[axis] = f * x[place.offset[at_index(axis)]];
+    if (spec.offset[at_index(axis)] >= 0) offset[axis] = f * x[spec.offset[at_index(axis)]];
   const Vec3 p = Vec3(0.0, 0.0, blueprint.zp) + (f * size) * pose.position;
   const Vec3 s = Vec3(0.0, 0.0, blueprint.zs) + (f * size) * pose.internal + blueprint.zp * offset;
   out.p_by_zp = Vec3::UnitZ();
@@ -63,14 +83,14 @@ void View::set_pose(const Place& place, PoseView& out) const {
   out.at[point_s] = s;
   out.legs = nine_legs(out.at);
   out.fraction = f;
-  out.coordinate = place.coordinate;
+  out.coordinate = spec.coordinate;
 }
 
-void View::set_extremes() {
+void DesignState::set_extremes() {
   for (int leg = 0; leg < 9; ++leg) {
     int &longest_pose = longest_of[at_index(leg)], &shortest_pose = shortest_of[at_index(leg)];
-    longest_pose = shortest_pose = first;
-    for (int k = first + 1; k < first + looked; ++k) {
+    longest_pose = shortest_pose = first_pose;
+    for (int k = first_pose + 1; k < first_pose + pose_count; ++k) {
       if (pose(k).legs.length[leg] > pose(longest_pose).legs.length[leg]) longest_pose = k;
       if (pose(k).legs.length[leg] < pose(shortest_pose).legs.length[leg]) shortest_pose = k;
     }
@@ -80,7 +100,7 @@ void View::set_extremes() {
   }
 }
 
-void View::set_length(const StudyLength& study_length, int coordinate) {
+void DesignState::set_length(const StudyLength& study_length, int coordinate) {
   using Choice = StudyLength::Choice;
   if (study_length.choice == Choice::number) {
     characteristic_length = study_length.value;
@@ -91,7 +111,7 @@ void View::set_length(const StudyLength& study_length, int coordinate) {
     if (coordinate >= 0) length_gradient[coordinate] = slopes_[coordinate];
     return;
   }
-  const PoseView& home = pose(0);
+  const PoseState& home = pose(0);
   if (study_length.kind == LengthKind::mean_leg) {
     characteristic_length = home.legs.length.mean();
     for (int leg = 0; leg < 9; ++leg) add_leg(0, leg, 1.0 / 9.0, length_gradient);
@@ -109,13 +129,13 @@ void View::set_length(const StudyLength& study_length, int coordinate) {
   set_natural_length(home);
 }
 
-void View::set_natural_length(const PoseView& home) {
-  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of the least
-  // sum of squared leg rates; the natural length is u times the root of their quotient, whatever u is.
+void DesignState::set_natural_length(const PoseState& home) {
+  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of
+  // the least sum of squared leg rates. The natural length is u times the root of their quotient, for any u.
   const double trial = std::max(blueprint.zp, 1e-150);
   PointGradient turning = zero_gradient(), shifting = zero_gradient();
   Spectrum s = spectrum(home.at, home.legs, trial);
-  // Any orthonormal set of twists will do in place of the singular vectors.
+  // Any orthonormal set of twists may replace the singular vectors.
   const Mat6 back = s.twist.transpose();
   s.sdot = (s.sdot * back).eval();
   s.rates = (s.rates * back).eval();
@@ -138,16 +158,16 @@ void View::set_natural_length(const PoseView& home) {
   length_gradient = gradient;
 }
 
-void View::add_joint(int joint, const Vec3& g, Row out) const {
+void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
   for (int axis = 0; axis < 3; ++axis) out += g[axis] * jet_.row(3 * joint + axis);
 }
 
-void View::add_turn(int k, const Vec3& g, Row out) const {
+void DesignState::add_turn(int k, const Vec3& g, Row out) const {
   out += g.dot(pose(k).twist_axis) * jet_.row(row_theta_z);
 }
 
-void View::add_point(int k, int point, const Vec3& g, Row out) const {
-  const PoseView& v = pose(k);
+void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
+  const PoseState& v = pose(k);
   if (point == point_s) {
     out += g.z() * jet_.row(row_zs) + g.dot(v.s_by_zp) * jet_.row(row_zp);
     for (int axis = 0; axis < 3; ++axis)
@@ -161,23 +181,23 @@ void View::add_point(int k, int point, const Vec3& g, Row out) const {
   add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
 }
 
-void View::add_leg(int k, int leg, double g, Row out) const {
+void DesignState::add_leg(int k, int leg, double g, Row out) const {
   const LegEnds ends = leg_ends(leg);
   const Vec3 pull = g * pose(k).legs.direction[at_index(leg)];
   add_point(k, ends.to, pull, out);
   add_point(k, ends.from, -pull, out);
 }
 
-void View::add_length(double g, Row out) const {
+void DesignState::add_length(double g, Row out) const {
   if (length_gradient.size() > 0) out += g * length_gradient;
 }
 
-void View::add(int k, const PointGradient& g, Row out) const {
+void DesignState::add(int k, const PointGradient& g, Row out) const {
   for (int point = 0; point < point_count; ++point) add_point(k, point, g.point[at_index(point)], out);
   add_length(g.length, out);
 }
 
-void View::add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const {
+void DesignState::add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const {
   for (std::size_t v = 0; v < column_.size(); ++v)
     if (column_[v] >= 0) out[column_[v]] += slopes_[column_[v]] * g[static_cast<Eigen::Index>(v)];
   add_length(g[static_cast<Eigen::Index>(column_.size())], out);

@@ -1,0 +1,29 @@
+#pragma once
+/// One design of a problem: objective, condition numbers and margins, with exact gradients.
+
+#include <string>
+#include <vector>
+
+#include "ninedof/design/problem.hpp"
+
+namespace ninedof {
+
+/// Gradients are with respect to the full set of variables.
+struct Evaluation {
+  double log_objective;
+  Eigen::VectorXd gradient;  ///< of log_objective; where singular values tie, that of one of them
+  double condition_number;   ///< at the neutral configuration
+  std::vector<double> conditions;  ///< at each evaluated pose
+  double characteristic_length;
+  struct Margin {
+    std::string name;
+    double value;
+    Eigen::VectorXd gradient;
+  };
+  std::vector<Margin> margins;  ///< the smallest of each constraint
+};
+
+/// Evaluates one design; `variables` is a full set, bounds are not enforced.
+Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables);
+
+}  // namespace ninedof

@@ -1,0 +1,40 @@
+#pragma once
+/// All rows of a prepared problem at one design, with their derivatives.
+
+#include "optimize/minimax/prepared_problem.hpp"
+
+namespace ninedof {
+
+/// A design and the derivatives of its rows with respect to the free coordinates.
+struct DesignEvaluation {
+  DesignState state;
+  std::vector<PoseSpectrum> spectra;  ///< of the evaluated poses
+  Eigen::VectorXd objective_rows, margins;
+  Rows row_gradient, margin_gradient;
+  Eigen::VectorXd levels;  ///< each the largest of its rows
+  double log_objective = 0.0;
+  /// Input: where positive, poses off the axis have smoothed singular values, see fill_soft_index.
+  double smoothing = 0.0;
+};
+
+/// The rows that SLSQP is given, and whose derivatives are computed.
+struct RowSelection {
+  std::vector<int> row_levels, margins;  ///< indices into those of PreparedProblem, ascending
+  std::vector<bool> poses;  ///< of each evaluated pose: whether a selected row needs its singular values
+};
+
+/// Evaluates the design at `y` into `out`; all derivatives, or those of a selection. The others are left as they were.
+void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignEvaluation& out,
+                     const RowSelection* selection = nullptr);
+
+/// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
+double violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
+
+/// How far zs is above zp, as a violation; 0 where it is below.
+double order_violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
+
+/// 2-norm condition number of the nine-legged robot at the neutral configuration, and at each evaluated pose.
+double neutral_condition(const PreparedProblem& p, const DesignEvaluation& design);
+std::vector<double> conditions(const PreparedProblem& p, const DesignEvaluation& design);
+
+}  // namespace ninedof

@@ -1,0 +1,125 @@
+#include "optimize/minimax/local_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "optimize/polish/active_set.hpp"
+#include "optimize/polish/polish.hpp"
+
+namespace ninedof {
+namespace {
+
+/// Decreasing smoothings of singular values that meet, in logarithms.
+constexpr std::array smoothings{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
+
+/// Tolerances of SLSQP, with Newton's method after it and without.
+constexpr double loose = 1e-10, tight = 1e-13;
+
+/// Whether `next` is the better point: regular before singular, feasible before infeasible, then the lower objective,
+/// then, of two equal ones, the more nearly stationary.
+bool improves(const Candidate& next, const Candidate& now) {
+  if (next.regular() != now.regular()) return next.regular();
+  if (next.feasible() != now.feasible()) return next.feasible();
+  if (!next.feasible()) return next.constraint_violation < now.constraint_violation;
+  if (std::abs(next.objective - now.objective) > 1e-10 * now.objective) return next.objective < now.objective;
+  return next.optimality_residual < now.optimality_residual;
+}
+
+/// Larger condition numbers differ from a singular design by rounding only.
+constexpr double largest_condition = 1e14;
+
+double worst(const std::vector<double>& conditions) {
+  return *std::ranges::max_element(conditions);
+}
+
+/// Whether Newton's method can start here.
+bool nearly_stationary(const PreparedProblem& p, const Eigen::VectorXd& y) {
+  DesignEvaluation design;
+  evaluate_design(p, y, design);
+  return stationarity(p, design, active_set(p, design, y, Contact::near)).residual < 1e-2;
+}
+
+}  // namespace
+
+Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
+  const Eigen::VectorXd y = p.with_auxiliary(at);
+  DesignEvaluation design;
+  evaluate_design(p, y, design);
+  const ActiveSet active = active_set(p, design, y);
+  Stationarity s = stationarity(p, design, active);
+  Candidate out;
+  out.variables = p.without_auxiliary(design.state.x);
+  out.objective = std::exp(design.log_objective);
+  out.condition_number = neutral_condition(p, design);
+  out.conditions = conditions(p, design);
+  out.characteristic_length = design.state.characteristic_length;
+  const bool by_poses = p.problem.objective.index != Index::six_legged;
+  out.singular = !(out.objective < largest_condition) || (by_poses && !(worst(out.conditions) < largest_condition));
+  out.constraint_violation = violation(p, design, y);
+  out.optimality_residual = s.residual;
+  out.prices = std::move(s.prices);
+  out.active = names(p, active);
+  return out;
+}
+
+LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, Formulation formulation,
+                        const RunSettings& run_settings, const std::stop_token& stop, const Observer& observer) {
+  Eigen::VectorXd y = p.with_auxiliary(start);
+  LocalRun run{candidate_at(p, y)};
+  if (p.coordinates.size() == 0) return run;
+  const bool minimax = formulation == Formulation::minimax;
+  Subproblem subproblem(p, formulation, stop, observer);
+  const auto settled = [&] { return run.end.feasible() && run.end.stationary(); };
+  const auto take = [&](const Eigen::VectorXd& next) {
+    const Candidate found = candidate_at(p, next);
+    if (!improves(found, run.end)) return false;
+    run.end = found;
+    y = p.with_auxiliary(next);
+    return true;
+  };
+  const auto solve = [&](const Eigen::VectorXd& from, double smoothing, double tolerance) {
+    Eigen::VectorXd end = subproblem.solve(from, smoothing, tolerance, run_settings.max_evaluations);
+    run.evaluations = subproblem.evaluations();
+    return end;
+  };
+
+  Eigen::VectorXd from = y;
+  for (int attempt = 0; attempt <= run_settings.restarts && !stop.stop_requested(); ++attempt) {
+    bool better = take(solve(from, 0.0, attempt == 0 && minimax && run_settings.polish ? loose : tight));
+    if (subproblem.best_seen() != y) better |= take(subproblem.best_seen());
+    if (!minimax) return run;
+    if (run_settings.polish && run.end.feasible() && nearly_stationary(p, y)) take(polish(p, y));
+    if (settled()) break;
+    if (run_settings.polish && p.has_kinks() && run.end.feasible()) {
+      // Where singular values meet off the axis, the index has a kink that no row describes. Solve with decreasing
+      // smoothing, then polish with the singular values that coincide held equal.
+      Eigen::VectorXd smoothed = y;
+      for (const double epsilon : smoothings) {
+        if (stop.stop_requested()) break;
+        smoothed = solve(smoothed, epsilon, tight);
+        take(smoothed);
+      }
+      take(polish(p, smoothed, smoothings.back()));
+      if (settled()) break;
+    }
+    // SLSQP stops at its start about once in a thousand runs. Continue a little way towards another start; bounds and
+    // zs < zp are linear in y, so they hold there.
+    from = better ? y : Eigen::VectorXd(0.9 * y + 0.1 * p.coordinates.start(attempt, 0));
+  }
+  return run;
+}
+
+LeastViolation least_violation(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
+                               const std::stop_token& stop) {
+  LeastViolation out;
+  const Eigen::VectorXd y =
+      p.with_auxiliary(least_violation_point(p, p.with_auxiliary(start), max_evaluations, stop, out.evaluations));
+  out.end = candidate_at(p, y);
+  DesignEvaluation design;
+  evaluate_design(p, y, design);
+  out.causes = conflict(p, design, y);
+  return out;
+}
+
+}  // namespace ninedof

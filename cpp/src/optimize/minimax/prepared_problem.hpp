@@ -1,0 +1,77 @@
+#pragma once
+/// A problem as the solver sees it.
+///
+/// Levels t, one for each number the objective is made of; objective rows f(y), each at most a level; margins m(y) >=
+/// 0. The objective is a smooth, increasing function of the levels, so that at a solution each level is the largest of
+/// its rows.
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "design/constraints/constraint.hpp"
+#include "design/pose_index.hpp"
+
+namespace ninedof {
+
+/// Replaces a margin that is NaN or below it: logarithms of ratios of doubles end there.
+constexpr double worst_margin = -700.0;
+
+/// An objective row and a level it is bounded by.
+struct RowLevel {
+  int row, level;
+};
+
+/// A margin: a row of a constraint, or the limit on the condition number of pose k (constraint -1 - k, row of its
+/// pairs).
+struct MarginRow {
+  int constraint, row;
+};
+
+/// Coordinates, rows and poses, computed once and shared by all starts.
+struct PreparedProblem {
+  /// For the solver. `size_limit`: largest size of a variable without an effective upper bound.
+  PreparedProblem(const Problem& problem, double size_limit);
+  /// For the evaluation of single designs: all variables unscaled, all margins kept.
+  explicit PreparedProblem(const Problem& problem);
+
+  Problem problem;
+  const DesignFamily* family;
+  Coordinates coordinates;
+  std::vector<PoseSpec> pose_specs;
+  int objective_poses;       ///< 0: the neutral one is evaluated
+  std::vector<bool> closed;  ///< of each evaluated pose: whether the closed form is used
+  std::vector<std::unique_ptr<Constraint>> constraints;
+  std::vector<MarginRow> margins;
+  std::vector<RowLevel> row_levels;
+  int rows = 0, levels = 1;
+  int auxiliary_count = 0;
+
+  int evaluated_poses() const { return std::max(objective_poses, 1); }
+  const std::string& margin_name(int k) const;
+  double margin_price(int k) const;
+  double violation_factor(int k) const;
+  /// The state of the design at `y`, in solver coordinates.
+  void set_state(const Eigen::VectorXd& y, DesignState& state) const;
+  /// `y` with the best values of the constraints' auxiliary variables.
+  Eigen::VectorXd with_auxiliary(const Eigen::VectorXd& y) const;
+  /// A full set of variables without the auxiliary ones.
+  Eigen::VectorXd without_auxiliary(const Eigen::VectorXd& x) const { return x.head(x.size() - auxiliary_count); }
+  /// Whether the index has kinks where singular values meet: off the axis, and not in the Frobenius norm.
+  bool has_kinks() const;
+  /// First row of an evaluated pose, and the pose of a row.
+  int first_row(int pose) const { return first_row_[static_cast<std::size_t>(pose)]; }
+  int pose_of(int row) const;
+
+  /// The logarithm of the objective and its derivatives with respect to the levels.
+  double objective(const Eigen::VectorXd& levels, Eigen::VectorXd* slopes = nullptr) const;
+
+ private:
+  void count_rows(Purpose purpose);
+  void learn_constraints(const Coordinates& within);
+  void drop_repeated_margins();
+
+  std::vector<int> first_row_;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,192 @@
+#include "optimize/search_round.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "math/splitmix.hpp"
+#include "ninedof/math/parallel.hpp"
+
+namespace ninedof {
+namespace {
+
+/// More starts are run unless this share of the runs has the best objective.
+constexpr double agreement = 0.5;
+constexpr double agreed = 1e-6;  // relative difference of objectives
+
+/// Where starts are expensive: how many at least are run to their end, and the length of the short runs before.
+constexpr int least_full_runs = 8;
+constexpr int short_run_evaluations = 40, evaluations_per_variable = 4;
+
+/// A pseudo-random number in [0, 1) from a seed and two indices.
+double hash(std::uint64_t seed, int a, int b) {
+  return uniform_from(seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(a) * 0xD1B54A32D192ED03ULL +
+                      static_cast<std::uint64_t>(b) * 0x8CB92BA72F3D8DD7ULL + 0x2545F4914F6CDD1DULL);
+}
+
+/// Feasible before infeasible, then the lower objective or violation.
+bool better(const Candidate& a, const Candidate& b) {
+  if (a.feasible() != b.feasible()) return a.feasible();
+  return a.feasible() ? a.objective < b.objective : a.constraint_violation < b.constraint_violation;
+}
+
+/// Indices of the runs that began, best first.
+std::vector<std::size_t> ranked(const SearchRound& round) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < round.runs.size(); ++k)
+    if (round.runs[k]) out.push_back(k);
+  std::ranges::stable_sort(
+      out, [&](std::size_t a, std::size_t b) { return better(round.runs[a]->end, round.runs[b]->end); });
+  return out;
+}
+
+/// Whether a start is expensive: many poses, or an index with kinks that are smoothed.
+bool expensive(const PreparedProblem& p) {
+  return p.objective_poses > 1 || p.has_kinks();
+}
+
+/// The same problem with s at its stated positions: fewer variables, and close enough to tell good starts from bad
+/// ones.
+Problem with_stated_internal_points(Problem problem) {
+  for (Pose& pose : problem.objective.poses) pose.best_internal = false;
+  return problem;
+}
+
+/// Solver coordinates from the full variables of the problem with stated internal points; offsets are 0.
+Eigen::VectorXd with_zero_offsets(const PreparedProblem& p, const Eigen::VectorXd& x) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.problem.names().size()));
+  out.head(x.size()) = x;
+  return p.coordinates.coordinates(out);
+}
+
+/// Start `index` in solver coordinates: the warm ones first.
+Eigen::VectorXd start_at(const PreparedProblem& p, const Settings& s, int index) {
+  const auto warm = static_cast<int>(s.warm.size());
+  return index < warm && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[static_cast<std::size_t>(index)])
+                                                  : p.coordinates.start(index - warm, s.seed);
+}
+
+/// Appends the runs of `count` starts, in their order.
+void run_all(const PreparedProblem& p, int count, const std::function<Eigen::VectorXd(int)>& start,
+             const RunSettings& run_settings, const Settings& s, const Control& control, Progress* progress,
+             SearchRound& round) {
+  const std::size_t before = round.runs.size();
+  round.runs.resize(before + static_cast<std::size_t>(count));
+  parallel_for(count, 1, s.threads, [&](long first, long) {
+    if (control.stop.stop_requested()) return;
+    LocalRun run = run_from_start(p, start(static_cast<int>(first)), Formulation::minimax, run_settings, control.stop);
+    if (progress != nullptr) progress->finished(run.end);
+    round.runs[before + static_cast<std::size_t>(first)] = std::make_unique<LocalRun>(std::move(run));
+  });
+}
+
+/// The same from a list.
+void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts, const RunSettings& run_settings,
+             const Settings& s, const Control& control, SearchRound& round) {
+  const auto at = [&](int k) { return starts[static_cast<std::size_t>(k)]; };
+  run_all(p, static_cast<int>(starts.size()), at, run_settings, s, control, nullptr, round);
+}
+
+/// The most promising starts, by a short run of each.
+std::vector<Eigen::VectorXd> promising_starts(const PreparedProblem& p, double size_limit, const Settings& s,
+                                              const Control& control, Progress& progress, SearchRound& round) {
+  const PreparedProblem scout(with_stated_internal_points(p.problem), size_limit);
+  const int warm = static_cast<int>(s.warm.size());
+  const auto start = [&](int k) {
+    const Eigen::VectorXd x = p.coordinates.variables(start_at(p, s, warm + k));
+    return scout.coordinates.coordinates(x.head(static_cast<Eigen::Index>(scout.problem.names().size())));
+  };
+  SearchRound short_runs;
+  run_all(scout, start_count(p, s) - warm, start,
+          {short_run_evaluations + evaluations_per_variable * scout.coordinates.size(), 0, false}, s, control,
+          &progress, short_runs);
+  // Warm starts are all run to their end.
+  std::vector<Eigen::VectorXd> out;
+  for (int k = 0; k < warm; ++k) out.push_back(start_at(p, s, k));
+  round.done = warm;
+  const auto full_runs = std::max<std::size_t>(least_full_runs, short_runs.runs.size() / 8) + out.size();
+  for (const std::size_t k : ranked(short_runs)) {
+    round.evaluations += short_runs.runs[k]->evaluations;
+    ++round.done;
+    if (out.size() < full_runs) out.push_back(with_zero_offsets(p, short_runs.runs[k]->end.variables));
+  }
+  round.runs_abandoned = round.done - static_cast<int>(out.size());
+  return out;
+}
+
+/// Starts that take some coordinates from one of the best end points and the others from a new start. Local optima
+/// differ by a few choices (a height up or down, a triple inside or outside), and a good design has most of them right.
+std::vector<Eigen::VectorXd> recombined(const PreparedProblem& p, const Settings& s, const SearchRound& round,
+                                        int count) {
+  constexpr std::size_t parents = 8;
+  std::vector<Eigen::VectorXd> bases;
+  double last = 0.0;
+  for (const std::size_t k : ranked(round)) {
+    const Candidate& end = round.runs[k]->end;
+    if (!end.feasible() || !end.regular()) break;
+    if (!bases.empty() && end.objective <= last * (1.0 + agreed)) continue;
+    last = end.objective;
+    bases.push_back(p.coordinates.coordinates(end.variables));
+    if (bases.size() == parents) break;
+  }
+  std::vector<Eigen::VectorXd> out;
+  for (int k = 0; k < count && !bases.empty(); ++k) {
+    // Better designs are chosen more often.
+    const auto which =
+        static_cast<std::size_t>(hash(s.seed, k, -1) * hash(s.seed, k, -2) * static_cast<double>(bases.size()));
+    Eigen::VectorXd y = bases[which];
+    const Eigen::VectorXd fresh = p.coordinates.start(s.starts + k, s.seed);
+    for (int v = 0; v < p.coordinates.size(); ++v)
+      if (hash(s.seed, k, v) < 0.3) y[v] = fresh[v];
+    out.push_back(std::move(y));
+  }
+  return out;
+}
+
+/// How many recombined starts: more for more variables.
+int extra_start_count(const PreparedProblem& p, const SearchRound& round) {
+  const double share = std::min(1.0, p.coordinates.size() / 25.0);
+  return std::max(1, static_cast<int>(share * static_cast<double>(round.runs.size())));
+}
+
+/// Whether enough runs have the best objective.
+bool starts_agree(const SearchRound& round) {
+  const std::vector<std::size_t> order = ranked(round);
+  if (order.empty()) return true;
+  const Candidate& best = round.runs[order.front()]->end;
+  if (!best.feasible()) return true;  // recombining infeasible designs does not help
+  const auto same = std::ranges::count_if(order, [&](std::size_t k) {
+    const Candidate& c = round.runs[k]->end;
+    return c.feasible() && c.objective <= best.objective * (1.0 + agreed);
+  });
+  return static_cast<double>(same) >= agreement * static_cast<double>(order.size());
+}
+
+}  // namespace
+
+int start_count(const PreparedProblem& p, const Settings& s) {
+  return p.coordinates.size() == 0 ? 1 : s.starts + static_cast<int>(s.warm.size());
+}
+
+SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
+                      const Settings& s, const Control& control, Progress& progress) {
+  const RunSettings full_run{s.max_evaluations};
+  SearchRound round;
+  if (expensive(p) && p.coordinates.size() > 0) {
+    const std::vector<Eigen::VectorXd> chosen = promising_starts(p, size_limit, s, control, progress, round);
+    run_all(p, chosen, full_run, s, control, round);
+  } else {
+    run_all(p, start_count(p, s), [&](int k) { return start_at(p, s, k); }, full_run, s, control, &progress, round);
+    for (const auto& run : round.runs) round.done += run != nullptr;
+  }
+  round.from_starts = round.runs.size();
+  std::vector<Eigen::VectorXd> more;
+  for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
+  run_all(p, more, full_run, s, control, round);
+  if (p.coordinates.size() > 1 && s.starts > 1 && !starts_agree(round))
+    run_all(p, recombined(p, s, round, extra_start_count(p, round)), full_run, s, control, round);
+  for (const auto& run : round.runs)
+    if (run) round.evaluations += run->evaluations;
+  return round;
+}
+
+}  // namespace ninedof

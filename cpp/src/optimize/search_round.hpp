@@ -1,0 +1,56 @@
+#pragma once
+/// Many starts under one size limit, and which of their end points count.
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "math/numbers.hpp"
+#include "ninedof/optimize/optimize.hpp"
+#include "optimize/minimax/local_run.hpp"
+
+namespace ninedof {
+
+/// The runs of one round, empty where one did not begin, and their cost.
+struct SearchRound {
+  std::vector<std::unique_ptr<LocalRun>> runs;
+  std::size_t from_starts = 0;  ///< how many of the runs are starts; the others continue from end points
+  long evaluations = 0;
+  int done = 0;            ///< starts tried
+  int runs_abandoned = 0;  ///< of those, given up after a short run
+};
+
+/// Counts finished starts over all rounds and reports them, one caller at a time.
+class Progress {
+ public:
+  Progress(const Control& control, int total) : control_(control), total_(total) {}
+  void finished(const Candidate& c) {
+    const std::lock_guard lock(guard_);
+    ++done_;
+    if (c.feasible()) best_ = std::min(best_, c.objective);
+    if (control_.progress) control_.progress(done_, total_, best_);
+  }
+
+ private:
+  const Control& control_;
+  std::mutex guard_;
+  int total_, done_ = 0;
+  double best_ = infinity;
+};
+
+/// Starts of one round; a design without free variables is evaluated once.
+int start_count(const PreparedProblem& p, const Settings& s);
+
+/// Runs all starts and, where they do not agree, some more from recombined end points. The same bits for any number of
+/// threads. `further` starts, in full variables, are run as well and not counted.
+SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
+                      const Settings& s, const Control& control, Progress& progress);
+
+/// Distinct acceptable end points, best first: feasible, stationary, regular, and on no internal bound.
+std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round);
+
+/// The best end point that is feasible and regular, stationary or not.
+std::optional<Candidate> best_feasible(const SearchRound& round);
+
+}  // namespace ninedof
