@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import fcntl
 import hashlib
 import io
-import json
-import math
 import os
-import secrets
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -20,8 +16,11 @@ import numpy as np
 
 from ninedof.chunks.work import Arrays
 from ninedof.support.arguments import shown
+from ninedof.support.files import PART, npz_bytes, write_whole
+from ninedof.support.json import decode, encode, plain
+from ninedof.support.versions import versions
 
-__all__ = ["Store", "write_whole"]
+__all__ = ["Store"]
 
 FORMAT = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
@@ -29,7 +28,7 @@ MARK = b"ninedof chunk 1\n"
 DIGEST = 32  # bytes
 
 
-_taken: set[Path] = set()  # folders that stores of this process have: a lock of the process does not keep us apart
+_taken: set[Path] = set()  # folders in use by this process: its file lock does not exclude its own threads
 _mutex = threading.Lock()
 os.register_at_fork(after_in_child=_taken.clear)  # the lock stays with the parent
 
@@ -60,12 +59,13 @@ class Store:
     def __init__(self, folder: str | os.PathLike[str], question: Mapping[str, Any], chunk: int) -> None:
         self.folder = Path(folder)
         self.chunk = chunk
-        self._fingerprint = fingerprint(question)
+        asked = {**plain(question), "ninedof": versions()["ninedof"]}
+        self._fingerprint = fingerprint(asked)
         self._create()
         self._own = self.folder.resolve()
         self._lock = self._locked()
         try:
-            self._open(question)
+            self._open(asked)
         except BaseException:
             self.close()
             raise
@@ -90,9 +90,7 @@ class Store:
 
     def write(self, k: int, arrays: Arrays) -> None:
         """Keep a finished chunk. Once this returns, neither a kill nor a loss of power takes it away."""
-        buffer = io.BytesIO()
-        np.savez(buffer, **arrays)  # type: ignore[arg-type]  # numpy's stub takes the names for its own
-        payload = buffer.getvalue()
+        payload = npz_bytes(arrays)
         write_whole(self.path(k), MARK + self._digest(k, payload) + payload)
 
     def read(self, k: int) -> Arrays | None:
@@ -142,24 +140,19 @@ class Store:
 
     def _open(self, question: Mapping[str, Any]) -> None:
         manifest = self.folder / MANIFEST
-        for leftover in self.folder.glob(".part-*"):  # of a run that was killed: no other is at work here
+        for leftover in self.folder.glob(f"{PART}*"):  # of a run that was killed: no other uses the folder
             leftover.unlink(missing_ok=True)
         if not manifest.exists():
             if others := sorted(p.name for p in self.folder.iterdir() if p.name != ".lock"):
                 raise ValueError(
                     f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
                 )
-            data = {
-                "format": FORMAT,
-                "fingerprint": self._fingerprint,
-                "chunk": self.chunk,
-                "question": plain(question),
-            }
-            write_whole(manifest, (json.dumps(data, indent=1) + "\n").encode())
+            data = {"format": FORMAT, "fingerprint": self._fingerprint, "chunk": self.chunk, "question": question}
+            write_whole(manifest, (encode(data) + "\n").encode())
             return
         found = _manifest(manifest)
         if found["fingerprint"] != self._fingerprint:
-            what = ", ".join(differing(found["question"], plain(question))) or "its version"
+            what = ", ".join(differing(plain(found["question"]), question))
             raise ValueError(
                 f"out: got {self.folder}, which holds the chunks of another question (it differs in {what}), "
                 "expected an empty folder, or the question that was asked there"
@@ -167,29 +160,9 @@ class Store:
         self.chunk = found["chunk"]
 
 
-def stored_question(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """Return the question that a folder's chunks answer."""
-    return dict(_manifest(Path(folder) / MANIFEST)["question"])
-
-
 def fingerprint(question: Mapping[str, Any]) -> str:
     """Return the digest of a question; numbers count to the last bit."""
-    return hashlib.sha256(json.dumps([FORMAT, plain(question)], sort_keys=True).encode()).hexdigest()
-
-
-def plain(value: Any) -> Any:
-    """Return plain JSON values. Floats are spelled so that they read back as the same bits, infinities as words."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(v) for key, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(v) for v in value]
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return repr(value)
-    return value
+    return hashlib.sha256(encode([FORMAT, question], indent=None, sort_keys=True).encode()).hexdigest()
 
 
 def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
@@ -197,28 +170,9 @@ def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
     return sorted(name for name in {*one, *other} if one.get(name) != other.get(name))
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write a file that appears whole or not at all, even if the power fails."""
-    with _part(path) as (part, file):
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-        os.replace(part, path)
-
-
-@contextlib.contextmanager
-def _part(path: Path) -> Iterator[tuple[Path, Any]]:
-    part = path.with_name(f".part-{path.name}-{secrets.token_hex(4)}")  # in the same folder, where a rename is atomic
-    try:
-        with part.open("wb") as file:
-            yield part, file
-    finally:
-        part.unlink(missing_ok=True)
-
-
 def _manifest(path: Path) -> dict[str, Any]:
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = decode(path.read_text(encoding="utf-8"))
         if data["format"] != FORMAT or not isinstance(data["question"], dict) or int(data["chunk"]) < 1:
             raise ValueError
         str(data["fingerprint"])

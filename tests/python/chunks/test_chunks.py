@@ -191,7 +191,8 @@ def test_a_damaged_chunk_is_computed_again_and_no_other(tmp_path, damage, expect
 def test_a_chunk_with_the_right_digest_and_wrong_contents_is_no_chunk(tmp_path):
     with Store(tmp_path, QUESTION, 20) as store:
         payload = b"not an archive"
-        digest = hashlib.sha256(f"{fingerprint(QUESTION)} 0 ".encode() + payload).digest()
+        asked = fingerprint({**QUESTION, "ninedof": nd.__version__})
+        digest = hashlib.sha256(f"{asked} 0 ".encode() + payload).digest()
         store.path(0).write_bytes(b"ninedof chunk 1\n" + digest + payload)
         assert store.read(0) is None
         store.write(0, {"a": np.arange(3.0)})

@@ -10,7 +10,8 @@ import pytest
 import ninedof as nd
 from ninedof import poses
 from ninedof.optimize.prices import price_words
-from ninedof.runs.records import describe_result, to_json
+from ninedof.runs.describe import describe_result
+from ninedof.support.json import encode
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
 STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)
@@ -76,6 +77,6 @@ def test_prices_of_bounds_say_which_bound(result):
 
 
 def test_a_result_can_be_written(result):
-    text = to_json(describe_result(result))
+    text = encode(describe_result(result))
     for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "stopped_early"):
         assert f'"{entry}"' in text
