@@ -68,11 +68,10 @@ class GridWork:
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
-        return {
-            **self.subject.question(),
-            "over": [axis.question() for axis in self.grid.axes],
-            "index": [identity(i) for i in self.indices],
-        }
+        return {**self._points(), "index": [identity(i) for i in self.indices]}
+
+    def _points(self) -> dict[str, Any]:
+        return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
 
     def result(self, units: Mapping[str, str], **options: Any) -> SweepResult:
         """Compute everything and return it with its labels; options as of `chunks.run`."""
@@ -85,5 +84,5 @@ class GridWork:
             dims={i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices},
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: units[name] for name in swept} | {i.name: i.unit for i in self.indices},
-            attributes={**self.subject.question(), "index": [i.name for i in self.indices], **versions()},
+            attributes={**self._points(), "index": [i.name for i in self.indices], **versions()},
         )
