@@ -1,4 +1,4 @@
-"""The atlas as a caller asks for it."""
+"""The survey of the hexagonal family."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def atlas(
     """Return a survey of the hexagonal family: how designs are distributed, and the best for each size of the base.
 
     Designs a1 a2 b1 b2 zp zs, lengths in units of l_c, come from a low-discrepancy sequence, their condition number at
-    the neutral pose from the closed form on the axis. They are counted as they pass by: memory does not grow with their
+    the neutral pose from the closed form on the axis. They are counted and not kept: memory does not grow with their
     number.
 
     Parameters
@@ -99,7 +99,7 @@ class AtlasTask:
     last: int
 
     def __call__(self) -> Arrays:
-        """Return it."""
+        """Compute the tally."""
         tally = Tally()
         for first in range(self.first, self.last, BLOCK):
             designs = self.sample.designs(first, min(first + BLOCK, self.last))
@@ -109,7 +109,7 @@ class AtlasTask:
 
 @dataclass(frozen=True)
 class AtlasWork:
-    """All of them."""
+    """A survey of designs."""
 
     sample: Sample
     points: int

@@ -30,29 +30,29 @@ DIGEST = 32  # bytes
 
 _taken: set[Path] = set()  # folders in use by this process: its file lock does not exclude its own threads
 _mutex = threading.Lock()
-os.register_at_fork(after_in_child=_taken.clear)  # the lock stays with the parent
+os.register_at_fork(after_in_child=_taken.clear)  # the parent keeps the lock
 
 
 class Store:
     """A folder of finished chunks.
 
-    It holds `manifest.json`, the question and its fingerprint, and one file a chunk. A file starts with a digest of the
-    question, of its own number and of what follows: a chunk that was cut short, damaged, renamed or left by another
-    question does not count as finished, and is computed again.
+    It holds `manifest.json`, the question and its fingerprint, and one file per chunk. A file starts with a digest of
+    the question, its own number and its contents: a chunk that was truncated, damaged, renamed or left by another
+    question is computed again. The version of the package is part of the question.
 
     Parameters
     ----------
     folder : path
-        Made where it is missing. It must be empty, or hold the chunks of the same question.
+        Made if it is missing. It must be empty or hold the chunks of the same question.
     question : mapping
-        Plain JSON values.
+        All that the chunks depend on, as plain values.
     chunk : int
-        Points a chunk. An earlier run's stays in force, so that its chunks fit.
+        Points per chunk. In a folder with chunks theirs is used.
 
     Raises
     ------
     ValueError
-        If the folder holds something else, or another run is using it.
+        If the folder holds something else or another run is using it.
 
     """
 
@@ -73,7 +73,7 @@ class Store:
     def close(self) -> None:
         """Let another run use the folder."""
         with _mutex:
-            if self._lock >= 0:  # closed once
+            if self._lock >= 0:  # not closed yet
                 os.close(self._lock)
                 _taken.discard(self._own)
             self._lock = -1
@@ -89,12 +89,12 @@ class Store:
         return self.folder / f"chunk-{k:08d}"
 
     def write(self, k: int, arrays: Arrays) -> None:
-        """Keep a finished chunk. Once this returns, neither a kill nor a loss of power takes it away."""
+        """Write a finished chunk; after this it survives a kill and a loss of power."""
         payload = npz_bytes(arrays)
         write_whole(self.path(k), MARK + self._digest(k, payload) + payload)
 
     def read(self, k: int) -> Arrays | None:
-        """Return a finished chunk; None where there is none, or none to be trusted."""
+        """Return a finished chunk; None if it is missing or damaged."""
         try:
             data = self.path(k).read_bytes()
         except OSError:
@@ -123,18 +123,18 @@ class Store:
             ) from None
 
     def _locked(self) -> int:
-        """Take the folder for this process. The system frees it at our end, however that comes."""
-        refusal = f"out: got {self.folder}, where another run is at work, expected a folder of its own"
+        """Lock the folder for this process. The system removes the lock when the process ends, however it ends."""
+        in_use = f"out: got {self.folder}, which another run is using, expected another folder"
         with _mutex:
-            if self._own in _taken:  # not even opened: to close any file of the lock would give it up
-                raise ValueError(refusal)
+            if self._own in _taken:  # not opened: closing any descriptor of the file would release the lock
+                raise ValueError(in_use)
             lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
             try:
-                # A lock of the process: unlike flock, workers that outlive a killed parent do not hold it.
+                # A lock of the process: unlike with flock, workers that outlive a killed parent do not keep it.
                 fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 os.close(lock)
-                raise ValueError(refusal) from None
+                raise ValueError(in_use) from None
             _taken.add(self._own)
         return lock
 

@@ -67,8 +67,8 @@ def _figures(
     files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
     if result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
-        looked_at = plot.PoseConditions("optimum", result.best.conditions)
-        files += plot.save(plot.poses([looked_at]), directory, "poses")
+        conditions = plot.PoseConditions("optimum", result.best.conditions)
+        files += plot.save(plot.poses([conditions]), directory, "poses")
     say("drawing the convergence")
     runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
     if runs["minimax"] and result.objective is not None:

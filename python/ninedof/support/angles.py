@@ -1,4 +1,4 @@
-"""Degrees at the edges where a person types them, named so; radians everywhere else."""
+"""Angles in degrees under names that end in _deg; radians everywhere else."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ninedof.support.arguments import Vector, vector
 
 __all__ = ["exact_degrees", "rotation_entry", "vector_argument"]
 
-DIGITS = 9  # of degrees: what a person types has fewer
+DIGITS = 9  # decimals of degrees: typed numbers have fewer
 
 
 def exact_degrees(*radians: float) -> tuple[float, ...] | None:
-    """Return the short degrees that mean exactly these radians, or None if there are none.
+    """Return rounded degrees that convert to exactly these radians, or None if there are none.
 
-    A file then shows the 45 that was typed, and reading it back still gives the same bits.
+    A file then shows 45 where 45 was typed, and reading it gives the same bits.
     """
     degrees = tuple(round(math.degrees(x), DIGITS) for x in radians)
     same = all(math.radians(d) == x for d, x in zip(degrees, radians, strict=True))

@@ -1,4 +1,4 @@
-"""Checks and broadcasting at the Python side of the array boundary."""
+"""Checks and broadcasting of arrays on their way to the core."""
 
 from __future__ import annotations
 

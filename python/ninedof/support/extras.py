@@ -1,4 +1,4 @@
-"""Optional packages: asked for in one place, which says what to install."""
+"""Imports of optional packages; the error says what to install."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ class MissingExtra(ImportError):
 
 
 def optional(module: str, extra: str, purpose: str) -> Any:
-    """Return an optional package, or say how to get it.
+    """Import an optional package.
 
     Parameters
     ----------
     module : str
-        What is imported, "xarray".
+        Its name, as "xarray".
     extra : str
         The extra of this package that installs it.
     purpose : str

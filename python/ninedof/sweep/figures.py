@@ -48,12 +48,12 @@ def sweep_figure(
     """Return the numbers behind a figure of the paper.
 
     "6" is the condition number of the published design against displacement in each of the nine coordinates, one at a
-    time, the others held: the platform moves and O stays, or O moves and the platform stays. The zs that the paper does
-    not print is the best one.
+    time, the others held: the platform moves and O stays, or O moves and the platform stays. zs,
+    which the paper does not print, has its best value.
 
     "7" is the least condition number of the hexagonal family for each ratio a1/a2, and for each b1/b2, all other
     variables re-optimized with the base at most twice the platform, as in section 5. A ratio and its inverse belong to
-    mirrored robots of the same condition number; what the paper says, that it falls as a ratio grows, holds above 1.
+    mirrored robots of the same condition number; it falls as a ratio grows, as the paper says, above 1 only.
     Each point is a study of its own: sides 1 and 1/ratio (or ratio and 1), the characteristic length free. To scale a
     robot with its characteristic length changes nothing, so that this is the study with the ratio held and l_c = 1.
 

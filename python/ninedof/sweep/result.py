@@ -45,7 +45,7 @@ class SweepResult:
         raise KeyError(f"{name!r}: expected one of {', '.join([*self.arrays, *self.coords])}")
 
     def __iter__(self) -> Iterator[str]:
-        """Go through the names of the indices."""
+        """Iterate over the names of the indices."""
         return iter(self.arrays)
 
     def __len__(self) -> int:
@@ -90,7 +90,7 @@ class SweepResult:
         return float(array[position]), self.at(name, position)
 
     def to_xarray(self) -> Any:
-        """Return the same as an `xarray.Dataset`, attributes and units with it.
+        """Return an `xarray.Dataset` with the same arrays, labels, units and attributes.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class SweepResult:
 
     @classmethod
     def _made(cls, contents: Arrays) -> SweepResult:
-        """Return the result that arrays of a file make; those of another file lack something."""
+        """Return the result from the arrays of a file; raise if they are those of another kind of file."""
         head = decode(str(contents[HEAD]))
         if head["format"] != FORMAT:
             raise ValueError

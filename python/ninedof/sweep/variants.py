@@ -29,7 +29,7 @@ class Variants:
     length: float | str
 
     def study(self) -> Study:
-        """Return a study that knows the family; the swept variables are free in it."""
+        """Return a study of the family; the swept variables are free in it."""
         return Study(self.family, variables=self.design)
 
     def question(self) -> dict[str, Any]:

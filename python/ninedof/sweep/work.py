@@ -1,4 +1,4 @@
-"""The work of a sweep: a grid, what its points stand for, and what is computed there."""
+"""The work of a sweep: a grid, the robots at its points, and the indices computed there."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["GridTask", "GridWork", "Subject"]
 
 
 class Subject(Protocol):
-    """What the points of a grid stand for."""
+    """The robots at the points of a grid."""
 
     def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points, given by the value of each swept variable."""
@@ -59,11 +59,11 @@ class GridWork:
 
     @property
     def points(self) -> int:
-        """Return how many there are."""
+        """Return the number of points."""
         return self.grid.points
 
     def task(self, first: int, last: int) -> GridTask:
-        """Return the work on points first ... last - 1, with no more of the axes than it needs."""
+        """Return the work on points first ... last - 1, with only the axis values that it needs."""
         return GridTask(self.subject, self.grid.part(first, last), self.indices, first, last, self.threads)
 
     def question(self) -> dict[str, Any]:

@@ -51,7 +51,7 @@ def test_processes(expected):
 
 
 def test_designs_and_figures_by_processes():
-    """By the closed form and robot by robot, in another process as here."""
+    """Closed form and one robot at a time, in another process as in this one."""
     held, over = {"a1": 0.3, "a2": 5.0, "b1": 3.0, "zp": 4.0}, {"b2": (0.0, 1.0, 9), "zs": (2.0, 3.0, 7)}
     here = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"])
     seven = nd.sweep_figure("7", 5)
@@ -65,7 +65,7 @@ def test_designs_and_figures_by_processes():
 
 
 def test_tasks_are_small_whatever_the_grid():
-    """Ranges travel as ranges, explicit values only as far as a chunk needs them."""
+    """Ranges are sent as ranges, and of explicit values only those that a chunk needs."""
     poses = Poses(G, HOME, True, "held", 1.0)
     values = nd.sweep(G, HOME, {"x_p": (-1.0, 1.0, 100_000)})["x_p"]
     for over in ({"x_p": (-1.0, 1.0, 10**9)}, {"x_p": (0.0, 1.0, 464), "y_p": (0.0, 1.0, 464), "z_p": (0.0, 1.0, 464)}):
@@ -166,13 +166,13 @@ def test_a_bounded_number_of_chunks_waits_at_the_executor(expected):
 
 
 def test_an_interruption_cancels_what_waits():
-    """The first chunk ends, the second is held up until the interruption has been through; the others never start."""
-    through, calls, submitted = threading.Event(), [], []
+    """The first chunk ends, the second waits until the interruption is over; the others never start."""
+    interrupted, calls, submitted = threading.Event(), [], []
 
     def gated(g, c, lc):
         calls.append(c)
         if len(calls) > 1:
-            assert through.wait(60)
+            assert interrupted.wait(60)
         return nd.condition_number(g, c, lc)
 
     def stop(done, *_):
@@ -187,7 +187,7 @@ def test_an_interruption_cancels_what_waits():
     with Watched(1) as pool:
         with pytest.raises(KeyboardInterrupt):
             asked(gated, executor=pool, progress=stop)
-        through.set()
+        interrupted.set()
     assert len(submitted) >= 8
     assert len(calls) <= 2
     assert sum(f.cancelled() for f in submitted) == len(submitted) - len(calls)
@@ -294,7 +294,7 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
     pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     from ninedof.cli.app import main
 
-    monkeypatch.setattr(schedulers, "PATIENCE", 0.2)
+    monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
     with socket.create_server(("127.0.0.1", 0)) as silent:  # accepts connections and sends nothing
         address = address.replace("SILENT", str(silent.getsockname()[1]))

@@ -1,4 +1,4 @@
-"""Run folders: where they are made, and that the figures show the study that was solved."""
+"""Figures of a run show the study that was solved."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import _curves, figures_of
 from ninedof.runs.folder import write_run
 
@@ -35,16 +34,3 @@ def test_no_figures_without_an_optimum(tmp_path):
         folder.mkdir()
         write_run(other, folder, figures_of(other, silent))
         assert [p.name for p in folder.iterdir()] == ["record.json"]
-
-
-def test_folders_of_one_second_do_not_meet(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert len({new_directory(None) for _ in range(5)}) == 5
-
-
-def test_a_folder_that_cannot_be_made_is_refused_before_any_work(tmp_path):
-    (tmp_path / "file").write_text("kept")
-    for out in (tmp_path / "file", tmp_path / "file" / "below"):
-        with pytest.raises(ValueError, match=r"^out: got .+, expected"):
-            new_directory(out)
-    assert (tmp_path / "file").read_text() == "kept"

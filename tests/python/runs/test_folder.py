@@ -1,4 +1,4 @@
-"""Records: what is written is read back, whole or not at all."""
+"""Run folders: every kind is written whole or not at all, and read back."""
 
 import json
 import math
@@ -32,7 +32,7 @@ def test_round_trip_with_infinite_bounds(tmp_path):
     assert load_record(path).results["optimization"]["status"] == "optimal"
 
 
-def test_json_has_no_infinity_of_its_own():
+def test_non_finite_numbers_are_words_in_json():
     text = encode({"a": math.inf, "b": [-math.inf, math.nan], "c": np.array([0.1, math.inf]), "d": np.int64(3)})
     assert json.loads(text) == {"a": "inf", "b": ["-inf", "nan"], "c": [0.1, "inf"], "d": 3}
     assert repr(decode(text)) == "{'a': inf, 'b': [-inf, nan], 'c': [0.1, inf], 'd': 3}"

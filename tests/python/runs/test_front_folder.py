@@ -37,7 +37,7 @@ def test_a_front_is_read_back_as_it_was(front, tmp_path):
     assert check(load(path).results[1], perturbations=100).passed
 
 
-def test_a_front_with_nothing_in_it_is_read_back(tmp_path):
+def test_a_front_without_designs_is_read_back(tmp_path):
     found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
     write_run(found, tmp_path)
     assert load(tmp_path).limits == (math.inf,)
@@ -84,7 +84,7 @@ def test_the_command_prints_and_records(tmp_path, capsys):
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
-def test_the_command_speaks_json(tmp_path, capsys):
+def test_the_command_prints_json(tmp_path, capsys):
     assert command(tmp_path, json=True, figures=False) == 0
     data = json.loads(capsys.readouterr().out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
@@ -92,7 +92,7 @@ def test_the_command_speaks_json(tmp_path, capsys):
     assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json"}
 
 
-def test_the_command_says_when_nothing_is_possible(tmp_path, capsys):
+def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
     assert command(tmp_path, against="leg_ratio", values=[0.5]) == 3
     assert "infeasible" in capsys.readouterr().out
 
