@@ -11,7 +11,6 @@ import numpy as np
 
 LONGEST = 200  # characters of a value that a message repeats
 LARGEST = 2**63 - 1  # what the core's integers hold
-MOST_THREADS = 4096
 
 Vector = tuple[float, float, float]
 
@@ -89,18 +88,6 @@ def choice(name: str, value: Any, known: Iterable[str]) -> str:
         hint = did_you_mean(value, words) if isinstance(value, str) else ""
         raise ValueError(f"{name}: got {shown(value)}, expected one of {', '.join(words)}{hint}")
     return value
-
-
-def threads_argument(threads: Any) -> int:
-    """Return a number of threads as the core takes it: 0 for one per processor."""
-    if threads is None:
-        return 0
-    try:
-        return whole("threads", threads, 1, MOST_THREADS)
-    except ValueError:
-        raise ValueError(
-            f"threads: got {shown(threads)}, expected None or a whole number from 1 to {MOST_THREADS}"
-        ) from None
 
 
 def executor_argument(executor: Any) -> None:
