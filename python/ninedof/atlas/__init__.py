@@ -1,6 +1,6 @@
-"""An atlas of designs: hundreds of millions of them, counted and compared as they pass by.
+"""Surveys of hundreds of millions of designs, which are counted and compared and not kept.
 
-`sample` says which designs, `tally` what is kept of them, `run` holds what a caller calls.
+`sample` draws the designs, `tally` counts them, `run` has the public function.
 """
 
 from ninedof.atlas.run import atlas

@@ -1,29 +1,28 @@
-"""The atlas as a caller asks for it."""
+"""The survey of the hexagonal family."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ninedof import _core
 from ninedof.atlas import sample
 from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
-from ninedof.chunks import Arrays, chunk_argument, kept, run
-from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks import Arrays, chunk_argument, run
 from ninedof.support.arguments import whole
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.progress import Progress
+from ninedof.support.versions import versions
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.work import versions
 
 __all__ = ["atlas"]
 
-CHUNK = 2**19  # designs: some 30 ms of work, so that Ctrl-C is heard
-BLOCK = 2**14  # designs that pass through the caches together
+CHUNK = 2**19  # designs: some 30 ms of work; signals are checked between chunks
+BLOCK = 2**14  # designs evaluated together: they fit into the caches
 MOST = 2**48
 
 
@@ -32,7 +31,7 @@ def atlas(
     seed: int = 0,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     *,
-    executor: Executors | None = None,
+    executor: Executor | None = None,
     out: str | os.PathLike[str] | None = None,
     chunk: int | None = None,
     progress: Progress | None = None,
@@ -40,7 +39,7 @@ def atlas(
     """Return a survey of the hexagonal family: how designs are distributed, and the best for each size of the base.
 
     Designs a1 a2 b1 b2 zp zs, lengths in units of l_c, come from a low-discrepancy sequence, their condition number at
-    the neutral pose from the closed form on the axis. They are counted as they pass by: memory does not grow with their
+    the neutral pose from the closed form on the axis. They are counted and not kept: memory does not grow with their
     number.
 
     Parameters
@@ -52,7 +51,7 @@ def atlas(
     bounds : mapping, optional
         Name to (low, high) in place of the usual (0, 10) for a1 a2 b1 b2, (0.05, 10) for zp and (0, 1) for zs_fraction,
         which is zs / zp.
-    executor : concurrent.futures.Executor, or callable that makes one, optional
+    executor : concurrent.futures.Executor, optional
         Where the chunks are computed, as in `sweep`. By default in this process, by one processor; processes use more,
         threads do not.
     out : path, optional
@@ -85,12 +84,9 @@ def atlas(
 
     """
     drawn = Sample(whole("seed", seed, 0), bounds_of(bounds))
-    check_executor(executor)
-    progress_argument(progress)
     work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
     total = Tally()
-    with kept(work, out) as (store, agreed):
-        run(agreed, lambda first, last, arrays: total.merge(arrays), store, executor, progress)
+    run(work, lambda _: lambda first, last, arrays: total.merge(arrays), executor=executor, out=out, progress=progress)
     return _labelled(work, total)
 
 
@@ -103,7 +99,7 @@ class AtlasTask:
     last: int
 
     def __call__(self) -> Arrays:
-        """Return it."""
+        """Compute the tally."""
         tally = Tally()
         for first in range(self.first, self.last, BLOCK):
             designs = self.sample.designs(first, min(first + BLOCK, self.last))
@@ -113,7 +109,7 @@ class AtlasTask:
 
 @dataclass(frozen=True)
 class AtlasWork:
-    """All of them."""
+    """A survey of designs."""
 
     sample: Sample
     points: int
@@ -125,7 +121,7 @@ class AtlasWork:
 
     def question(self) -> dict[str, Any]:
         """Return what the tally depends on."""
-        return {"kind": "atlas", **self.sample.question(), "designs": self.points, "ninedof": _core.version}
+        return {"kind": "atlas", **self.sample.question(), "designs": self.points}
 
 
 def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
@@ -137,18 +133,10 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
         arrays={**total.arrays(), "best": np.where(rows, total.best, np.nan), "design": design},
         dims={
             "histogram": (*ratio, "condition_number"),
-            "best": ratio,
-            "number": ratio,
-            "design": (*ratio, "variable"),
+            **{"best": ratio, "number": ratio, "design": (*ratio, "variable")},
         },
         coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(VARIABLES)},
-        units={
-            "histogram": "1",
-            "best": "1",
-            "number": "1",
-            "design": "l_c",
-            "radius_ratio": "1",
-            "condition_number": "1",
-        },
+        units=dict.fromkeys(("histogram", "best", "number", "radius_ratio", "condition_number"), "1")
+        | {"design": "l_c"},
         attributes={**work.question(), **versions()},
     )

@@ -1,4 +1,4 @@
-"""Designs of the hexagonal family by number: design k is the same whoever asks for it, and in whatever chunk."""
+"""Designs of the hexagonal family by number: design k does not depend on the chunk it is in."""
 
 from __future__ import annotations
 
@@ -74,13 +74,15 @@ def closed_form(designs: Floats) -> Floats:
 def squared_radius_ratio(designs: Floats) -> Floats:
     """Return (base / platform radius)^2; the joints of a hexagon are sqrt((a1^2 + a1 a2 + a2^2) / 3) off the axis."""
     a1, a2, b1, b2 = designs.T[:4]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # plates of no size, and of no size that counts
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # plates of size 0, or so small that squares underflow
         found: Floats = (a1 * a1 + a1 * a2 + a2 * a2) / (b1 * b1 + b1 * b2 + b2 * b2)
     return found
 
 
 def bounds_of(given: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[float, float], ...]:
-    """Return the bounds of all six, those that were given in place of the usual ones."""
+    """Return the bounds of all six variables, the defaults where none are given."""
     known_keys("bounds", {} if given is None else given, BOUNDS)
     return tuple(_bound(name, (given or {}).get(name, usual)) for name, usual in BOUNDS.items())
 

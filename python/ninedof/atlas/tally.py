@@ -1,4 +1,4 @@
-"""What is kept of designs that pass by: how many fall where, and the best of each size of the base."""
+"""The tally of a survey: a histogram of the designs, and the best one of each radius ratio."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ COLUMNS = DECADES * PER_DECADE + 1
 
 
 def ratio_edges() -> Floats:
-    """Return where the bins of radius_ratio begin; the first has what is below 1/16, the last what is from 16 on."""
+    """Return the lower ends of the bins of radius_ratio; the first bin is below 1/16, the last from 16 on."""
     return np.concatenate([[0.0], np.exp2(np.arange(ROWS - 1) / PER_OCTAVE - OCTAVES)])
 
 
 def condition_edges() -> Floats:
-    """Return where the bins of the condition number begin; the last has what is from 10^4 on, singular designs too."""
+    """Return the lower ends of the bins of the condition number; the last is from 10^4 on, singular designs too."""
     return np.power(10.0, np.arange(COLUMNS) / PER_DECADE)
 
 
@@ -39,7 +39,7 @@ class Tally:
         self.number: NDArray[np.int64] = np.full(ROWS, -1, dtype=np.int64)
 
     def add(self, first: int, squared_ratio: Floats, kappa: Floats) -> None:
-        """Take designs first, first + 1, ...; later than all before."""
+        """Add designs first, first + 1, ...: their numbers are above all those added before."""
         with np.errstate(divide="ignore"):
             row = _bin(np.log2(squared_ratio), PER_OCTAVE / 2.0, OCTAVES * PER_OCTAVE + 1, ROWS - 1)
             column = _bin(np.log10(kappa), PER_DECADE, 0, COLUMNS - 1)
@@ -51,7 +51,7 @@ class Tally:
         self.number[rows] = first + better[where]
 
     def merge(self, arrays: Arrays) -> None:
-        """Take what another tally has."""
+        """Add another tally."""
         self.histogram += arrays["histogram"]
         best, number = arrays["best"], arrays["number"]
         better = (best < self.best) | ((best == self.best) & (number < self.number) & (number >= 0))
@@ -59,11 +59,11 @@ class Tally:
         self.number = np.where(better, number, self.number)
 
     def arrays(self) -> Arrays:
-        """Return all of it."""
+        """Return the arrays of the tally."""
         return {"histogram": self.histogram, "best": self.best, "number": self.number}
 
 
 def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:
-    """Return the bin of each value, those beyond both ends in the outermost; what is no number is in the last."""
+    """Return the bin of each value: the outermost beyond both ends, the last for NaN."""
     found = np.fmax(np.fmin(np.floor(value * per_unit) + zero, float(most)), 0.0)
     return np.asarray(found, dtype=np.intp)

@@ -1,49 +1,39 @@
-"""Compute all chunks of some work: take up what is finished, do the rest, keep it, and say how far it is."""
+"""Compute all chunks of some work: read the finished ones, compute and keep the others, report progress."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator, Sequence
-from contextlib import closing, contextmanager
+import secrets
+from collections.abc import Callable, Generator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import closing, nullcontext
 from dataclasses import replace
-from typing import TypeVar
+from itertools import islice
+from pathlib import Path
+from typing import Any, TypeVar
 
-from ninedof.chunks.crew import Crew, Executors
 from ninedof.chunks.store import Store
-from ninedof.chunks.work import Arrays, Work, as_arrays, bounds, chunks_of
-from ninedof.support.arguments import shown, whole
-from ninedof.support.progress import Progress
+from ninedof.chunks.work import Arrays, Task, Work, as_arrays, bounds, chunks_of
+from ninedof.support.arguments import executor_argument, shown
+from ninedof.support.progress import Progress, progress_argument
 
-__all__ = ["chunk_argument", "kept", "run"]
+__all__ = ["run"]
 
-MOST_CHUNK = 2**24  # points
+IN_FLIGHT = 4  # chunks per worker that wait at the executor: enough to keep it busy, few to be lost or pickled early
+FEWEST, UNKNOWN = 8, 128
 
-
-def chunk_argument(chunk: object, default: int) -> int:
-    """Return the points a chunk has."""
-    return default if chunk is None else whole("chunk", chunk, 1, MOST_CHUNK)
-
+Deliver = Callable[[int, int, Arrays], object]
+"""Called as deliver(first, last, arrays) for each chunk."""
 
 W = TypeVar("W", bound=Work)
 
 
-@contextmanager
-def kept(work: W, out: str | os.PathLike[str] | None) -> Generator[tuple[Store | None, W]]:
-    """Open the folder of a caller, if there is one; return it with the work, cut as the chunks that are there."""
-    if out is None:
-        yield None, work
-        return
-    if not isinstance(out, str | os.PathLike):
-        raise ValueError(f"out: got {shown(out)}, expected a path")
-    with Store(out, work.question(), work.chunk) as store:
-        yield store, replace(work, chunk=store.chunk)  # type: ignore[type-var]  # every work is a dataclass
-
-
 def run(
-    work: Work,
-    deliver: Callable[[int, int, Arrays], object],
-    store: Store | None = None,
-    executor: Executors | None = None,
+    work: W,
+    begin: Callable[[Path | None], Deliver],
+    *,
+    executor: Executor | None = None,
+    out: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> None:
     """Compute every chunk once, in this process or by an executor.
@@ -51,63 +41,97 @@ def run(
     Parameters
     ----------
     work : Work
-    deliver : callable
-        Called in this thread as deliver(first, last, arrays) for each chunk, in no particular order.
-    store : Store, optional
-        Finished chunks are read from it and new ones kept in it. Without it a run that ends early leaves nothing.
-    executor : Executor or callable, optional
-        As `Crew` takes it.
+        A dataclass with a field `chunk`.
+    begin : callable
+        Called once with the folder of the chunks, or None, after all arguments were checked. Returns a function that is
+        called in this thread as deliver(first, last, arrays) for each chunk, in no particular order.
+    executor : concurrent.futures.Executor, optional
+        Retries and lost workers are its own matter: its exceptions end the run.
+    out : path, optional
+        Folder of finished chunks: they are read from it and new ones kept in it.
     progress : callable, optional
-        Called as progress(points done, points in all, None), first with what the store holds.
+        Called as progress(points done, points in all, None), first with the points read from the folder.
 
     """
-    count = _Count(work.points, progress)
-    todo: Sequence[int] = range(chunks_of(work))
-    if store is not None:
-        todo = _missing(work, store, deliver, count)
-    count.report()
-    with closing(_computed(work, todo, executor)) as computed:  # Ctrl-C while keeping a chunk recalls the others too
+    executor_argument(executor)
+    progress_argument(progress)
+    if out is not None and not isinstance(out, str | os.PathLike):
+        raise ValueError(f"out: got {shown(out)}, expected a path")
+    with nullcontext() if out is None else Store(out, work.question(), work.chunk) as store:
+        if store is None:
+            _run(work, begin(None), None, executor, progress)
+            return
+        try:
+            cut = replace(work, chunk=store.chunk)  # type: ignore[type-var]  # every work is a dataclass
+            _run(cut, begin(store.folder), store, executor, progress)
+        except Exception as error:
+            error.add_note(f"Finished chunks are kept in {store.folder}: the same call goes on from there.")
+            raise
+
+
+def _run(
+    work: Work, deliver: Deliver, store: Store | None, executor: Executor | None, progress: Progress | None
+) -> None:
+    done = 0
+    missing = []
+    for k in range(chunks_of(work)):
+        first, last = bounds(work, k)
+        if store is None or (found := store.read(k)) is None:
+            missing.append(k)
+        else:
+            deliver(first, last, found)
+            done += last - first
+    if progress is not None:
+        progress(done, work.points, None)
+    tasks = ((k, work.task(*bounds(work, k))) for k in missing)
+    with closing(_here(tasks) if executor is None else _by(executor, tasks)) as computed:
         for k, arrays in computed:
             first, last = bounds(work, k)
             if store is not None:
                 store.write(k, arrays)
             deliver(first, last, arrays)
-            count.add(last - first)
-            count.report()
+            done += last - first
+            if progress is not None:
+                progress(done, work.points, None)
 
 
-def _missing(work: Work, store: Store, deliver: Callable[[int, int, Arrays], object], count: _Count) -> list[int]:
-    """Deliver the chunks that are there; return the numbers of the others."""
-    missing = []
-    for k in range(chunks_of(work)):
-        first, last = bounds(work, k)
-        if (found := store.read(k)) is None:
-            missing.append(k)
-        else:
-            deliver(first, last, found)
-            count.add(last - first)
-    return missing
+Tasks = Generator[tuple[int, Task]]
+Computed = Generator[tuple[int, Arrays]]
 
 
-def _computed(work: Work, todo: Sequence[int], executor: Executors | None) -> Generator[tuple[int, Arrays]]:
-    tasks = ((k, work.task(*bounds(work, k))) for k in todo)
-    if executor is None:
-        for k, task in tasks:
-            yield k, as_arrays(task())
-    elif todo:
-        with Crew(executor) as crew:
-            yield from crew.run(tasks)
+def _here(tasks: Tasks) -> Computed:
+    for k, task in tasks:
+        yield k, as_arrays(task())
 
 
-class _Count:
-    """Counts finished points and reports them."""
+def _by(executor: Executor, tasks: Tasks) -> Computed:
+    """Submit a bounded number of tasks at a time, yield results as they come; at the end cancel what still waits."""
+    run_id = secrets.token_hex(8)
+    waiting: dict[Future[Any], int] = {}
+    try:
+        while True:
+            for k, task in islice(tasks, _most_in_flight(executor) - len(waiting)):
+                waiting[executor.submit(_perform, task, f"{run_id}-{k}")] = k
+            if not waiting:
+                return
+            done = wait(waiting, return_when=FIRST_COMPLETED).done
+            for future in sorted(done, key=_failed):  # what is finished is kept before an error ends the run
+                yield waiting.pop(future), as_arrays(future.result())
+    finally:
+        for future in waiting:
+            future.cancel()
 
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self._total, self._progress, self._done = total, progress, 0
 
-    def add(self, points: int) -> None:
-        self._done += points
+def _failed(future: Future[Any]) -> bool:
+    return future.cancelled() or future.exception() is not None
 
-    def report(self) -> None:
-        if self._progress is not None:
-            self._progress(self._done, self._total, None)
+
+def _perform(task: Task, name: str) -> Arrays:
+    """Perform a task. The name makes it differ from those of other runs: Dask does not repeat equal calls."""
+    return task()
+
+
+def _most_in_flight(executor: Executor) -> int:
+    """Return how many chunks may wait. The size of a cluster is not known: enough for a large one."""
+    workers = getattr(executor, "_max_workers", None)
+    return max(FEWEST, IN_FLIGHT * workers) if isinstance(workers, int) else UNKNOWN

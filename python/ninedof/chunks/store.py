@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import fcntl
 import hashlib
 import io
-import json
-import math
 import os
-import secrets
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -20,8 +16,11 @@ import numpy as np
 
 from ninedof.chunks.work import Arrays
 from ninedof.support.arguments import shown
+from ninedof.support.files import PART, npz_bytes, write_whole
+from ninedof.support.json import decode, encode, plain
+from ninedof.support.versions import versions
 
-__all__ = ["Store", "write_whole"]
+__all__ = ["Store"]
 
 FORMAT = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
@@ -29,43 +28,44 @@ MARK = b"ninedof chunk 1\n"
 DIGEST = 32  # bytes
 
 
-_taken: set[Path] = set()  # folders that stores of this process have: a lock of the process does not keep us apart
+_taken: set[Path] = set()  # folders in use by this process: its file lock does not exclude its own threads
 _mutex = threading.Lock()
-os.register_at_fork(after_in_child=_taken.clear)  # the lock stays with the parent
+os.register_at_fork(after_in_child=_taken.clear)  # the parent keeps the lock
 
 
 class Store:
     """A folder of finished chunks.
 
-    It holds `manifest.json`, the question and its fingerprint, and one file a chunk. A file starts with a digest of the
-    question, of its own number and of what follows: a chunk that was cut short, damaged, renamed or left by another
-    question does not count as finished, and is computed again.
+    It holds `manifest.json`, the question and its fingerprint, and one file per chunk. A file starts with a digest of
+    the question, its own number and its contents: a chunk that was truncated, damaged, renamed or left by another
+    question is computed again. The version of the package is part of the question.
 
     Parameters
     ----------
     folder : path
-        Made where it is missing. It must be empty, or hold the chunks of the same question.
+        Made if it is missing. It must be empty or hold the chunks of the same question.
     question : mapping
-        Plain JSON values.
+        All that the chunks depend on, as plain values.
     chunk : int
-        Points a chunk. An earlier run's stays in force, so that its chunks fit.
+        Points per chunk. In a folder with chunks theirs is used.
 
     Raises
     ------
     ValueError
-        If the folder holds something else, or another run is using it.
+        If the folder holds something else or another run is using it.
 
     """
 
     def __init__(self, folder: str | os.PathLike[str], question: Mapping[str, Any], chunk: int) -> None:
         self.folder = Path(folder)
         self.chunk = chunk
-        self._fingerprint = fingerprint(question)
+        asked = {**plain(question), "ninedof": versions()["ninedof"]}
+        self._fingerprint = fingerprint(asked)
         self._create()
         self._own = self.folder.resolve()
         self._lock = self._locked()
         try:
-            self._open(question)
+            self._open(asked)
         except BaseException:
             self.close()
             raise
@@ -73,7 +73,7 @@ class Store:
     def close(self) -> None:
         """Let another run use the folder."""
         with _mutex:
-            if self._lock >= 0:  # closed once
+            if self._lock >= 0:  # not closed yet
                 os.close(self._lock)
                 _taken.discard(self._own)
             self._lock = -1
@@ -89,14 +89,12 @@ class Store:
         return self.folder / f"chunk-{k:08d}"
 
     def write(self, k: int, arrays: Arrays) -> None:
-        """Keep a finished chunk. Once this returns, neither a kill nor a loss of power takes it away."""
-        buffer = io.BytesIO()
-        np.savez(buffer, **arrays)  # type: ignore[arg-type]  # numpy's stub takes the names for its own
-        payload = buffer.getvalue()
+        """Write a finished chunk; after this it survives a kill and a loss of power."""
+        payload = npz_bytes(arrays)
         write_whole(self.path(k), MARK + self._digest(k, payload) + payload)
 
     def read(self, k: int) -> Arrays | None:
-        """Return a finished chunk; None where there is none, or none to be trusted."""
+        """Return a finished chunk; None if it is missing or damaged."""
         try:
             data = self.path(k).read_bytes()
         except OSError:
@@ -125,41 +123,36 @@ class Store:
             ) from None
 
     def _locked(self) -> int:
-        """Take the folder for this process. The system frees it at our end, however that comes."""
-        refusal = f"out: got {self.folder}, where another run is at work, expected a folder of its own"
+        """Lock the folder for this process. The system removes the lock when the process ends, however it ends."""
+        in_use = f"out: got {self.folder}, which another run is using, expected another folder"
         with _mutex:
-            if self._own in _taken:  # not even opened: to close any file of the lock would give it up
-                raise ValueError(refusal)
+            if self._own in _taken:  # not opened: closing any descriptor of the file would release the lock
+                raise ValueError(in_use)
             lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
             try:
-                # A lock of the process: unlike flock, workers that outlive a killed parent do not hold it.
+                # A lock of the process: unlike with flock, workers that outlive a killed parent do not keep it.
                 fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 os.close(lock)
-                raise ValueError(refusal) from None
+                raise ValueError(in_use) from None
             _taken.add(self._own)
         return lock
 
     def _open(self, question: Mapping[str, Any]) -> None:
         manifest = self.folder / MANIFEST
-        for leftover in self.folder.glob(".part-*"):  # of a run that was killed: no other is at work here
+        for leftover in self.folder.glob(f"{PART}*"):  # of a run that was killed: no other uses the folder
             leftover.unlink(missing_ok=True)
         if not manifest.exists():
             if others := sorted(p.name for p in self.folder.iterdir() if p.name != ".lock"):
                 raise ValueError(
                     f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
                 )
-            data = {
-                "format": FORMAT,
-                "fingerprint": self._fingerprint,
-                "chunk": self.chunk,
-                "question": plain(question),
-            }
-            write_whole(manifest, (json.dumps(data, indent=1) + "\n").encode())
+            data = {"format": FORMAT, "fingerprint": self._fingerprint, "chunk": self.chunk, "question": question}
+            write_whole(manifest, (encode(data) + "\n").encode())
             return
         found = _manifest(manifest)
         if found["fingerprint"] != self._fingerprint:
-            what = ", ".join(differing(found["question"], plain(question))) or "its version"
+            what = ", ".join(differing(plain(found["question"]), question))
             raise ValueError(
                 f"out: got {self.folder}, which holds the chunks of another question (it differs in {what}), "
                 "expected an empty folder, or the question that was asked there"
@@ -167,29 +160,9 @@ class Store:
         self.chunk = found["chunk"]
 
 
-def stored_question(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """Return the question that a folder's chunks answer."""
-    return dict(_manifest(Path(folder) / MANIFEST)["question"])
-
-
 def fingerprint(question: Mapping[str, Any]) -> str:
     """Return the digest of a question; numbers count to the last bit."""
-    return hashlib.sha256(json.dumps([FORMAT, plain(question)], sort_keys=True).encode()).hexdigest()
-
-
-def plain(value: Any) -> Any:
-    """Return plain JSON values. Floats are spelled so that they read back as the same bits, infinities as words."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(v) for key, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(v) for v in value]
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return repr(value)
-    return value
+    return hashlib.sha256(encode([FORMAT, question], indent=None, sort_keys=True).encode()).hexdigest()
 
 
 def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
@@ -197,28 +170,9 @@ def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
     return sorted(name for name in {*one, *other} if one.get(name) != other.get(name))
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write a file that appears whole or not at all, even if the power fails."""
-    with _part(path) as (part, file):
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-        os.replace(part, path)
-
-
-@contextlib.contextmanager
-def _part(path: Path) -> Iterator[tuple[Path, Any]]:
-    part = path.with_name(f".part-{path.name}-{secrets.token_hex(4)}")  # in the same folder, where a rename is atomic
-    try:
-        with part.open("wb") as file:
-            yield part, file
-    finally:
-        part.unlink(missing_ok=True)
-
-
 def _manifest(path: Path) -> dict[str, Any]:
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = decode(path.read_text(encoding="utf-8"))
         if data["format"] != FORMAT or not isinstance(data["question"], dict) or int(data["chunk"]) < 1:
             raise ValueError
         str(data["fingerprint"])

@@ -9,6 +9,8 @@ from typing import Annotated
 
 import typer
 
+from ninedof.design.indices import computed
+
 app = typer.Typer(
     add_completion=False,
     no_args_is_help=False,
@@ -142,7 +144,10 @@ def sweep(
         ),
     ] = None,
     index: Annotated[
-        list[str] | None, typer.Option(help="What is computed; condition_number by default. May be repeated.")
+        list[str] | None,
+        typer.Option(
+            help=f"What is computed, condition_number by default; may be repeated. One of {', '.join(computed())}."
+        ),
     ] = None,
     absolute: Annotated[
         bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")

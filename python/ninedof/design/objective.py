@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from ninedof.design import poses
+from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
 from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
 
@@ -15,12 +16,6 @@ __all__ = ["Objective", "Pose"]
 
 Made = TypeVar("Made")
 
-INDICES = {
-    "condition_number": "condition number",
-    "frobenius": "Frobenius condition number",
-    "speed": "1 / least singular value",
-    "six_legged": "condition number of the six-legged platform",
-}
 AGGREGATES = {
     "worst": "worst {index}",
     "mean_inverse": "harmonic mean of the {index}",
@@ -79,7 +74,7 @@ class Objective:
         """Check and normalise every entry."""
         listed = items("objective.poses", self.poses, "a sequence of poses")
         for name, value in {
-            "index": choice("objective.index", self.index, INDICES),
+            "index": _index(self.index),
             "aggregate": choice("objective.aggregate", self.aggregate, AGGREGATES),
             "weight": finite("objective.weight", self.weight, 0.0, 1.0),
             "condition_limit": _condition_limit(self.condition_limit),
@@ -88,15 +83,15 @@ class Objective:
             object.__setattr__(self, name, value)
         if len(self.poses) > poses.MOST_POSES:
             raise ValueError(f"objective.poses: got {len(self.poses)}, expected at most {poses.MOST_POSES}")
-        if self.index == "six_legged" and self.poses:
+        if self.poses and objectives()[self.index].function is None:
             raise ValueError(
-                f"objective.poses: got {len(self.poses)}, expected none: the six-legged index is for the neutral pose"
+                f"objective.poses: got {len(self.poses)}, expected none: {self.index} is for the neutral pose only"
             )
 
     @property
     def words(self) -> str:
         """The objective in words."""
-        index = INDICES[self.index]
+        index = objectives()[self.index].words
         if not self.poses:
             return index
         over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"
@@ -148,6 +143,12 @@ class Objective:
             "condition_limit": math.inf if self.condition_limit is None else self.condition_limit,
             "poses": [pose.for_core() for pose in self.poses],
         }
+
+
+def _index(value: Any) -> str:
+    """Return the core's word for an index of the table."""
+    known = objectives()
+    return str(known[choice("objective.index", value, known)].objective)
 
 
 def _condition_limit(value: Any) -> float | None:

@@ -11,6 +11,7 @@ from typing import Any
 from ninedof.design import limits
 from ninedof.design.objective import Objective
 from ninedof.support.arguments import known_keys, table
+from ninedof.support.files import write_whole
 
 __all__ = ["read_toml", "study_arguments", "study_tables", "write_toml"]
 
@@ -41,7 +42,7 @@ def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:
     """Write tables as a TOML file."""
     import tomli_w
 
-    Path(path).write_text(tomli_w.dumps(tables), encoding="utf-8")
+    write_whole(Path(path), tomli_w.dumps(tables).encode())
 
 
 def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:

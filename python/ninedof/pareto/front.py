@@ -91,7 +91,7 @@ class Front:
         return rows
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the front as plain JSON values. `ninedof.runs.front_records` writes it with all results."""
+        """Return the front as plain JSON values. `ninedof.runs.folder` writes it with all results."""
         return {
             "against": self.against,
             "objective": self.study.objective.words,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from ninedof.design.objective import INDICES
+from ninedof.design.indices import objectives
 from ninedof.design.study import Study
 from ninedof.support.arguments import did_you_mean, shown
 from ninedof.verify.rules import RULES
@@ -28,16 +28,17 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     if isinstance(against, str) and against in known:
         return study, against
     index = study.objective.index
-    if against in (CONDITION_LIMIT, *INDICES):
+    indices = objectives()
+    if against in (CONDITION_LIMIT, *indices):
         if against in (CONDITION_LIMIT, "condition_number") and index != "condition_number":
             return study, CONDITION_LIMIT
-        if against in INDICES and index == "condition_number" and against != index:
+        if against in indices and index == "condition_number" and against != index:
             return replace(study, objective=replace(study.objective, index=against)), CONDITION_LIMIT
         raise ValueError(
             f"against: got {against!r} for a study of the index {index!r}, expected one of the two to be the condition "
             "number and the other another index"
         )
-    hint = did_you_mean(against, [*known, CONDITION_LIMIT, *INDICES]) if isinstance(against, str) else ""
+    hint = did_you_mean(against, [*known, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
     raise ValueError(
         f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}), "
         f"{CONDITION_LIMIT} or another index{hint}"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
-import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +14,8 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+
+from ninedof.support.files import write_whole
 
 # Okabe and Ito's set: told apart with every common kind of colour vision.
 EXTERNAL = "#0072B2"
@@ -138,12 +140,7 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     paths = []
     with look():
         for kind, entries in metadata.items():
-            path = folder / f"{stem}.{kind}"
-            part = folder / f".{path.name}.{secrets.token_hex(4)}.part"  # in the same folder, where a rename is atomic
-            try:
-                figure.savefig(part, format=kind, dpi=DPI, metadata=entries)
-                os.replace(part, path)
-            finally:
-                part.unlink(missing_ok=True)
-            paths.append(path)
+            image = io.BytesIO()
+            figure.savefig(image, format=kind, dpi=DPI, metadata=entries)
+            paths.append(write_whole(folder / f"{stem}.{kind}", image.getvalue()))
     return paths

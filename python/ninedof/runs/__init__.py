@@ -1,1 +1,1 @@
-"""Run folders, records and design files."""
+"""Run folders and design files: `folder` writes and reads every run folder, `design_file` reads one design."""

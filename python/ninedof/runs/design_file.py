@@ -1,4 +1,4 @@
-"""A robot and where it stands, from a TOML file, a run's record or named values: what `ninedof evaluate` looks at."""
+"""One design from a TOML file, a run's record or named values, and its indices, as `ninedof evaluate` prints them."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.conditioning.conditioning import condition_number, isotropy_residual, manipulability, singular_values
+from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.indices import computed
 from ninedof.design.study_file import read_toml
-from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.runs.records import load_record
+from ninedof.runs.folder import load_record
+from ninedof.support.arguments import is_number, known_keys, number, table
 
 __all__ = ["Design", "indices", "load_design"]
 
@@ -81,81 +82,65 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         raise ValueError(
             "design: got a study, expected a design with [geometry] and [configuration]; see `ninedof optimize`"
         )
-    _only("design", data, ("geometry", "configuration", "characteristic_length"))
-    geometry, configuration = (_table(data, name) for name in ("geometry", "configuration"))
+    known_keys("design", data, ("geometry", "configuration", "characteristic_length"))
+    geometry, configuration = (table(name, _present(name, data, name)) for name in ("geometry", "configuration"))
     if "zp" in configuration or "zs" in configuration:
-        _only("configuration", configuration, ("zp", "zs", "theta_z"))
-        _all("configuration", configuration, ("zp", "zs"))
-        c = Configuration.neutral(configuration["zp"], configuration["zs"], configuration.get("theta_z", 0.0))
+        known_keys("configuration", configuration, ("zp", "zs", "theta_z"))
+        zp, zs = (_present(f"configuration.{name}", configuration, name) for name in ("zp", "zs"))
+        c = Configuration.neutral(zp, zs, configuration.get("theta_z", 0.0))
         if c.shape:
             raise ValueError("configuration: got lists, expected one number for each of zp, zs and theta_z")
     else:
-        _only("configuration", configuration, ("position", "rotation", "internal_point"))
-        _all("configuration", configuration, ("position", "internal_point"))
+        known_keys("configuration", configuration, ("position", "rotation", "internal_point"))
+        for name in ("position", "internal_point"):
+            _present(f"configuration.{name}", configuration, name)
         c = Configuration(**configuration)
-    names = HEXAGON if any(name in geometry for name in HEXAGON) else TRIPLES
-    _only("geometry", geometry, names)
-    _all("geometry", geometry, names)
-    if names is HEXAGON:
-        for name in HEXAGON:
-            if isinstance(geometry[name], bool) or not isinstance(geometry[name], int | float):
-                raise ValueError(f"geometry.{name}: got {geometry[name]!r}, expected a number")
-        g = Geometry.hexagonal(**geometry)
+    hexagonal = any(name in geometry for name in HEXAGON)
+    names = HEXAGON if hexagonal else TRIPLES
+    known_keys("geometry", geometry, names)
+    given = {name: _present(f"geometry.{name}", geometry, name) for name in names}
+    if hexagonal:
+        g = Geometry.hexagonal(**{name: number(f"geometry.{name}", value) for name, value in given.items()})
     else:
-        g = Geometry(**geometry)
+        g = Geometry(**given)
     length = data.get("characteristic_length", 1.0)
-    if isinstance(length, bool) or not isinstance(length, int | float | str):
+    if not isinstance(length, str) and not is_number(length):
         raise ValueError(f"characteristic_length: got {length!r}, expected a number or a kind")
     return Design(g, c, length)
 
 
-def _table(data: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    table = data.get(name)
-    if not isinstance(table, Mapping):
-        raise ValueError(f"{name}: got {'nothing' if table is None else repr(table)}, expected a table [{name}]")
-    return table
-
-
-def _only(where: str, table: Mapping[str, Any], names: tuple[str, ...]) -> None:
-    for key in table:
-        if key not in names:
-            raise ValueError(f"{where}: got the entry {key!r}, expected only {', '.join(names)}")
-
-
-def _all(where: str, table: Mapping[str, Any], names: tuple[str, ...]) -> None:
-    for name in names:
-        if name not in table:
-            raise ValueError(f"{where}.{name}: got nothing, expected a value")
+def _present(where: str, data: Mapping[str, Any], name: str) -> Any:
+    if name not in data:
+        raise ValueError(f"{where}: got nothing, expected a value")
+    return data[name]
 
 
 def indices(design: Design) -> dict[str, Any]:
-    """Return every index of a design as plain values, and the condition number under each kind of length."""
+    """Return every index of the table at a design, and the condition number under each kind of length, as plain values.
+
+    Where a kind of length has no value, at a singular configuration, indices that depend on it are left out, but for
+    the condition number and the singular values.
+    """
     g, c, length = design
     lc = characteristic_length(g, c, length) if isinstance(length, str) else float(length)
-    if isinstance(length, str) and not math.isfinite(lc):
-        kappa: dict[str, float] = {"condition_number": math.inf}
-    else:
-        kappa = {
-            "condition_number": float(condition_number(g, c, lc)),
-            "condition_number_frobenius": float(condition_number(g, c, lc, norm="frobenius")),
-            "manipulability": float(manipulability(g, c, lc)),
-            "isotropy_residual": float(isotropy_residual(g, c, lc)),
-        }
+    known = math.isfinite(lc) or not isinstance(length, str)
+    found = {
+        name: np.asarray(index.values(g, c, lc, None)).tolist()
+        for name, index in computed().items()
+        if known or not index.needs_length
+    }
+    if not known:
+        found |= {"condition_number": math.inf, "reciprocal_condition_number": 0.0, "singular_values": [math.inf] * 6}
+    legs = found["leg_lengths"]
     kinds = {}
-    for kind in ("optimal", "natural", "mean_leg", "platform_radius"):
+    for kind in KINDS:
         value = float(characteristic_length(g, c, kind))
-        kinds[kind] = {
-            "length": value,
-            "condition_number": float(condition_number(g, c, value)) if math.isfinite(value) else math.inf,
-        }
-    lengths = leg_lengths(g, c).tolist()
+        kappa = float(condition_number(g, c, value)) if math.isfinite(value) else math.inf
+        kinds[kind] = {"length": value, "condition_number": kappa}
     return {
         "characteristic_length": lc,
-        **kappa,
-        "reciprocal": 0.0 if math.isinf(kappa["condition_number"]) else 1.0 / kappa["condition_number"],
-        "singular_values": singular_values(g, c, lc).tolist() if math.isfinite(lc) else [math.inf] * 6,
-        "leg_lengths": {"l": lengths[:3], "q": lengths[3:6], "r": lengths[6:]},
-        "leg_ratio": max(lengths) / min(lengths) if min(lengths) > 0.0 else math.inf,
+        **found,
+        "leg_lengths": {"l": legs[:3], "q": legs[3:6], "r": legs[6:]},
         "characteristic_lengths": kinds,
-        "singular": bool(np.isinf(kappa["condition_number"])),
+        "singular": math.isinf(found["condition_number"]),
     }

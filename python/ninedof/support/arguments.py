@@ -1,4 +1,4 @@
-"""Small checks of what people pass: each raises ValueError naming the entry, what came and what was expected."""
+"""Checks of arguments: each raises ValueError naming the argument, what came and what was expected."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ Vector = tuple[float, float, float]
 
 
 def shown(value: Any) -> str:
-    """Return a value as a message repeats it; the long ones cut."""
+    """Return the text of a value for a message, cut where it is long."""
     try:
         text = repr(value)
-    except ValueError:  # a whole number of thousands of digits, which Python will not spell
+    except ValueError:  # a whole number of thousands of digits, which Python does not convert
         return "a very long number"
     return text if len(text) <= LONGEST else text[:LONGEST] + "..."
 
@@ -31,7 +31,7 @@ def did_you_mean(slip: object, known: Iterable[str]) -> str:
 
 
 def known_keys(where: str, given: Any, known: Iterable[str]) -> None:
-    """Refuse what is no mapping, and entries that nobody would read."""
+    """Raise unless `given` is a mapping with known keys only."""
     names = list(known)
     if not isinstance(given, Mapping):
         raise ValueError(f"{where}: got {shown(given)}, expected a mapping of names")
@@ -49,7 +49,7 @@ def table(name: str, value: Any) -> Mapping[str, Any]:
 
 
 def is_number(value: Any) -> bool:
-    """Tell a real number, Python's or numpy's, from everything else; True and False are none."""
+    """Return whether a value is a real number, Python's or numpy's; bool does not count as a number."""
     return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
 
 
@@ -74,7 +74,7 @@ def finite(name: str, value: Any, least: float = -math.inf, most: float = math.i
 
 
 def whole(name: str, value: Any, least: int, most: int = LARGEST) -> int:
-    """Return a whole number; 3.0 is none."""
+    """Return a whole number; 3.0 does not count as one."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
         to = "to 2^63 - 1" if most == LARGEST else f"to {most}"
         raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} {to}")
@@ -88,6 +88,12 @@ def choice(name: str, value: Any, known: Iterable[str]) -> str:
         hint = did_you_mean(value, words) if isinstance(value, str) else ""
         raise ValueError(f"{name}: got {shown(value)}, expected one of {', '.join(words)}{hint}")
     return value
+
+
+def executor_argument(executor: Any) -> None:
+    """Raise unless `executor` is None or can run tasks."""
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
+        raise ValueError(f"executor: got {shown(executor)}, expected a concurrent.futures.Executor")
 
 
 def items(name: str, value: Any, expected: str) -> tuple[Any, ...]:

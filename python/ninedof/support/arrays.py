@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ninedof.support.arguments import whole
+
 Floats = NDArray[np.float64]
 
 MOST_THREADS = 4096
@@ -99,9 +101,5 @@ def _shape_text(trailing: tuple[int, ...]) -> str:
 
 
 def thread_argument(threads: Any) -> int:
-    """Turn `threads` (None for one a processor) into the core's integer."""
-    if threads is None:
-        return 0
-    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or not 1 <= threads <= MOST_THREADS:
-        raise ValueError(f"threads: got {threads!r}, expected None or a whole number from 1 to {MOST_THREADS}")
-    return int(threads)
+    """Return a number of threads as the core takes it: 0 for one per processor."""
+    return 0 if threads is None else whole("threads", threads, 1, MOST_THREADS)

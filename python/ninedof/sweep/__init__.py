@@ -1,7 +1,7 @@
 """Sweeps: an index over a grid of configurations or of designs.
 
-`axis` says where the points are, `index` what is computed there, `poses` and `variants` make robots of the points,
-`result` is what a caller gets; `run` and `figures` hold what a caller calls.
+`axis` has the points, `index` the quantities, `poses` and `variants` the robots at the points, `work` the chunks,
+`result` the labelled arrays. The public functions are in `run` and `figures`.
 """
 
 from ninedof.sweep.figures import sweep_figure

@@ -33,7 +33,7 @@ class Axis:
     explicit: Floats | None = None
     """Values `start`, `start` + 1, ...; None for evenly spaced ones."""
     start: int = 0
-    """Which of the axis's values the first explicit one is: a chunk takes along only those that it needs."""
+    """Number of the first explicit value on the axis: a chunk has only the values that it needs."""
 
     def at(self, k: NDArray[np.intp]) -> Floats:
         """Return the values of numbers 0 ... count - 1; both ends are met exactly."""
@@ -43,11 +43,11 @@ class Axis:
         return self.low * (1.0 - t) + self.high * t
 
     def values(self) -> Floats:
-        """Return all of them."""
+        """Return all values."""
         return self.at(np.arange(self.count))
 
     def only(self, first: int, last: int) -> Axis:
-        """Return an axis that knows values first ... last - 1 alone."""
+        """Return an axis with values first ... last - 1 only."""
         if self.explicit is None:
             return self
         return Axis(self.name, self.count, explicit=self.explicit[first:last].copy(), start=first)
@@ -76,7 +76,7 @@ class Grid:
         return math.prod(self.shape)
 
     def part(self, first: int, last: int) -> Grid:
-        """Return a grid that knows points first ... last - 1 alone, small to send."""
+        """Return a grid with the values of points first ... last - 1 only, small to send."""
         row = math.prod(self.shape[1:])
         head = self.axes[0].only(first // row, (last - 1) // row + 1)
         return Grid((head, *self.axes[1:]))
@@ -88,7 +88,7 @@ class Grid:
 
 
 def axes_of(over: Any, known: Sequence[str]) -> Grid:
-    """Return the grid that a caller asks for, checked."""
+    """Check the argument `over` and return its grid."""
     expected = f"a mapping of one to {MOST_AXES} names to values"
     if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
         raise ValueError(f"over: got {shown(over)}, expected {expected}")

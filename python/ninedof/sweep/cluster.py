@@ -13,7 +13,7 @@ from ninedof.support.extras import optional
 
 __all__ = ["dask_executor"]
 
-PATIENCE = 15  # seconds for a scheduler to answer
+TIMEOUT = 15  # seconds for a scheduler to answer
 ADDRESS = re.compile(r"(?:(tcp|tls|ucx|ws|wss)://)?(?:\[([^\[\]\s]+)\]|([^\[\]\s:/]+)):([0-9]{1,5})")
 
 
@@ -31,7 +31,7 @@ def dask_executor(address: str) -> Iterator[Executor]:
     ImportError
         If dask is not installed; the message says how to install it.
     ValueError
-        If it is no address, or no scheduler answers there.
+        If it is not an address, or no scheduler answers there.
 
     """
     distributed = optional("distributed", "cluster", "a Dask cluster")
@@ -39,8 +39,8 @@ def dask_executor(address: str) -> Iterator[Executor]:
     if found is None or not 0 < int(found[4]) < 2**16:
         raise ValueError(f"address: got {shown(address)}, expected one as tcp://host:8786")
     try:
-        _knock(found[2] or found[3], int(found[4]), found[1] in (None, "tcp"))
-        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+        _require_answer(found[2] or found[3], int(found[4]), found[1] in (None, "tcp"))
+        client = distributed.Client(address, timeout=TIMEOUT, set_as_default=False)
     except OSError as error:
         reason = error.strerror or str(error)
         raise ValueError(
@@ -50,11 +50,11 @@ def dask_executor(address: str) -> Iterator[Executor]:
         yield client.get_executor()
 
 
-def _knock(host: str, port: int, speaks_first: bool) -> None:
-    """See that something answers, before there is a client: one that found nobody is heard of when it is collected.
+def _require_answer(host: str, port: int, sends_first: bool) -> None:
+    """Raise OSError unless a scheduler answers: a client without one would warn when it is collected.
 
-    By plain TCP the scheduler speaks first. Something else that only listens would keep a client waiting for ever.
+    By plain TCP the scheduler sends first. A client would wait forever for a server that accepts and sends nothing.
     """
-    with socket.create_connection((host, port), timeout=PATIENCE) as line:
-        if speaks_first and not line.recv(1):
-            raise OSError("it hangs up")
+    with socket.create_connection((host, port), timeout=TIMEOUT) as line:
+        if sends_first and not line.recv(1):
+            raise OSError("the connection was closed")

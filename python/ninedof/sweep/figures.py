@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays, kept, run
-from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks import Arrays
+from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Status
@@ -18,12 +19,10 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.progress import Progress
 from ninedof.sweep.axis import Axis, Grid
-from ninedof.sweep.index import INDICES, Index
 from ninedof.sweep.poses import COORDINATES, TRIPLES
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.sink import Sink
 from ninedof.sweep.work import GridWork
 
 __all__ = ["sweep_figure"]
@@ -42,19 +41,19 @@ def sweep_figure(
     figure: str,
     points: int | None = None,
     *,
-    executor: Executors | None = None,
+    executor: Executor | None = None,
     out: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> SweepResult:
     """Return the numbers behind a figure of the paper.
 
     "6" is the condition number of the published design against displacement in each of the nine coordinates, one at a
-    time, the others held: the platform moves and O stays, or O moves and the platform stays. The zs that the paper does
-    not print is the best one.
+    time, the others held: the platform moves and O stays, or O moves and the platform stays. zs,
+    which the paper does not print, has its best value.
 
     "7" is the least condition number of the hexagonal family for each ratio a1/a2, and for each b1/b2, all other
     variables re-optimized with the base at most twice the platform, as in section 5. A ratio and its inverse belong to
-    mirrored robots of the same condition number; what the paper says, that it falls as a ratio grows, holds above 1.
+    mirrored robots of the same condition number; it falls as a ratio grows, as the paper says, above 1 only.
     Each point is a study of its own: sides 1 and 1/ratio (or ratio and 1), the characteristic length free. To scale a
     robot with its characteristic length changes nothing, so that this is the study with the ratio held and l_c = 1.
 
@@ -87,15 +86,9 @@ def sweep_figure(
 
     """
     which = choice("figure", figure, FIGURES)
-    check_executor(executor)
-    progress_argument(progress)
     work = _figure_6(_points(points, 201)) if which == "6" else _figure_7(_points(points, 8 * OCTAVES + 1))
-    with kept(work, out) as (store, agreed):
-        sink = Sink(work.indices, work.grid.shape, None)
-        run(agreed, sink.deliver, store, executor, progress)
-    found = work.labelled(
-        sink.arrays(), dict.fromkeys(("coordinate", "sides", "ratio"), "1") | {"displacement": "l_c or rad"}
-    )
+    units = {"coordinate": "1", "sides": "1", "ratio": "1", "displacement": "l_c or rad"}
+    found = work.result(units, executor=executor, out=out, progress=progress)
     words = {"coordinate": np.array(SHOWN)} if which == "6" else {"sides": np.array([f"{s}1/{s}2" for s in SIDES])}
     return replace(found, coords={**found.coords, **words}, attributes={**found.attributes, "figure": which})
 
@@ -136,12 +129,11 @@ class _Displaced:
 def _figure_7(points: int) -> GridWork:
     ratios = np.exp2(np.linspace(-OCTAVES, OCTAVES, points))
     axes = (Axis("sides", len(SIDES), 0.0, len(SIDES) - 1.0), Axis("ratio", points, explicit=ratios))
-    indices = (INDICES["condition_number"], Index("design", _no_pose, "variable", VARIABLES, "l_c"))
+    indices = (
+        INDICES["condition_number"],
+        Index("design", None, dimension="variable", components=VARIABLES, unit="l_c"),
+    )
     return GridWork(_Ratios(), Grid(axes), indices, 1)
-
-
-def _no_pose(*_: Any) -> Any:
-    raise AssertionError("the design is found with the condition number")
 
 
 @dataclass(frozen=True)

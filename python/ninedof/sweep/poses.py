@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ninedof.chunks import Arrays
+from ninedof.design.indices import Index
 from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.sweep.index import Index
 
 __all__ = ["COORDINATES", "RULES", "Poses", "best_block"]
 
@@ -28,14 +28,14 @@ RULES = ("held", "carried", "best")
 """Where O is while the platform moves."""
 
 BLOCK = 2048
-"""Points that are placed together, about: O at each continues from its neighbours. A tenth of a second."""
+"""About as many points are placed together, in a tenth of a second: O at each continues from its neighbours."""
 
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """How points become configurations."""
+    """A robot, and how points of a grid become its configurations."""
 
     geometry: Geometry
     home: Configuration
@@ -43,7 +43,7 @@ class Poses:
     rule: str
     length: float | str
     block: tuple[int, ...] = (1,)
-    """Of the rule "best": the sides of the blocks of the grid in which O is placed. A chunk is made of whole ones."""
+    """With "best": the sides of the blocks of the grid in which O is placed. A chunk consists of whole blocks."""
 
     def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points."""
@@ -78,7 +78,7 @@ class Poses:
         return Configuration._of(p, q, s if self.rule != "best" else self._best(p, q, threads))
 
     def _best(self, p: Floats, q: Floats, threads: int | None) -> Floats:
-        assert not isinstance(self.length, str), "refused before"
+        assert not isinstance(self.length, str), "checked by sweep"
         s = np.empty_like(p)
         size = math.prod(self.block)
         for first in range(0, len(p), size):
@@ -110,17 +110,17 @@ class Poses:
     def _carried(self, p: Floats, q: Floats) -> Floats:
         """Return where O would be if it were fixed to the platform."""
         x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
-        # Written out: a product by BLAS may round otherwise in a chunk of another size.
+        # Written out: BLAS may round differently in a chunk of another size.
         out: Floats = p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)
         return out
 
 
 def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the sides of the blocks of a grid in which the best O is placed, by its shape alone.
+    """Return the sides of the blocks of a grid in which the best O is placed; they depend on the grid's shape alone.
 
-    The last axes whole, as far as they are in one block, and a part of the axis before them. Blocks are consecutive
-    points, so that any chunk of whole blocks has the same values. One that goes on into the next row, or plane, has
-    poses beside each other that are not near: that costs time, not accuracy.
+    A block has the last axes whole, as far as they fit, and a part of the axis before them. Its points are consecutive,
+    so that values do not depend on the chunks, which consist of whole blocks. Where a block continues into the next row
+    or plane, some neighbours in it are far apart: that costs time, not accuracy.
     """
     whole: tuple[int, ...] = ()
     for count in reversed(shape):

@@ -1,8 +1,7 @@
-"""Labelled arrays: what a sweep or an atlas gives, in memory, in a file, or as an xarray.Dataset."""
+"""Labelled arrays: the result of a sweep or an atlas, in memory, in a file, or as an xarray.Dataset."""
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -12,10 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.chunks.npz import read_npz, write_npz
-from ninedof.chunks.store import plain
-from ninedof.chunks.work import Arrays
 from ninedof.support.extras import optional
+from ninedof.support.files import Arrays, read_npz, write_npz
+from ninedof.support.json import decode, encode
 
 __all__ = ["SweepResult"]
 
@@ -47,7 +45,7 @@ class SweepResult:
         raise KeyError(f"{name!r}: expected one of {', '.join([*self.arrays, *self.coords])}")
 
     def __iter__(self) -> Iterator[str]:
-        """Go through the names of the indices."""
+        """Iterate over the names of the indices."""
         return iter(self.arrays)
 
     def __len__(self) -> int:
@@ -92,7 +90,7 @@ class SweepResult:
         return float(array[position]), self.at(name, position)
 
     def to_xarray(self) -> Any:
-        """Return the same as an `xarray.Dataset`, attributes and units with it.
+        """Return an `xarray.Dataset` with the same arrays, labels, units and attributes.
 
         Raises
         ------
@@ -119,13 +117,8 @@ class SweepResult:
             numpy's own suffix .npz is added if it is missing.
 
         """
-        head = {
-            "format": FORMAT,
-            "dims": plain(self.dims),
-            "units": plain(self.units),
-            "attributes": plain(self.attributes),
-        }
-        contents: dict[str, Any] = {HEAD: np.array(json.dumps(head))}
+        head = {"format": FORMAT, "dims": self.dims, "units": self.units, "attributes": self.attributes}
+        contents: dict[str, Any] = {HEAD: np.array(encode(head, indent=None))}
         contents |= {COORDINATE + name: values for name, values in self.coords.items()}
         contents |= {ARRAY + name: values for name, values in self.arrays.items()}
         return write_npz(path, contents)
@@ -148,8 +141,8 @@ class SweepResult:
 
     @classmethod
     def _made(cls, contents: Arrays) -> SweepResult:
-        """Return the result that arrays of a file make; those of another file lack something."""
-        head = json.loads(str(contents[HEAD]))
+        """Return the result from the arrays of a file; raise if they are those of another kind of file."""
+        head = decode(str(contents[HEAD]))
         if head["format"] != FORMAT:
             raise ValueError
         dims = {name: tuple(of) for name, of in head["dims"].items()}
@@ -164,4 +157,4 @@ class SweepResult:
 
 def _attribute(value: Any) -> Any:
     """Return a value that netCDF takes as an attribute."""
-    return value if isinstance(value, str | int | float) and not isinstance(value, bool) else json.dumps(plain(value))
+    return value if isinstance(value, str | int | float) and not isinstance(value, bool) else encode(value, indent=None)

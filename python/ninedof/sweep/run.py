@@ -5,29 +5,28 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping
+from concurrent.futures import Executor
 from dataclasses import replace
 from typing import Any
 
 from ninedof import _core
-from ninedof.chunks import chunk_argument, kept, run
-from ninedof.chunks.crew import Executors, check_executor
+from ninedof.chunks import chunk_argument
 from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, known_keys
 from ninedof.support.arrays import thread_argument
-from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.progress import Progress
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.index import OwnIndex, indices_of
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.sink import Sink
 from ninedof.sweep.variants import Variants
 from ninedof.sweep.work import GridWork
 
 __all__ = ["sweep", "sweep_designs"]
 
-# A chunk takes under a tenth of a second, so that Ctrl-C is heard.
+# A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024
 
 What = str | OwnIndex | Iterable[str | OwnIndex]
@@ -42,7 +41,7 @@ def sweep(
     relative: bool = True,
     internal_point: str = "held",
     characteristic_length: float | str = 1.0,
-    executor: Executors | None = None,
+    executor: Executor | None = None,
     out: str | os.PathLike[str] | None = None,
     chunk: int | None = None,
     threads: int | None = None,
@@ -63,10 +62,8 @@ def sweep(
         a tuple (low, high, count) for evenly spaced ones. Lengths in one unit, angles in radians. The order of names is
         the order of dimensions.
     index : str, callable, or a sequence of them
-        "condition_number" (2-norm), "condition_number_frobenius", "reciprocal_condition_number", "manipulability",
-        "isotropy_residual", "singular_values", "leg_lengths", "leg_ratio" (longest / shortest leg) or
-        "singularity_margins". A callable takes the geometry, a stack of n configurations and the characteristic length
-        and returns n numbers.
+        Names of the table in docs/sweeps.md, "condition_number" or "leg_lengths" among them. A callable takes the
+        geometry, a stack of n configurations and the characteristic length and returns n numbers.
     relative : bool
         Whether the values are displacements from `home`. If not they are the coordinates themselves, and a swept theta
         takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
@@ -76,13 +73,13 @@ def sweep(
         (`best_internal_map`, over blocks of some 2000 points; NaN where there is no such place).
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each configuration.
-    executor : concurrent.futures.Executor, or callable that makes one, optional
+    executor : concurrent.futures.Executor, optional
         Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
-        process by default. The values are the same, bit for bit. A lost worker costs its chunk, which is done again; a
-        ProcessPoolExecutor that breaks is replaced if a callable was given, and otherwise the rest is done here.
+        process by default. The values are the same, bit for bit. Lost workers are the executor's matter: Dask gives
+        their chunks to others; an exception of the executor ends the sweep, and finished chunks stay in `out`.
     out : path, optional
-        Folder that keeps finished chunks. The same call takes up an interrupted sweep where it stopped, whenever it
-        was killed. A folder that answers another question is refused.
+        Folder that keeps finished chunks. The same call goes on where an interrupted sweep stopped, even if that was
+        killed. A folder with the chunks of another question raises ValueError.
     chunk : int, optional
         Points a chunk; with "best" rounded up to whole blocks. The values do not depend on it.
     threads : int, optional
@@ -130,7 +127,8 @@ def sweep(
         points = size if chunk is None else -(-points // size) * size
     workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
     work = GridWork(poses, grid, indices_of(index), points, workers)
-    return _run(work, {n: "rad" if n in ROTATION else "length" for n in COORDINATES}, executor, out, progress)
+    units = {name: "rad" if name in ROTATION else "length" for name in COORDINATES}
+    return work.result(units, executor=executor, out=out, progress=progress)
 
 
 def sweep_designs(
@@ -140,7 +138,7 @@ def sweep_designs(
     *,
     family: str = "hexagonal",
     characteristic_length: float | str = 1.0,
-    executor: Executors | None = None,
+    executor: Executor | None = None,
     out: str | os.PathLike[str] | None = None,
     chunk: int | None = None,
     progress: Progress | None = None,
@@ -196,26 +194,7 @@ def sweep_designs(
     indices = indices_of(index)
     fast = all(variants.has_closed_form(i, [axis.name for axis in grid.axes]) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
-    return _run(work, units, executor, out, progress)
-
-
-def _run(
-    work: GridWork,
-    units: Mapping[str, str],
-    executor: Executors | None,
-    out: str | os.PathLike[str] | None,
-    progress: Progress | None,
-) -> SweepResult:
-    check_executor(executor)
-    progress_argument(progress)
-    with kept(work, out) as (store, agreed):
-        try:
-            sink = Sink(work.indices, work.grid.shape, None if store is None else store.folder)
-        except MemoryError:
-            shape = " x ".join(map(str, work.grid.shape))
-            raise ValueError(f"over: got {shape} points, expected what fits into memory, or out for a folder") from None
-        run(agreed, sink.deliver, store, executor, progress)
-        return work.labelled(sink.arrays(), units)
+    return work.result(units, executor=executor, out=out, progress=progress)
 
 
 def _length(value: Any) -> float | str:

@@ -1,9 +1,10 @@
-"""Where the values of chunks are put together: in memory, or in files where there are too many."""
+"""Where the values of chunks are put together: in memory, or in files if they are too large for it."""
 
 from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.chunks import Arrays
-from ninedof.sweep.index import Index
+from ninedof.design.indices import Index
+from ninedof.support.files import PART
 
 __all__ = ["Sink"]
 
@@ -21,51 +23,50 @@ IN_MEMORY = 2**28  # bytes of all arrays; more go to files, if there is a folder
 class Sink:
     """Takes chunks in any order.
 
-    Beside a folder of chunks, arrays too large for memory become .npy files. They are written by position and read
-    through a memory map, so that neither needs room for all.
+    With a folder of chunks, arrays too large for memory become .npy files there. They are written by position and read
+    through a memory map, so that memory never holds all of them.
     """
 
-    def __init__(self, indices: tuple[Index, ...], shape: tuple[int, ...], folder: Path | None) -> None:
-        shapes = {i.name: (*shape, *i.tail) for i in indices}
-        large = folder is not None and 8 * sum(math.prod(s) for s in shapes.values()) > IN_MEMORY
-        self._parts: dict[str, _Memory | _File] = {
-            name: _File(folder / f"{name}.npy", s) if large and folder is not None else _Memory(s)
-            for name, s in shapes.items()
-        }
+    def __init__(self, indices: tuple[Index, ...], shape: tuple[int, ...]) -> None:
+        self._grid = shape
+        self._shapes = {i.name: (*shape, *i.tail) for i in indices}
+        self._parts: dict[str, NDArray[Any] | _File] = {}
 
-    def deliver(self, first: int, last: int, arrays: Arrays) -> None:
-        """Take the values of points first ... last - 1."""
+    def begin(self, folder: Path | None) -> Callable[[int, int, Arrays], None]:
+        """Make room for all values; return the function that takes those of points first ... last - 1."""
+        if 8 * sum(map(math.prod, self._shapes.values())) <= IN_MEMORY:
+            folder = None
+        try:
+            for name, shape in self._shapes.items():
+                self._parts[name] = np.empty(shape) if folder is None else _File(folder / f"{name}.npy", shape)
+        except MemoryError:
+            expected = "what fits into memory, or out for a folder"
+            raise ValueError(f"over: got {' x '.join(map(str, self._grid))} points, expected {expected}") from None
+        return self._deliver
+
+    def _deliver(self, first: int, last: int, arrays: Arrays) -> None:
         for name, part in self._parts.items():
-            part.put(first, last, arrays[name])
+            values = arrays[name]
+            if isinstance(part, _File):
+                part.put(first, last, values)
+            else:
+                part.reshape(-1, *values.shape[1:])[first:last] = values
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Return everything."""
-        return {name: part.whole() for name, part in self._parts.items()}
-
-
-class _Memory:
-    def __init__(self, shape: tuple[int, ...]) -> None:
-        self._all = np.empty(shape)
-
-    def put(self, first: int, last: int, values: NDArray[Any]) -> None:
-        self._all.reshape(-1, *values.shape[1:])[first:last] = values
-
-    def whole(self) -> NDArray[Any]:
-        return self._all
+        return {name: part.whole() if isinstance(part, _File) else part for name, part in self._parts.items()}
 
 
 class _File:
-    """A .npy file, written by position: a writeable map would keep all of it in our memory until the system objects."""
+    """A .npy file written by position: a writeable memory map would fill the memory of the process."""
 
     def __init__(self, path: Path, shape: tuple[int, ...]) -> None:
-        self._path = path
-        part = path.with_name(f".part-{path.name}")
-        np.lib.format.open_memmap(part, mode="w+", dtype=np.float64, shape=shape)
-        with part.open("rb") as file:
-            np.lib.format.read_magic(file)
-            np.lib.format.read_array_header_1_0(file)
-            self._start = file.tell()
-        self._part, self._file = part, part.open("r+b")
+        self._path, self._part = path, path.with_name(f"{PART}{path.name}")
+        np.lib.format.open_memmap(self._part, mode="w+", dtype=np.float64, shape=shape)
+        self._file = self._part.open("r+b")
+        np.lib.format.read_magic(self._file)
+        np.lib.format.read_array_header_1_0(self._file)
+        self._start = self._file.tell()
 
     def put(self, first: int, last: int, values: NDArray[Any]) -> None:
         data = np.ascontiguousarray(values, dtype=np.float64)

@@ -10,10 +10,10 @@ import numpy as np
 
 from ninedof.chunks import Arrays
 from ninedof.conditioning.conditioning import hexagonal_condition_number
+from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
-from ninedof.sweep.index import INDICES, Index
 
 __all__ = ["Variants"]
 
@@ -29,7 +29,7 @@ class Variants:
     length: float | str
 
     def study(self) -> Study:
-        """Return a study that knows the family; the swept variables are free in it."""
+        """Return a study of the family; the swept variables are free in it."""
         return Study(self.family, variables=self.design)
 
     def question(self) -> dict[str, Any]:
@@ -55,10 +55,10 @@ class Variants:
         return dict(out)
 
     def has_closed_form(self, index: Index, swept: Iterable[str]) -> bool:
-        """Tell whether the core has a vector kernel for an index: the hexagonal family without a twist."""
+        """Return whether the closed form gives an index: the condition number of hexagonal designs without a twist."""
         untwisted = "theta_z" not in swept and self.design.get("theta_z", 0.0) == 0.0
         own = isinstance(self.length, float) and self.family == "hexagonal" and untwisted
-        return own and index == INDICES["condition_number"]  # equal, not the same: it may come from another process
+        return own and index == INDICES["condition_number"]  # `is` fails: it may come from another process
 
     def _closed_form(self, at: dict[str, Floats], count: int, threads: int | None) -> Floats:
         columns = {n: np.broadcast_to(at.get(n, self.design.get(n, np.nan)), count) for n in HEXAGONAL}

@@ -1,4 +1,4 @@
-"""The work of a sweep: a grid, what its points stand for, and what is computed there."""
+"""The work of a sweep: a grid, the robots at its points, and the indices computed there."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ninedof import _core
-from ninedof.chunks import Arrays
+from ninedof.chunks import Arrays, run
+from ninedof.design.indices import Index
 from ninedof.support.arrays import Floats
+from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
-from ninedof.sweep.index import Index, identity
+from ninedof.sweep.index import identity
 from ninedof.sweep.result import SweepResult
+from ninedof.sweep.sink import Sink
 
-__all__ = ["GridTask", "GridWork", "Subject", "versions"]
+__all__ = ["GridTask", "GridWork", "Subject"]
 
 
 class Subject(Protocol):
-    """What the points of a grid stand for."""
+    """The robots at the points of a grid."""
 
     def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
         """Return the indices at n points, given by the value of each swept variable."""
@@ -48,7 +49,7 @@ class GridTask:
 
 @dataclass(frozen=True, eq=False)
 class GridWork:
-    """All of it."""
+    """The indices at all points of a grid."""
 
     subject: Subject
     grid: Grid
@@ -58,36 +59,30 @@ class GridWork:
 
     @property
     def points(self) -> int:
-        """Return how many there are."""
+        """Return the number of points."""
         return self.grid.points
 
     def task(self, first: int, last: int) -> GridTask:
-        """Return the work on points first ... last - 1, with no more of the axes than it needs."""
+        """Return the work on points first ... last - 1, with only the axis values that it needs."""
         return GridTask(self.subject, self.grid.part(first, last), self.indices, first, last, self.threads)
 
     def question(self) -> dict[str, Any]:
-        """Return what the values depend on. The version is part of it: chunks of two versions do not mix."""
-        return {
-            **self.subject.question(),
-            "over": [axis.question() for axis in self.grid.axes],
-            "index": [identity(i) for i in self.indices],
-            "ninedof": _core.version,
-        }
+        """Return what the values depend on."""
+        return {**self._points(), "index": [identity(i) for i in self.indices]}
 
-    def labelled(self, arrays: Mapping[str, NDArray[Any]], units: Mapping[str, str]) -> SweepResult:
-        """Return the arrays with their labels."""
+    def _points(self) -> dict[str, Any]:
+        return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
+
+    def result(self, units: Mapping[str, str], **options: Any) -> SweepResult:
+        """Compute everything and return it with its labels; options as of `chunks.run`."""
+        sink = Sink(self.indices, self.grid.shape)
+        run(self, sink.begin, **options)
         swept = tuple(axis.name for axis in self.grid.axes)
-        dims = {i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices}
-        labels = {i.dimension: np.array(i.labels) for i in self.indices if i.dimension}
+        labels = {i.dimension: np.array(i.components) for i in self.indices if i.dimension}
         return SweepResult(
-            arrays=arrays,
-            dims=dims,
+            arrays=sink.arrays(),
+            dims={i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices},
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: units[name] for name in swept} | {i.name: i.unit for i in self.indices},
-            attributes={**self.subject.question(), "index": [i.name for i in self.indices], **versions()},
+            attributes={**self._points(), "index": [i.name for i in self.indices], **versions()},
         )
-
-
-def versions() -> dict[str, str]:
-    """Return the versions the values depend on."""
-    return {"ninedof": _core.version, "numpy": np.__version__}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import asdict, dataclass, fields
 from enum import StrEnum
@@ -11,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays
-from ninedof.chunks.npz import read_npz, write_npz
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays, read_npz, write_npz
+from ninedof.support.json import decode, encode
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
 
 __all__ = ["WorkspaceMap", "WorkspaceStatus"]
@@ -198,7 +197,7 @@ class WorkspaceMap:
                 words[field.name] = asdict(value)
             elif field.name != "cells":
                 words[field.name] = value
-        return write_npz(path, {"words": np.array(json.dumps(words)), **arrays}, compressed=True)
+        return write_npz(path, {"words": np.array(encode(words, indent=None)), **arrays}, compressed=True)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> WorkspaceMap:
@@ -220,7 +219,7 @@ class WorkspaceMap:
     def _made(cls, contents: Arrays) -> WorkspaceMap:
         """Return the map stored as these arrays; raise for arrays of another file."""
         data: dict[str, Any] = dict(contents)
-        words = json.loads(str(data.pop("words")))
+        words = decode(str(data.pop("words")))
         if words.pop("format") != FORMAT or tuple(words.pop("limit_names")) != LIMITS:
             raise ValueError
         cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))

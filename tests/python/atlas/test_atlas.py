@@ -1,4 +1,4 @@
-"""The atlas: its sequence, its counting, its best designs, and that none of them beats the proved optimum."""
+"""The atlas: its sequence, its histogram, its best designs; none of them is better than the proved optimum."""
 
 import os
 import signal
@@ -59,7 +59,7 @@ def test_the_closed_form_against_lapack(all_designs, kappas):
     np.testing.assert_allclose(sample.closed_form(all_designs) / kappas, 1.0, rtol=0.0, atol=1e-8)
 
 
-def test_every_design_is_counted_where_it_belongs(found, all_designs, kappas):
+def test_every_design_is_counted_in_its_bin(found, all_designs, kappas):
     ratio = np.sqrt(squared_radius_ratio(all_designs))
     rows = np.searchsorted(RATIO_EDGES, ratio, side="right") - 1
     columns = np.searchsorted(CONDITION_EDGES, kappas, side="right") - 1
@@ -91,7 +91,7 @@ def test_the_radius_ratio_is_that_of_the_studies(all_designs):
         assert radii[0] / radii[1] == pytest.approx(np.sqrt(squared), rel=1e-12)
 
 
-def test_no_design_beats_the_proved_optimum():
+def test_no_design_is_better_than_the_proved_optimum():
     found = nd.atlas(2_000_000, seed=1)
     up_to_two = found["best"][: int(np.searchsorted(RATIO_EDGES, 2.0))]
     assert OPTIMUM < np.nanmin(up_to_two) < 1.1 * OPTIMUM
@@ -113,7 +113,7 @@ def test_steps_are_powers_of_the_root():
         assert abs(step - 2**64 / low ** (k + 1)) <= 1
 
 
-def test_designs_by_number_are_the_same_wherever_they_are_asked_for():
+def test_designs_by_number_do_not_depend_on_the_chunk():
     drawn = Sample(7, bounds_of(None))
     whole = drawn.designs(10**11, 10**11 + 1000)
     parts = [drawn.designs(10**11 + k, 10**11 + min(k + 77, 1000)) for k in range(0, 1000, 77)]
@@ -124,7 +124,7 @@ def test_designs_by_number_are_the_same_wherever_they_are_asked_for():
 
 @pytest.mark.parametrize("first", [0, 10**12])
 def test_designs_fill_their_bounds_evenly(first):
-    """In every direction and every pair of them, closer to uniform than chance would be, also very far out."""
+    """In every variable and every pair, closer to uniform than random numbers, also at large numbers."""
     bounds = {"a1": (1.0, 3.0), "zp": (2.0, 4.0), "zs_fraction": (0.25, 0.75)}
     x = Sample(0, bounds_of(bounds)).designs(first, first + 65536)
     unit = np.stack(
@@ -177,7 +177,7 @@ def test_tallies_add_up_in_any_order_and_ties_go_to_the_first():
     assert (total.number[row], total.best[row], total.histogram.sum()) == (0, 5.0, 800)
 
 
-def test_what_is_out_of_range_is_counted_in_the_outermost_bins():
+def test_values_out_of_range_are_counted_in_the_outermost_bins():
     tally = Tally()
     squared = np.array([0.0, 1e-9, 1e9, np.inf, np.nan, 1.0, 1.0])
     kappa = np.array([1.0, 2.0, 3.0, 4.0, np.inf, np.inf, np.nan])
@@ -190,8 +190,8 @@ def test_what_is_out_of_range_is_counted_in_the_outermost_bins():
     assert tally.number[64 + 1] == -1, "nothing singular is best"
 
 
-def test_taken_up_after_a_kill(tmp_path, found):
-    """SIGKILL in the middle of a write; what was finished is not computed again."""
+def test_a_killed_atlas_is_resumed(tmp_path, found):
+    """SIGKILL in the middle of a write; finished chunks are not computed again."""
     out = tmp_path / "out"
     code = f"""
 import os, signal, ninedof as nd
@@ -267,7 +267,7 @@ def test_bad_input_is_named(options, words):
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("flat", ["a1 a2", "b1 b2", "a1 a2 b1 b2", "zp", "a1 a2 b1 b2 zp"])
-def test_plates_of_no_size_are_counted_without_a_word(flat):
+def test_plates_of_size_0_are_counted_without_a_warning(flat):
     found = nd.atlas(1000, bounds=dict.fromkeys(flat.split(), (0.0, 0.0)))
     assert found["histogram"].sum() == 1000
 

@@ -1,4 +1,4 @@
-"""Finished chunks are kept whatever happens: kills, cuts, swapped files, other questions, other runs."""
+"""Finished chunks survive kills, damaged files, other questions and other runs."""
 
 import hashlib
 import json
@@ -52,8 +52,8 @@ def child(folder, notes, before=""):
 
 
 @pytest.mark.slow
-def test_killed_again_and_again_and_taken_up(tmp_path, expected, monkeypatch):
-    """SIGKILL at random moments. What was finished is never computed again, and the end is the same to the last bit."""
+def test_a_sweep_killed_many_times_is_resumed(tmp_path, expected, monkeypatch):
+    """SIGKILL at random moments. Finished chunks are not computed again, and the result has the same bits."""
     folder, notes = tmp_path / "out", tmp_path / "notes"
     moments = random.Random(5)
     kills = computed_before_the_end = 0
@@ -137,7 +137,7 @@ def test_a_kill_between_write_and_rename_leaves_no_chunk(tmp_path, expected, mon
     Store(tmp_path, QUESTION, 20).close()
 
 
-def test_leftovers_of_a_kill_are_swept_up(tmp_path, expected):
+def test_leftovers_of_a_kill_are_removed(tmp_path, expected):
     asked(tmp_path)
     (tmp_path / ".part-chunk-00000003-abcd").write_bytes(b"half")
     chunks(tmp_path)[3].unlink()
@@ -188,10 +188,11 @@ def test_a_damaged_chunk_is_computed_again_and_no_other(tmp_path, damage, expect
     assert [p.read_text() for p in notes.iterdir()] == [repr(firsts()[7])]
 
 
-def test_a_chunk_with_the_right_digest_and_wrong_contents_is_no_chunk(tmp_path):
+def test_a_chunk_with_the_right_digest_and_wrong_contents_is_not_read(tmp_path):
     with Store(tmp_path, QUESTION, 20) as store:
         payload = b"not an archive"
-        digest = hashlib.sha256(f"{fingerprint(QUESTION)} 0 ".encode() + payload).digest()
+        asked = fingerprint({**QUESTION, "ninedof": nd.__version__})
+        digest = hashlib.sha256(f"{asked} 0 ".encode() + payload).digest()
         store.path(0).write_bytes(b"ninedof chunk 1\n" + digest + payload)
         assert store.read(0) is None
         store.write(0, {"a": np.arange(3.0)})
@@ -215,7 +216,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("entry", OTHERS)
-def test_a_folder_answers_one_question(tmp_path, entry, expected):
+def test_a_folder_refuses_another_question(tmp_path, entry, expected):
     asked(tmp_path)
     before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     with pytest.raises(
@@ -234,7 +235,7 @@ def test_another_version_is_another_question(tmp_path, monkeypatch):
         asked(tmp_path)
 
 
-def test_the_chunks_there_are_set_the_size(tmp_path, expected):
+def test_the_chunk_size_of_a_folder_is_kept(tmp_path, expected):
     asked(tmp_path)
     assert nd.sweep(G, HOME, GRID, out=tmp_path, chunk=64)["condition_number"].tobytes() == expected.tobytes()
     assert len(chunks(tmp_path)) == 20
@@ -253,7 +254,7 @@ def test_the_chunks_there_are_set_the_size(tmp_path, expected):
         ),
     ],
 )
-def test_a_folder_of_something_else_is_left_alone(tmp_path, name, text, words):
+def test_a_folder_of_other_files_is_refused_and_not_changed(tmp_path, name, text, words):
     (tmp_path / name).write_text(text)
     with pytest.raises(ValueError, match=words):
         asked(tmp_path)
@@ -261,13 +262,13 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, name, text, words):
     assert not chunks(tmp_path)
 
 
-def test_a_file_is_no_folder(tmp_path):
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path):
     (tmp_path / "file").write_text("mine")
     with pytest.raises(ValueError, match=r"out: got .*file, which cannot be created"):
         asked(tmp_path / "file")
 
 
-def test_a_nameless_index_cannot_be_kept(tmp_path):
+def test_an_index_without_a_name_cannot_be_kept(tmp_path):
     with pytest.raises(ValueError, match=r"index: got <function .*expected a function with a name of its own"):
         nd.sweep(G, HOME, GRID, lambda g, c, lc: nd.condition_number(g, c, lc), out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
@@ -281,14 +282,14 @@ def test_two_runs_do_not_share_a_folder(tmp_path):
         deadline = time.monotonic() + 60.0
         while not chunks(tmp_path / "out") and time.monotonic() < deadline:
             time.sleep(0.002)
-        process.send_signal(signal.SIGSTOP)  # it must not finish while we look
-        with pytest.raises(ValueError, match="where another run is at work"):
+        process.send_signal(signal.SIGSTOP)  # it must not finish during the test
+        with pytest.raises(ValueError, match="which another run is using"):
             asked(tmp_path / "out")
     finally:
         process.kill()
         process.wait()
         process.stderr.close()
-    with pytest.raises(ValueError, match="another question"):  # a killed run holds nothing
+    with pytest.raises(ValueError, match="another question"):  # a killed run holds no lock
         asked(tmp_path / "out")
 
 
@@ -296,7 +297,7 @@ def test_two_stores_of_one_process_do_not_share_a_folder(tmp_path):
     with Store(tmp_path / "out", QUESTION, 20):
         (tmp_path / "link").symlink_to(tmp_path / "out")
         for name in ("out", "link"):
-            with pytest.raises(ValueError, match="where another run is at work"):
+            with pytest.raises(ValueError, match="which another run is using"):
                 Store(tmp_path / name, QUESTION, 20)
         with Store(tmp_path / "other", QUESTION, 20):
             pass

@@ -151,7 +151,7 @@ def test_evaluate_published_design(capsys):
     data = json.loads(out)
     assert status == 0
     assert data["condition_number"] == pytest.approx(3.9110, abs=5e-5)
-    assert data["reciprocal"] == pytest.approx(1.0 / data["condition_number"])
+    assert data["reciprocal_condition_number"] == pytest.approx(1.0 / data["condition_number"])
     assert len(data["singular_values"]) == 6
     kinds = data["characteristic_lengths"]
     assert min(kinds.values(), key=lambda k: k["condition_number"]) == kinds["optimal"]
@@ -162,7 +162,7 @@ def test_evaluate_a_singular_design(capsys):
     data = json.loads(out)
     assert status == 0
     assert data["condition_number"] == "inf"
-    assert data["reciprocal"] == 0.0
+    assert data["reciprocal_condition_number"] == 0.0
     assert data["singular"] is True
 
 

@@ -10,7 +10,7 @@ import pytest
 import ninedof as nd
 from ninedof import poses
 from ninedof.optimize.prices import price_words
-from ninedof.runs.records import describe_result, to_json
+from ninedof.support.json import encode
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
 STUDY = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective=POSES, starts=8)
@@ -76,6 +76,6 @@ def test_prices_of_bounds_state_which_bound(result):
 
 
 def test_a_result_can_be_written(result):
-    text = to_json(describe_result(result))
+    text = encode(result.to_dict())
     for entry in ("objective", "conditions", "characteristic_length", "prices", "confidence", "runs_abandoned"):
         assert f'"{entry}"' in text

@@ -294,7 +294,7 @@ def test_nothing_leaves_the_figure(make):
 def test_failed_save_leaves_nothing(tmp_path):
     class Broken(Figure):
         def savefig(self, fname, **options):
-            fname.write_bytes(b"half a fi")
+            fname.write(b"half a fi")
             raise OSError("no space left on device")
 
     (tmp_path / "figure.png").write_bytes(b"the old one")

@@ -1,4 +1,4 @@
-"""Design files: a robot and where it stands, told by hand."""
+"""Design files: a geometry and a configuration written by hand."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_hexagonal_design(tmp_path):
     assert indices(design)["condition_number"] == pytest.approx(3.9110, abs=5e-5)
 
 
-def test_the_mark_before_utf_8_is_read_over(tmp_path):
+def test_a_byte_order_mark_is_skipped(tmp_path):
     file = tmp_path / "design.toml"
     file.write_bytes(b"\xef\xbb\xbf" + (HEXAGON + NEUTRAL).encode())
     assert load_design(file) == load(tmp_path, HEXAGON + NEUTRAL)

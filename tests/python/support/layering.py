@@ -61,7 +61,17 @@ PYTHON_ROOMS = (
     "cli",
     "__main__",
 )
-CORE_USERS = {"robot", "conditioning", "kinematics", "position", "singularity", "statics", "redundancy", "design"} | {
+CORE_USERS = {
+    "support",
+    "robot",
+    "conditioning",
+    "kinematics",
+    "position",
+    "singularity",
+    "statics",
+    "redundancy",
+    "design",
+} | {
     "optimize",
     "workspace",
     "sweep",

@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 from sweep_work import HOME, G
 
 import ninedof as nd
+from ninedof.design.indices import computed
 from ninedof.sweep.axis import Axis, axes_of
-from ninedof.sweep.index import INDICES
 from ninedof.sweep.poses import best_block
 
 TURNED = nd.Configuration([0.3, -0.2, 4.1], Rotation.from_rotvec([0.1, -0.3, 0.4]), [0.1, 0.25, 2.2])
@@ -75,8 +75,8 @@ def test_displacements(grid, rule):
 
 
 @pytest.mark.parametrize("grid", GRIDS)
-def test_coordinates_themselves(grid):
-    """A swept theta takes the place of the rotation at home; without one the home's stays."""
+def test_absolute_coordinates(grid):
+    """A swept theta replaces the rotation at home; without one that stays."""
     over = {n: [v + {"z_p": 4.0, "z_s": 2.0}.get(n, 0.0) for v in values] for n, values in GRIDS[grid].items()}
     found = nd.sweep(G, TURNED, over, relative=False)
     np.testing.assert_allclose(found["condition_number"], kappa(robot(TURNED, over, relative=False)), rtol=1e-9)
@@ -84,7 +84,7 @@ def test_coordinates_themselves(grid):
     assert moved == pytest.approx(nd.condition_number(G, TURNED), rel=1e-12)
 
 
-def test_carried_coordinates_with_a_turn_follow_the_platform():
+def test_a_carried_o_follows_the_rotation_of_the_platform():
     over = {"theta_y": [0.2, -0.4], "x_p": [0.5]}
     found = nd.sweep(G, TURNED, over, relative=False, internal_point="carried")
     expected = kappa(robot(TURNED, over, relative=False, rule="carried"))
@@ -103,15 +103,16 @@ def test_every_index():
         "condition_number_frobenius": np.sqrt((sigma**2).sum(-1) * (sigma**-2).sum(-1)),
         "reciprocal_condition_number": sigma[..., -1] / sigma[..., 0],
         "manipulability": sigma.prod(-1),
+        "speed": 1.0 / sigma[..., -1],
         "isotropy_residual": np.linalg.norm(JJ - mean, axis=(-2, -1)) / np.linalg.norm(mean, axis=(-2, -1)),
         "singular_values": sigma,
         "leg_lengths": lengths,
         "leg_ratio": lengths.max(-1) / lengths.min(-1),
         "singularity_margins": margins(m),
     }
-    assert set(expected) == set(INDICES)
-    found = nd.sweep(G, TURNED, over, list(INDICES), characteristic_length=1.7, chunk=4)
-    assert list(found) == list(INDICES)
+    assert set(expected) == set(computed())
+    found = nd.sweep(G, TURNED, over, list(computed()), characteristic_length=1.7, chunk=4)
+    assert list(found) == list(computed())
     for name, values in expected.items():
         np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-12, err_msg=name)
     assert found["leg"].tolist() == "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
@@ -130,15 +131,14 @@ def margins(m):
 def test_a_length_kind_is_taken_at_each_pose():
     over = {"x_p": [0.0, 0.6], "theta_z": [0.0, 0.4]}
     found = nd.sweep(G, HOME, over, characteristic_length="optimal")["condition_number"]
-    for k, m in np.ndenumerate(np.empty((2, 2))):
-        del m
+    for k in np.ndindex(2, 2):
         c = HOME.moved([0, 0, over["theta_z"][k[1]], over["x_p"][k[0]], 0, 0, 0, 0, 0])
         assert found[k] == pytest.approx(
             float(nd.condition_number(G, c, nd.characteristic_length(G, c, "optimal"))), rel=1e-12
         )
 
 
-def test_o_where_it_is_best():
+def test_the_best_o_is_no_worse_than_a_held_one():
     over = {"x_p": (0.0, 1.2, 3), "theta_y": (0.0, 0.3, 2)}
     best, held = (nd.sweep(G, HOME, over, internal_point=rule)["condition_number"] for rule in ("best", "held"))
     assert (best <= held * (1.0 + 1e-9)).all()
@@ -149,7 +149,7 @@ def test_o_where_it_is_best():
         nd.sweep(G, HOME, {"x_p": [0.0]}, internal_point="best", characteristic_length="optimal")
 
 
-def test_an_own_index():
+def test_an_index_of_the_caller():
     def span(g, c, lc):
         return np.linalg.norm(c.position - c.internal_point, axis=-1) * lc
 
@@ -196,7 +196,7 @@ def test_chunks_threads_and_executors_change_nothing_where_o_is_best():
     assert found.tobytes() == whole.tobytes()
 
 
-def test_a_best_sweep_stopped_after_a_block_goes_on(tmp_path):
+def test_a_sweep_with_the_best_o_is_resumed_after_a_block(tmp_path):
     def stop(done, total, seconds):
         if done:
             raise InterruptedError
@@ -212,7 +212,7 @@ def test_a_best_sweep_stopped_after_a_block_goes_on(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_best_sweep_is_no_worse_than_searching_each_pose():
+def test_a_sweep_with_the_best_o_is_no_worse_than_a_search_at_each_pose():
     p, q, _ = poses(TURNED, {name: np.linspace(*ends).tolist() for name, ends in MANY.items()})
     each = nd.best_internal_point(G, p, q)
     found = nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"]
@@ -225,7 +225,7 @@ def test_a_best_sweep_is_no_worse_than_searching_each_pose():
     [({"x_p": (0.0, 0.1, 5000)}, 2048), ({"x_p": [0.0, 0.1], "y_p": (0.0, 0.1, 3000)}, 2048), (MANY, 18 * 3 * 37)],
 )
 def test_blocks_of_the_best_o_depend_on_the_grid_alone(over, size):
-    """Rows longer than a block are cut, shorter ones put together; what is told of the question says so."""
+    """Longer rows are cut, shorter ones joined; the attributes name the block."""
     block = best_block(axes_of(over, NAMES).shape)
     assert math.prod(block) == size
     found = nd.sweep(G, HOME, {"x_p": (0.0, 0.1, 3), "y_p": (0.0, 0.1, 2)}, internal_point="best")
@@ -291,7 +291,7 @@ def test_bad_options_are_named(words, tmp_path):
     assert not (tmp_path / "out").exists(), "bad input leaves no folder"
 
 
-def test_a_stack_is_no_home():
+def test_a_stack_as_home_is_refused():
     with pytest.raises(ValueError, match="configuration: got a stack"):
         nd.sweep(G, nd.Configuration.neutral(4.0, [2.0, 2.1]), {"x_p": [0.0]})
     with pytest.raises(ValueError, match="geometry: got Configuration"):
@@ -441,7 +441,7 @@ def test_as_xarray(labelled):
     assert found.attrs["ninedof"] == nd.__version__
 
 
-def test_without_xarray_it_says_what_to_install(labelled, monkeypatch):
+def test_without_xarray_the_error_says_what_to_install(labelled, monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "xarray", None)

@@ -42,8 +42,8 @@ def test_figure_6_is_nine_sweeps_of_one_coordinate(six):
         np.testing.assert_allclose(six["condition_number"][k], alone, rtol=1e-12)
 
 
-def test_figure_6_says_what_the_paper_says_and_where_it_is_wrong(six):
-    """On the axis is best: true of x and y of p and O. A turn about z and a higher platform are better than neutral."""
+def test_figure_6_against_the_statements_of_the_paper(six):
+    """On the axis is best: true for x and y of p and O. A yaw and a higher platform are better than neutral."""
     curves = dict(zip(six["coordinate"].tolist(), six["condition_number"], strict=True))
     middle = curves["x_p"][100]
     assert middle == pytest.approx(3.9070663, abs=5e-7)
@@ -59,7 +59,7 @@ def test_figure_6_says_what_the_paper_says_and_where_it_is_wrong(six):
 # --- Fig. 7 -----------------------------------------------------------------------------------------------------------
 
 
-def test_figure_7_is_one_study_a_point(seven):
+def test_figure_7_is_symmetric_and_falls_above_1(seven):
     assert seven["sides"].tolist() == ["a1/a2", "b1/b2"]
     ratio, kappa = seven["ratio"], seven["condition_number"]
     assert (ratio[0], ratio[16], ratio[-1]) == (1 / 16, 1.0, 16.0)
@@ -83,7 +83,7 @@ def test_designs_of_figure_7_keep_ratio_limit_and_value(seven):
 
 @pytest.mark.parametrize("side", [0, 1])
 @pytest.mark.parametrize("k", [16, 20, 28])
-def test_figure_7_by_another_way(seven, side, k):
+def test_figure_7_against_a_scan(seven, side, k):
     """l_c = 1 and the size of the held pair scanned, then narrowed: no free length, no scaling argument."""
     first, second = (("a1", "a2"), ("b1", "b2"))[side]
     ratio = float(seven["ratio"][k])
@@ -170,12 +170,18 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
         np.testing.assert_array_equal(shown, np.isfinite(first.T))
 
 
-def test_what_is_singular_everywhere_is_drawn_too():
-    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": (-0.5, 0.5, 3)}))
-    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435]}))
+def test_a_sweep_that_is_singular_everywhere_is_drawn_without_values():
+    """A map of grey cells only, and a curve of NaN."""
+    found = nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": [-0.5, 0.0, 0.5]})
+    assert np.isinf(found["condition_number"]).all()
+    drawn = plot.sweep(found).axes[0].collections[0].get_array()
+    assert drawn.shape == (3, 1)
+    assert np.ma.getmaskarray(drawn).all()
+    (curve,) = lines(plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435]})))
+    assert np.isnan(curve.get_ydata()).all()
 
 
-def test_a_name_that_is_not_there():
+def test_an_unknown_index_is_not_drawn():
     with pytest.raises(ValueError, match="name: got 'kappa', expected one of condition_number"):
         plot.sweep(nd.sweep(G, HOME, {"x_p": [0.0]}), "kappa")
 
@@ -210,7 +216,7 @@ def test_sweep_over_poses(here, capsys):
     assert status == 0
     assert "leg ratio" in out
     names = {p.name for p in (here / "run").iterdir()}
-    assert names == {"chunks", "sweep.npz", "sweep.png", "sweep.svg"}
+    assert names == {"chunks", "record.json", "sweep.npz", "sweep.png", "sweep.svg"}
     found = nd.SweepResult.load("run/sweep.npz")
     home = nd.Configuration.neutral(paper.ZP, paper.published_zs()[2])
     degrees = np.radians([-30.0, 0.0, 30.0])
@@ -218,7 +224,7 @@ def test_sweep_over_poses(here, capsys):
     assert found["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
 
 
-def test_sweep_speaks_json(here, capsys):
+def test_sweep_prints_json(here, capsys):
     status, out, err = run(capsys, "sweep --over x_p=-1:1:5 --json --no-figures --out run")
     assert status == 0
     data = json.loads(out)
@@ -262,23 +268,27 @@ def test_the_atlas_command(here, capsys, monkeypatch):
     status, out, _ = run(capsys, "atlas --designs 50000 --out run")
     assert status == 0
     assert "best of all designs" in out
-    assert {p.name for p in (here / "run").iterdir()} == {"chunks", "atlas.npz", "atlas.png", "atlas.svg"}
+    names = {p.name for p in (here / "run").iterdir()}
+    assert names == {"chunks", "record.json", "atlas.npz", "atlas.png", "atlas.svg"}
     np.testing.assert_allclose(marked, [(2.0, 3.762659078596)], rtol=1e-9)  # docs/values.md
     data = json.loads(run(capsys, "atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
     assert data["atlas"]["designs"] == 50000
     assert {"radius_ratio", "condition_number", "design"} == set(data["atlas"]["best"][0])
 
 
-def test_the_bar_says_how_long_it_takes(capsys):
+def test_the_bar_shows_the_time_to_go(capsys):
+    """At the pace of the last points: 10 of 100 every 10 s, so 80 s after 20 of them."""
     from ninedof.cli.commands.screen import Screen
 
-    with Screen(False).points("over x_p") as bar:
-        bar.show(0, 100, float("nan"))
-        bar.show(50, 100, 3725.2)
+    screen, now = Screen(False), [0.0]
+    screen.progress_console.get_time = lambda: now[0]
+    with screen.points("over x_p") as bar:
+        for now[0], done in ((0.0, 0), (10.0, 10), (20.0, 20)):
+            bar.show(done, 100, None)
     shown = capsys.readouterr().err
     assert "over x_p" in shown
-    assert "50 %" in shown
-    assert "1:02:06 to go" in shown
+    assert "20 %" in shown
+    assert "0:01:20 to go" in shown
 
 
 BAD = {
@@ -338,15 +348,15 @@ def test_bad_input_ends_in_one_line_and_status_2(here, capsys, line):
     assert (here / "mine").exists()
 
 
-def test_without_dask_it_says_what_to_install(here, capsys, monkeypatch):
+def test_without_dask_the_error_says_what_to_install(here, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     status, _, err = run(capsys, "sweep --over x_p=0:1:3 --scheduler tcp://127.0.0.1:1 --out run")
     assert status == 2
     assert "pip install 'ninedof[cluster]'" in " ".join(err.split())
 
 
-def test_an_interrupted_command_is_taken_up(here, capsys):
-    """Ctrl-C: status 130, what is kept is said, --resume goes on; the other options must be the same."""
+def test_an_interrupted_command_is_resumed(here, capsys):
+    """Ctrl-C: status 130, a message names the kept chunks, --resume goes on with the same other options."""
     line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "4001", "--out", "run", "--no-figures"]
     process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60

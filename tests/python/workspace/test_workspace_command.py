@@ -41,8 +41,8 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
         "workspace.svg",
     }
     record = json.loads((tmp_path / "run" / "record.json").read_text())
-    assert record["workspace"]["volume"] == numbers["volume"]
-    assert record["asked"]["criteria"]["leg_limits"] == [2.5, 6.5]
+    assert record["results"]["workspace"]["volume"] == numbers["volume"]
+    assert record["question"]["criteria"]["leg_limits"] == [2.5, 6.5]
     assert nd.WorkspaceMap.load(tmp_path / "run" / "map.npz").volume == numbers["volume"]
 
 
@@ -125,7 +125,7 @@ def test_ctrl_c_before_the_first_level_leaves_a_record(tmp_path, capsys, monkeyp
 def test_the_command_starts_from_the_published_design_at_its_best(tmp_path, capsys):
     code, _ = run(["--legs", "0", "1", "--json", "--no-figures", "--out", str(tmp_path / "run")], capsys)
     assert code == 3
-    asked = json.loads((tmp_path / "run" / "record.json").read_text())["asked"]
+    asked = json.loads((tmp_path / "run" / "record.json").read_text())["question"]
     zs = asked["home"]["internal_point"][2]
     heights = nd.Configuration.neutral(asked["home"]["position"][2], zs + np.array([-1e-4, 0.0, 1e-4]))
     around = nd.condition_number(nd.Geometry(**asked["geometry"]), heights)

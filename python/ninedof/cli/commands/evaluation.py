@@ -6,10 +6,12 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 from rich.table import Table
 
 from ninedof.cli.commands.screen import DONE, Screen
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.design.indices import computed
 from ninedof.runs.design_file import Design, hexagonal_design, indices, load_design
 
 
@@ -25,15 +27,15 @@ def evaluate(
     table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
     table.add_column(justify="right")
-    for name in ("condition_number", "reciprocal", "condition_number_frobenius", "manipulability", "isotropy_residual"):
-        if name in values:
-            table.add_row(name.replace("_", " "), f"{values[name]:.6f}")
+    for name, index in computed().items():
+        if name in values and name not in ("singular_values", "leg_lengths"):
+            table.add_row(index.words, "  ".join(f"{value:.6f}" for value in np.atleast_1d(values[name])))
     table.add_row("characteristic length", f"{values['characteristic_length']:.6f}", end_section=True)
     for k, value in enumerate(values["singular_values"]):
         table.add_row(f"singular value {k + 1} of J'", f"{value:.6f}", end_section=k == 5)
     for kind, lengths in values["leg_lengths"].items():
         table.add_row(f"legs {kind}1 {kind}2 {kind}3", "  ".join(f"{v:.6f}" for v in lengths))
-    table.add_row("longest / shortest leg", f"{values['leg_ratio']:.6f}", end_section=True)
+    table.add_section()
     for kind, found in values["characteristic_lengths"].items():
         if math.isfinite(found["length"]):
             table.add_row(f"at the {kind} length {found['length']:.6f}", f"k = {found['condition_number']:.6f}")

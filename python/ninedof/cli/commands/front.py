@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,8 +14,8 @@ from ninedof.cli.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
-from ninedof.runs import job
-from ninedof.runs.front_records import write_front
+from ninedof.runs.directory import new_directory
+from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def pareto(
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
-    directory = job.new_directory(out)
+    directory = new_directory(out)
     name = "the paper's problem" if study is None else study.name
     with screen.progress(f"{name}, {against}") as bar:
         front = trace_front(
@@ -68,14 +69,9 @@ def pareto(
     screen.print(front_table(front))
     if front.interrupted:
         screen.print("[bold]interrupted[/bold]: what was found until then is kept")
-    record = write_front(front, directory)
-    if figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits):
-        screen.say("drawing the front")
-        record = write_front(front, directory, tuple(path.name for path in _draw(front, directory)))
-    screen.print(
-        f"run folder {record.parent}: {record.name}"
-        + (", figure front (PNG and SVG)" if (record.parent / "front.png").exists() else "")
-    )
+    drawn = figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
+    record = write_run(front, directory, partial(_draw, front, screen) if drawn else None)
+    screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if drawn else ""))
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:
         return INTERRUPTED
@@ -105,7 +101,8 @@ def front_table(front: Front) -> Table:
     return table
 
 
-def _draw(front: Front, directory: Path) -> list[Path]:
+def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
+    screen.say("drawing the front")
     from ninedof import plot
     from ninedof.plot.front import front as front_figure
 

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ninedof.cli.commands.screen import Screen
-from ninedof.runs import job
+from ninedof.runs.directory import run_directory
+from ninedof.runs.folder import write_run
 from ninedof.support.extras import MissingExtra
 from ninedof.sweep import SweepResult
 from ninedof.sweep.cluster import dask_executor
@@ -26,7 +27,7 @@ CHUNKS = "chunks"
 def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
     """Give a new run folder, or that of an interrupted run."""
     if not resume:
-        with job.run_directory(out) as directory:
+        with run_directory(out) as directory:
             yield directory
         return
     if out is None:
@@ -55,14 +56,17 @@ def compute(
 def write(
     result: SweepResult, directory: Path, stem: str, draw: Callable[[], Figure] | None, screen: Screen, data: Any
 ) -> None:
-    """Write the result and its figure, and say where they are."""
-    record = result.save(directory / stem)
-    if draw is not None:
+    """Write the result, its record and its figure, and say where they are."""
+
+    def drawn(folder: Path) -> list[Path]:
         screen.say("drawing")
         from ninedof import plot
 
-        plot.save(draw(), directory, stem)
-    screen.print(f"run folder {directory}: {record.name}" + (f", figure {stem} (PNG and SVG)" if draw else ""))
+        return plot.save(draw(), folder, stem) if draw else []
+
+    record = write_run(result, directory, drawn if draw else None, results=data)
+    figure = f", figure {stem} (PNG and SVG)" if draw else ""
+    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{figure}")
     screen.data({**data, "record": str(record)})
 
 

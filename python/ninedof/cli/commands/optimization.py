@@ -13,8 +13,10 @@ from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result
 from ninedof.paper import paper as the_paper
-from ninedof.runs import job
-from ninedof.runs.records import describe_result
+from ninedof.runs.describe import describe_comparison
+from ninedof.runs.directory import new_directory
+from ninedof.runs.figures import figures_of
+from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 from ninedof.verify.verdict import check as examine
 
@@ -33,7 +35,7 @@ def optimize(
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
-    directory = job.new_directory(out)
+    directory = new_directory(out)
     if study is None:
         return _optimize_paper(chosen, directory, threads, figures, screen, check)
     return _optimize_study(chosen, study.name, directory, threads, figures, screen, check)
@@ -49,17 +51,9 @@ def _optimize_paper(
     if comparison.result.interrupted:
         screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
     checked = _checked(comparison.result, check, screen)
-    record = job.record_comparison(comparison, directory, figures, screen.say)
+    record = write_run(comparison, directory, figures_of(comparison, screen.say) if figures else None)
     _say_where(screen, record)
-    screen.data(
-        {
-            "designs": [job.describe_row(row) for row in comparison.rows()],
-            "why": comparison.why,
-            "optimization": describe_result(comparison.result),
-            "record": str(record),
-            **checked,
-        }
-    )
+    screen.data({**describe_comparison(comparison), "record": str(record), **checked})
     return exit_status(comparison.result)
 
 
@@ -78,9 +72,9 @@ def _optimize_study(
         for bound in applicable_bounds(result):
             screen.print(bound.sentence)
     checked = _checked(result, check, screen)
-    record = job.record_result(result, directory, figures, screen.say)
+    record = write_run(result, directory, figures_of(result, screen.say) if figures else None)
     _say_where(screen, record)
-    screen.data({"optimization": describe_result(result), "record": str(record), **checked})
+    screen.data({"optimization": result.to_dict(), "record": str(record), **checked})
     return exit_status(result)
 
 

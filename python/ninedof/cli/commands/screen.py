@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from ninedof.optimize.result import Result, Status
-from ninedof.runs.records import to_json
+from ninedof.support.json import encode
 
 DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, bad input, is the command line's
 
@@ -38,7 +38,7 @@ class Screen:
     def data(self, value: Any) -> None:
         """Print the machine-readable result, if it was asked for."""
         if self.json:
-            print(to_json(value))
+            print(encode(value))
 
     def say(self, doing: str) -> None:
         """Say what is being done besides solving."""

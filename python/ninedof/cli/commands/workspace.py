@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +18,9 @@ from ninedof.cli.commands.evaluation import length_option
 from ninedof.cli.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen, from_first_news
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.paper import paper
-from ninedof.runs import job
 from ninedof.runs.design_file import Design, hexagonal_design, load_design
-from ninedof.runs.workspace_records import write_workspace
+from ninedof.runs.directory import run_directory
+from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import WorkspaceMap
 from ninedof.workspace import workspace as find_workspace
@@ -62,21 +63,18 @@ def workspace(design: Path | None, options: WorkspaceOptions, out: Path | None, 
             if name in search:
                 raise ValueError(f"--{name}: got {search[name]}, expected none with --method grid")
     asked = _arguments(given, options) | search
-    with job.run_directory(out) as directory, _bar(screen, options.archetype.replace("_", " ")) as progress:
+    with run_directory(out) as directory, _bar(screen, options.archetype.replace("_", " ")) as progress:
         found = find_workspace(
             given.geometry, **asked, home=given.configuration, threads=options.threads, progress=progress
         )
     screen.print(_table(found))
     for sentence in _sentences(found):
         screen.print(sentence)
-    described = _describe(given, asked)
-    record = write_workspace(found, described, directory)
-    if figures and found.volume > 0.0 and not found.interrupted and found.method != "sample":
-        screen.say("drawing the workspace")
-        names = tuple(path.name for path in _draw(found, directory))
-        record = write_workspace(found, described, directory, names)
-    drawn = ", figure workspace (PNG and SVG)" if (directory / "workspace.png").exists() else ""
-    screen.print(f"run folder {directory}: {record.name}, map.npz{drawn}")
+    drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
+    record = write_run(found, directory, partial(_draw, found, screen) if drawn else None, _describe(given, asked))
+    screen.print(
+        f"run folder {directory}: {record.name}, map.npz" + (", figure workspace (PNG and SVG)" if drawn else "")
+    )
     screen.data({"workspace": found.to_dict(), "record": str(record)})
     if found.interrupted:
         return INTERRUPTED
@@ -202,7 +200,8 @@ def _sentences(found: WorkspaceMap) -> Iterator[str]:
         yield "the workspace runs to the box: in a larger one it would be larger"
 
 
-def _draw(found: WorkspaceMap, directory: Path) -> list[Path]:
+def _draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
+    screen.say("drawing the workspace")
     from ninedof import plot
 
     middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at

@@ -8,8 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.pareto import Front, pareto
-from ninedof.runs.front_records import load_front, write_front
-from ninedof.runs.records import Record, describe_result, write_record
+from ninedof.runs.folder import Record, load, write_record, write_run
 from ninedof.verify import check
 
 PAPER = nd.Study.paper()
@@ -24,9 +23,9 @@ def front():
 
 
 def test_a_front_is_read_back_as_it_was(front, tmp_path):
-    path = write_front(front, tmp_path, files=("front.png",))
+    path = write_run(front, tmp_path, lambda folder: [folder / "front.png"])
     for place in (path, tmp_path):
-        read = load_front(place)
+        read = load(place)
         assert isinstance(read, Front)
         assert read.table() == front.table()
         assert (read.study, read.against, read.limits) == (front.study, front.against, front.limits)
@@ -35,37 +34,34 @@ def test_a_front_is_read_back_as_it_was(front, tmp_path):
             assert one.candidates[0] == other.candidates[0]
             assert one.study == other.study
     assert json.loads(path.read_text())["files"] == ["front.png"]
-    assert check(load_front(path).results[1], perturbations=100).passed
+    assert check(load(path).results[1], perturbations=100).passed
 
 
-def test_a_front_with_nothing_in_it_is_read_back(tmp_path):
+def test_a_front_without_designs_is_read_back(tmp_path):
     found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
-    write_front(found, tmp_path)
-    assert load_front(tmp_path).limits == (math.inf,)
-    assert load_front(tmp_path).table() == found.table()
+    write_run(found, tmp_path)
+    assert load(tmp_path).limits == (math.inf,)
+    assert load(tmp_path).table() == found.table()
 
 
 def test_a_failed_write_leaves_the_old_front(front, tmp_path, monkeypatch):
-    path = write_front(front, tmp_path)
+    path = write_run(front, tmp_path)
     before = path.read_bytes()
 
     def broken(*_):
         raise OSError("disk full")
 
-    monkeypatch.setattr("pathlib.Path.replace", broken)
+    monkeypatch.setattr("os.replace", broken)
     with pytest.raises(OSError, match="disk full"):
-        write_front(front, tmp_path)
+        write_run(front, tmp_path)
     assert path.read_bytes() == before
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
-def test_other_records_are_refused(tmp_path):
-    write_record(Record(PAPER, {"optimization": describe_result(nd.optimize(PAPER))}), tmp_path)
-    with pytest.raises(ValueError, match="got a record without a front"):
-        load_front(tmp_path)
-    write_record(Record(PAPER, {"front": {"against": "radius_ratio"}}), tmp_path)
+def test_a_front_that_is_not_whole_is_refused(tmp_path):
+    write_record(Record("front", PAPER, {"front": {"against": "radius_ratio"}}), tmp_path)
     with pytest.raises(ValueError, match="got a front without 'rows'"):
-        load_front(tmp_path)
+        load(tmp_path)
 
 
 # --- The command ------------------------------------------------------------------------------------------------------
@@ -85,10 +81,10 @@ def test_the_command_prints_and_records(tmp_path, capsys):
         assert words in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
     assert names == {"record.json", "front.png", "front.svg"}
-    assert load_front(tmp_path / "run").limits == (1.5, 2.0)
+    assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
-def test_the_command_speaks_json(tmp_path, capsys):
+def test_the_command_prints_json(tmp_path, capsys):
     assert command(tmp_path, json=True, figures=False) == 0
     data = json.loads(capsys.readouterr().out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
@@ -96,7 +92,7 @@ def test_the_command_speaks_json(tmp_path, capsys):
     assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json"}
 
 
-def test_the_command_says_when_nothing_is_possible(tmp_path, capsys):
+def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
     assert command(tmp_path, against="leg_ratio", values=[0.5]) == 3
     assert "infeasible" in capsys.readouterr().out
 
@@ -107,4 +103,4 @@ def test_the_command_keeps_what_an_interruption_leaves(tmp_path, monkeypatch):
     found = replace(pareto(PAPER, "radius_ratio", values=[2.0]), interrupted=True)
     monkeypatch.setattr(module, "trace_front", lambda *_, **__: found)
     assert command(tmp_path) == 130
-    assert load_front(tmp_path / "run").interrupted
+    assert load(tmp_path / "run").interrupted

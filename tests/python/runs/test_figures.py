@@ -1,4 +1,4 @@
-"""Run folders: where they are made, and that the figures show the study that was solved."""
+"""Figures of a run show the study that was solved."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.runs import job
+from ninedof.runs.figures import _curves, figures_of
+from ninedof.runs.folder import write_run
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
 
@@ -18,7 +19,7 @@ def silent(_):
 
 def test_curves_pass_through_the_design_at_its_own_characteristic_length():
     best = nd.optimize(STUDY, starts=8).best
-    curves = job._curves("it", best.geometry, best.configuration, best.condition_number, STUDY.characteristic_length)
+    curves = _curves("it", best.geometry, best.configuration, best.condition_number, STUDY.characteristic_length)
     zs, theta_z, kappa = curves.point
     assert kappa == best.condition_number
     assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(kappa, rel=1e-3)
@@ -31,18 +32,5 @@ def test_no_figures_without_an_optimum(tmp_path):
     for k, other in enumerate((replace(result, interrupted=True), replace(result, status=nd.Status.UNBOUNDED))):
         folder = tmp_path / str(k)
         folder.mkdir()
-        job.record_result(other, folder, True, silent)
+        write_run(other, folder, figures_of(other, silent))
         assert [p.name for p in folder.iterdir()] == ["record.json"]
-
-
-def test_folders_of_one_second_do_not_meet(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert len({job.new_directory(None) for _ in range(5)}) == 5
-
-
-def test_a_folder_that_cannot_be_made_is_refused_before_any_work(tmp_path):
-    (tmp_path / "file").write_text("kept")
-    for out in (tmp_path / "file", tmp_path / "file" / "below"):
-        with pytest.raises(ValueError, match=r"^out: got .+, expected"):
-            job.new_directory(out)
-    assert (tmp_path / "file").read_text() == "kept"

@@ -1,0 +1,132 @@
+"""The table of indices: what objectives, sweeps and `ninedof evaluate` can compute of a design, each written once.
+
+A new index is one row here, its words in docs/sweeps.md and its reference in the tests. An objective needs a gradient
+too: the row then names the index of the core (`Index` in ninedof/design/objective.hpp) that has it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ninedof.conditioning.conditioning import (
+    condition_number,
+    isotropy_residual,
+    manipulability,
+    reciprocal_condition_number,
+    singular_values,
+)
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.singularity.singularity import singularity_margins
+
+__all__ = ["INDICES", "Index", "computed", "objectives"]
+
+LEGS = tuple(f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3))
+MECHANISMS = ("det_m", "det_b", "det_c")
+
+
+@dataclass(frozen=True)
+class Index:
+    """A quantity of a geometry at each configuration of a stack."""
+
+    name: str
+    function: Callable[..., Any] | None
+    """Called as function(geometry, configuration, characteristic_length, threads=...): shape (...), or
+    (..., len(components)). None: the core alone has it, as an objective at the neutral pose of symmetric designs."""
+    title: str = ""
+    """In words, for reports and figures; the name with spaces by default."""
+    better: str = ""
+    """Which values are better: "smaller", "greater", or "" where neither is."""
+    objective: str | None = None
+    """The core's index that has the gradient; None without one."""
+    dimension: str = ""
+    """Name of the dimension of the components."""
+    components: tuple[str, ...] = ()
+    unit: str = "1"
+    """The unit: "length" is the caller's own."""
+    needs_length: bool = True
+    """Whether it depends on the characteristic length."""
+
+    @property
+    def words(self) -> str:
+        """The title, or the name with spaces."""
+        return self.title or self.name.replace("_", " ")
+
+    @property
+    def tail(self) -> tuple[int, ...]:
+        """Shape of the values at one configuration."""
+        return (len(self.components),) if self.components else ()
+
+    def values(self, geometry: Geometry, configuration: Configuration, length: Any, threads: int | None) -> Any:
+        """Return the index at every configuration."""
+        assert self.function is not None, f"{self.name} is an objective only"
+        return self.function(geometry, configuration, length, threads=threads)
+
+
+def _speed(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+    with np.errstate(divide="ignore"):
+        return 1.0 / singular_values(g, c, length, threads)[..., -1]
+
+
+def _leg_lengths(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+    return leg_lengths(g, c, threads)
+
+
+def _leg_ratio(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+    legs = leg_lengths(g, c, threads)
+    with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0: infinite, or NaN where all are
+        return legs.max(axis=-1) / legs.min(axis=-1)
+
+
+def _margins(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:
+    return np.stack(singularity_margins(g, c, threads), axis=-1)
+
+
+INDICES: dict[str, Index] = {
+    index.name: index
+    for index in (
+        Index("condition_number", condition_number, better="smaller", objective="condition_number"),
+        Index(
+            "condition_number_frobenius",
+            partial(condition_number, norm="frobenius"),
+            title="Frobenius condition number",
+            better="smaller",
+            objective="frobenius",
+        ),
+        Index("reciprocal_condition_number", reciprocal_condition_number, better="greater"),
+        Index("manipulability", manipulability, better="greater"),
+        Index("isotropy_residual", isotropy_residual, better="smaller"),
+        Index("speed", _speed, title="1 / least singular value", better="smaller", objective="speed"),
+        Index(
+            "six_legged",
+            None,
+            title="condition number of the six-legged platform",
+            better="smaller",
+            objective="six_legged",
+        ),
+        Index("singular_values", singular_values, dimension="singular_value", components=tuple("123456")),
+        Index("leg_lengths", _leg_lengths, dimension="leg", components=LEGS, unit="length", needs_length=False),
+        Index("leg_ratio", _leg_ratio, title="longest / shortest leg", better="smaller", needs_length=False),
+        Index("singularity_margins", _margins, dimension="mechanism", components=MECHANISMS, needs_length=False),
+    )
+}
+
+
+def computed() -> dict[str, Index]:
+    """Return the indices that can be computed at any pose: all of sweeps and of `ninedof evaluate`."""
+    return {name: index for name, index in INDICES.items() if index.function is not None}
+
+
+def objectives() -> dict[str, Index]:
+    """Return the indices with a gradient, by the core's word and, where it differs, by their own name too."""
+    with_gradient = [index for index in INDICES.values() if index.objective is not None]
+    by_core: dict[str, Index] = {}
+    for index in with_gradient:
+        by_core.setdefault(str(index.objective), index)
+    return by_core | {index.name: index for index in with_gradient}

@@ -1,0 +1,53 @@
+"""Results as plain values, as records and `--json` hold them, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.study import Study
+from ninedof.optimize.result import result_from
+from ninedof.paper import paper
+from ninedof.pareto import Front
+from ninedof.pareto.limited import limited
+
+__all__ = ["describe_comparison", "describe_front", "front_from"]
+
+
+def describe_front(front: Front) -> dict[str, Any]:
+    """Return a front as plain values, with all its results."""
+    return {**front.to_dict(), "results": [result.to_dict() for result in front.results]}
+
+
+def front_from(study: Study, data: Mapping[str, Any]) -> Front:
+    """Return the front of a study."""
+    against = data["against"]
+    limits = tuple(float(row["limit"]) for row in data["rows"])
+    studies = (limited(study, against, limit if np.isfinite(limit) else None) for limit in limits)
+    results = tuple(result_from(each, found) for each, found in zip(studies, data["results"], strict=True))
+    return Front(study, against, limits, results, data["interrupted"], float(data["seconds"]))
+
+
+def describe_comparison(c: paper.Comparison) -> dict[str, Any]:
+    """Return the comparison with the published optimum as plain values."""
+    return {
+        "published": {"a1": paper.A1, "b1": paper.B1, "zp": paper.ZP, "condition_number": paper.KAPPA},
+        "as_printed": c.as_printed,
+        "why": c.why,
+        "designs": [_row(row) for row in c.rows()],
+        "optimization": c.result.to_dict(),
+    }
+
+
+def _row(row: paper.Row) -> dict[str, Any]:
+    return {
+        "title": row.title,
+        "variables": row.variables,
+        "condition_number": row.condition_number,
+        "leg_lengths": dict(zip(("l", "q", "r"), row.legs, strict=True)),
+        "radius_ratio": row.radius_ratio,
+        "gain_percent": row.gain,
+        "active": list(row.active),
+    }

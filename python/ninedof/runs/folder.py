@@ -1,0 +1,194 @@
+"""Run folders, written and read here whatever the run was. Each has a `record.json` of one form.
+
+The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created` and `files`:
+the names of the arrays and figures beside it. It is written whole or not at all, before the figures are drawn.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ninedof.design.study import Study
+from ninedof.optimize.result import Result, result_from
+from ninedof.paper import paper
+from ninedof.pareto import Front
+from ninedof.runs.describe import describe_comparison, describe_front, front_from
+from ninedof.support.files import write_whole
+from ninedof.support.json import decode, encode
+from ninedof.support.versions import versions
+from ninedof.sweep import SweepResult
+from ninedof.workspace import WorkspaceMap
+
+__all__ = ["Record", "load", "load_record", "write_record", "write_run"]
+
+FORMAT = "ninedof-record-2"
+STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"  # of earlier releases
+FILE = "record.json"
+
+Run = Result | paper.Comparison | Front | WorkspaceMap | SweepResult
+ARRAYS = {"workspace": "map.npz", "sweep": "sweep.npz", "atlas": "atlas.npz"}
+
+
+@dataclass(frozen=True)
+class Record:
+    """A run: what was asked, with which versions, what came out."""
+
+    kind: str
+    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep" or "atlas"."""
+    asked: Study | Mapping[str, Any]
+    """The study, or the question as plain values."""
+    results: Mapping[str, Any]
+    """Named results as plain values."""
+    versions: Mapping[str, str] = field(default_factory=versions)
+    created: str = field(default_factory=lambda: datetime.now(UTC).isoformat(timespec="seconds"))
+    files: tuple[str, ...] = ()
+    """Arrays and figures beside the record."""
+
+    @property
+    def study(self) -> Study:
+        """The study.
+
+        Raises
+        ------
+        ValueError
+            If the run was none of a study.
+
+        """
+        if not isinstance(self.asked, Study):
+            raise ValueError(f"got the record of a run of kind {self.kind}, expected one with a study")
+        return self.asked
+
+
+def write_run(
+    run: Run,
+    directory: str | os.PathLike[str],
+    draw: Callable[[Path], Sequence[Path]] | None = None,
+    asked: Mapping[str, Any] | None = None,
+    results: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write a run into an existing directory; return the path of its record.
+
+    Parameters
+    ----------
+    run : Result, Comparison, Front, WorkspaceMap or SweepResult
+    directory : path
+    draw : callable, optional
+        Called with the directory after the record was written; draws figures there and returns their paths.
+    asked : mapping, optional
+        What was asked, where the run does not hold it itself: of a workspace.
+    results : mapping, optional
+        What the record says of a sweep or an atlas; the arrays lie beside it.
+
+    """
+    folder = Path(directory)
+    record = _record_of(run, asked or {}, results or {})
+    if isinstance(run, WorkspaceMap | SweepResult):
+        run.save(folder / ARRAYS[record.kind])
+        record = replace(record, files=(ARRAYS[record.kind],))
+    path = write_record(record, folder)
+    if draw is not None:
+        write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
+    return path
+
+
+def _record_of(run: Run, asked: Mapping[str, Any], results: Mapping[str, Any]) -> Record:
+    if isinstance(run, Result):
+        return Record("optimization", run.study, {"optimization": run.to_dict()})
+    if isinstance(run, paper.Comparison):
+        return Record("comparison", run.result.study, describe_comparison(run))
+    if isinstance(run, Front):
+        return Record("front", run.study, {"front": describe_front(run)})
+    if isinstance(run, WorkspaceMap):
+        return Record("workspace", asked, {"workspace": run.to_dict()})
+    question = {name: value for name, value in run.attributes.items() if name not in versions()}
+    return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)
+
+
+def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepResult:
+    """Read what a run folder holds.
+
+    Parameters
+    ----------
+    path : path
+        The folder or its record.json.
+
+    Returns
+    -------
+    Result, Front, WorkspaceMap or SweepResult
+        Robots are made anew from their variables; all other numbers are those written.
+
+    Raises
+    ------
+    ValueError
+        If there is no such record, or it is not whole; the message names the file.
+
+    """
+    record = load_record(path)
+    try:
+        if record.kind in ARRAYS:
+            place = Path(path)
+            file = (place if place.is_dir() else place.parent) / ARRAYS[record.kind]
+            return WorkspaceMap.load(file) if record.kind == "workspace" else SweepResult.load(file)
+        if record.kind == "front":
+            return front_from(record.study, record.results["front"])
+        return result_from(record.study, record.results["optimization"])
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"{os.fspath(path)}: got a {record.kind} without {error}, expected a whole one") from None
+
+
+def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
+    """Write `record.json` into an existing directory and return its path."""
+    study = isinstance(record.asked, Study)
+    data = {
+        "format": FORMAT,
+        "kind": record.kind,
+        "study" if study else "question": record.study.to_dict() if study else record.asked,
+        "results": record.results,
+        "versions": record.versions,
+        "created": record.created,
+        "files": record.files,
+    }
+    return write_whole(Path(directory) / FILE, (encode(data) + "\n").encode())
+
+
+def load_record(path: str | os.PathLike[str]) -> Record:
+    """Read a record from its file or its directory; those of earlier releases too.
+
+    Raises
+    ------
+    ValueError
+        If there is no record, or it is not one of ours; the message names the file.
+
+    """
+    file = Path(path)
+    if file.is_dir():
+        file = file / FILE
+    try:
+        data = decode(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
+    except ValueError as error:
+        raise ValueError(f"{file}: not a JSON file: {error}") from None
+    if not isinstance(data, dict) or data.get("format") not in (FORMAT, STUDIES_1, WORKSPACES_1):
+        raise ValueError(f"{file}: got no {FORMAT!r} mark, expected a record written by ninedof")
+    try:
+        if data["format"] == WORKSPACES_1:
+            data |= {"kind": "workspace", "question": data["asked"], "results": {"workspace": data["workspace"]}}
+        elif data["format"] == STUDIES_1:
+            data["kind"] = _kind(data["results"])
+        asked = Study.from_dict(data["study"]) if "study" in data else data["question"]
+        return Record(data["kind"], asked, data["results"], data["versions"], data["created"], tuple(data["files"]))
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"{file}: got a record without {error}, expected a whole one") from None
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None
+
+
+def _kind(results: Mapping[str, Any]) -> str:
+    """Return the kind of a run of a study from the names of its results."""
+    return "front" if "front" in results else "comparison" if "designs" in results else "optimization"

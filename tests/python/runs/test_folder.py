@@ -1,0 +1,161 @@
+"""Run folders: every kind is written whole or not at all, and read back."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.paper import paper
+from ninedof.runs.design_file import load_design
+from ninedof.runs.folder import Record, load, load_record, write_record, write_run
+from ninedof.support.json import decode, encode
+
+
+def record():
+    study = nd.Study(
+        variables={"a2": (0.0, math.inf), "theta_z": (-1.0, 1.0)}, constraints={"radius_ratio": (None, 2.0)}
+    )
+    return Record("optimization", study, {"optimization": nd.optimize(study).to_dict()})
+
+
+def test_round_trip_with_infinite_bounds(tmp_path):
+    written = record()
+    path = write_record(written, tmp_path)
+    for place in (path, tmp_path):
+        read = load_record(place)
+        assert read.study == written.study
+        assert read.versions == written.versions
+        assert read.created == written.created
+    assert load_record(path).results["optimization"]["status"] == "optimal"
+
+
+def test_non_finite_numbers_are_words_in_json():
+    text = encode({"a": math.inf, "b": [-math.inf, math.nan], "c": np.array([0.1, math.inf]), "d": np.int64(3)})
+    assert json.loads(text) == {"a": "inf", "b": ["-inf", "nan"], "c": [0.1, "inf"], "d": 3}
+    assert repr(decode(text)) == "{'a': inf, 'b': [-inf, nan], 'c': [0.1, inf], 'd': 3}"
+
+
+def test_a_failed_write_leaves_the_old_record(tmp_path, monkeypatch):
+    path = write_record(record(), tmp_path)
+    before = path.read_bytes()
+
+    def broken(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("os.replace", broken)
+    with pytest.raises(OSError, match="disk full"):
+        write_record(record(), tmp_path)
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("text", ["", "[1]", "{}", '{"format": "other"}', "not json"], ids=repr)
+def test_other_files_are_refused_by_name(tmp_path, text):
+    file = tmp_path / "record.json"
+    file.write_text(text)
+    with pytest.raises(ValueError, match=r"record\.json: "):
+        load_record(file)
+
+
+KEYS = ["format", "kind", "study", "results", "versions", "created", "files"]
+OLD = {"versions": {"ninedof": "0.0.1"}, "created": "2026-01-01T00:00:00+00:00", "files": ["a.png"]}
+
+
+def test_every_kind_of_run_has_a_record_and_is_read_back(tmp_path, published):
+    """One form of record for all of them; arrays lie beside it."""
+    home = nd.Configuration.neutral(3.9828, 2.4435)
+    runs = {
+        "optimization": nd.optimize(nd.Study(starts=4)),
+        "comparison": paper.compare(),
+        "front": nd.pareto(nd.Study(starts=4), "radius_ratio", values=[2.0]),
+        "workspace": nd.workspace(published, ([-1, -1, 3], [1, 1, 5]), criteria={"leg_limits": (2.5, 6.5)}),
+        "sweep": nd.sweep(published, home, {"x_p": (-1.0, 1.0, 3)}),
+        "atlas": nd.atlas(1000),
+    }
+    for kind, run in runs.items():
+        folder = tmp_path / kind
+        folder.mkdir()
+        path = write_run(run, folder, asked={"archetype": "constant_orientation"})
+        data = json.loads(path.read_text())
+        arrays = kind in ("workspace", "sweep", "atlas")
+        assert list(data) == [{"study": "question"}.get(key, key) if arrays else key for key in KEYS]
+        assert data["kind"] == load_record(path).kind == kind
+        assert sorted(data["files"]) == sorted(p.name for p in folder.iterdir() if p != path)
+        found = load(folder)
+        expected = run.result if kind == "comparison" else run
+        assert type(found) is type(expected)
+        if kind in ("optimization", "comparison"):
+            assert found == expected
+        elif kind == "workspace":
+            assert str(found.to_dict()) == str(expected.to_dict())
+        elif arrays:
+            assert {n: a.tobytes() for n, a in found.arrays.items()} == {n: a.tobytes() for n, a in run.arrays.items()}
+
+
+def test_records_of_earlier_releases_are_read(tmp_path):
+    study = nd.Study(variables={"a2": (0.0, math.inf)}, starts=4)
+    result = nd.optimize(study)
+    found = {"optimization": result.to_dict()}
+    old = {"format": "ninedof-record-1", "study": study.to_dict(), "results": found, **OLD}
+    (tmp_path / "record.json").write_text(encode(old))
+    assert load(tmp_path) == result
+    assert load_record(tmp_path).files == ("a.png",)
+    old = {"format": "ninedof-workspace-record-1", "asked": {"low": -math.inf}, "workspace": {"volume": 2.0}, **OLD}
+    (tmp_path / "record.json").write_text(encode(old))
+    record = load_record(tmp_path)
+    assert (record.kind, record.asked, record.results) == (
+        "workspace",
+        {"low": -math.inf},
+        {"workspace": {"volume": 2.0}},
+    )
+    with pytest.raises(ValueError, match="expected one with a study"):
+        _ = record.study
+
+
+def test_missing_record_is_named(tmp_path):
+    with pytest.raises(ValueError, match="cannot be read"):
+        load_record(tmp_path)
+
+
+def test_design_of_a_record(tmp_path):
+    write_record(record(), tmp_path)
+    design = load_design(tmp_path)
+    assert nd.condition_number(design.geometry, design.configuration) == pytest.approx(3.749827, abs=5e-7)
+
+
+def test_record_without_a_design(tmp_path):
+    study = nd.Study(constraints={"leg_ratio": (None, 0.5)})
+    write_run(nd.optimize(study), tmp_path)
+    with pytest.raises(ValueError, match="holds no design"):
+        load_design(tmp_path)
+
+
+@pytest.mark.parametrize("family", ["hexagonal", "symmetric", "symmetric_nonplanar", "general"])
+def test_design_of_a_record_of_any_family(tmp_path, family):
+    objective = nd.Objective(poses=(nd.Pose(position=(0.1, 0, 0), internal_point="best"),))
+    study = nd.Study(family=family, characteristic_length="optimal", objective=objective, starts=4)
+    x = study.problem().starts(1, 0)[0].tolist()
+    variables = dict(zip(study.problem().names, x, strict=True))
+    write_record(Record("optimization", study, {"optimization": {"candidates": [{"variables": variables}]}}), tmp_path)
+    point, design = study.evaluate(variables), load_design(tmp_path)
+    assert design == (point.geometry, point.configuration, point.characteristic_length)
+    assert load_record(tmp_path).study == study
+
+
+BAD_CANDIDATES = {
+    "none": None,
+    "text": "best",
+    "number": [3],
+    "no variables": [{}],
+    "unknown variable": [{"variables": {"a9": 1.0}}],
+    "variables as list": [{"variables": [1.0, 2.0]}],
+    "variable as text": [{"variables": dict.fromkeys(("a1", "a2", "b1", "b2", "zp", "zs"), "1")}],
+}
+
+
+@pytest.mark.parametrize("candidates", BAD_CANDIDATES.values(), ids=BAD_CANDIDATES.keys())
+def test_a_record_changed_by_hand_is_refused_by_name(tmp_path, candidates):
+    write_record(Record("optimization", nd.Study(), {"optimization": {"candidates": candidates}}), tmp_path)
+    with pytest.raises(ValueError, match=str(tmp_path)):
+        load_design(tmp_path)
