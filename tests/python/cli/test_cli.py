@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninedof.cli.app import main
+from ninedof.cli.app import app, main
 
 
 def run(capsys, line):
@@ -198,6 +198,15 @@ def test_help(capsys, line):
         assert "Example" in out
 
 
+def test_every_command_has_a_row_in_the_readme():
+    commands = [command.callback.__name__ for command in app.registered_commands]
+    assert len(commands) > 6
+    assert commands[0] == "optimize"
+    readme = (Path(__file__).resolve().parents[3] / "README.md").read_text()
+    rows = [row for row in readme.splitlines() if row.startswith("| `ninedof")]
+    assert [name for name in commands if not any(f"ninedof {name}" in row for row in rows)] == []
+
+
 def test_version(capsys):
     status, out, _ = run(capsys, "--version")
     assert status == 0
@@ -211,7 +220,7 @@ def test_interrupted_run_keeps_what_it_has(tmp_path):
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
 sys.path[:] = {sys.path}
-import ninedof.cli.commands, ninedof.cli.app
+import ninedof.cli.app
 print("ready", flush=True)
 ninedof.cli.app.main({arguments})
 """

@@ -270,7 +270,7 @@ def test_the_atlas_command(here, capsys, monkeypatch):
 
 
 def test_the_bar_says_how_long_it_takes(capsys):
-    from ninedof.cli.commands.screen import Screen
+    from ninedof.cli.screen import Screen
 
     with Screen(False).points("over x_p") as bar:
         bar.show(0, 100, float("nan"))

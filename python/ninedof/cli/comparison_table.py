@@ -7,7 +7,7 @@ from typing import Any
 
 from rich.table import Table
 
-from ninedof.cli.commands.tables import short
+from ninedof.cli.result_table import short
 from ninedof.paper import paper as the_paper
 
 

@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ninedof.cli.commands.screen import Screen
+from ninedof.cli.screen import Screen
 from ninedof.runs import job
 from ninedof.support.extras import MissingExtra
 from ninedof.sweep import SweepResult

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from rich.table import Table
 
-from ninedof.cli.commands.screen import DONE, Screen
+from ninedof.cli.options import Json, Threads
+from ninedof.cli.screen import Screen
 from ninedof.paper import paper as the_paper
 
+PLACE = 7
+EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
 
-def paper(threads: int | None, json: bool) -> int:
-    """Print the paper's numbers beside ours."""
+
+def paper(threads: Threads = None, json: Json = False) -> None:
+    """Print every number of the paper beside ours, with a verdict each."""
     screen = Screen(json)
     found = the_paper.verdicts(threads)
     table = Table(
@@ -21,4 +25,3 @@ def paper(threads: int | None, json: bool) -> int:
         table.add_row(v.where, v.printed, v.ours, v.verdict, end_section=True)
     screen.print(table)
     screen.data([{"where": v.where, "printed": v.printed, "ours": v.ours, "verdict": v.verdict} for v in found])
-    return DONE
