@@ -17,7 +17,8 @@ from ninedof.chunks.store import MANIFEST
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.result import Result
-from ninedof.paper import paper
+from ninedof.paper import published
+from ninedof.paper.comparison import Comparison, Row
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.records import Record, describe_result, write_record
@@ -95,10 +96,10 @@ def _create(path: Path, exist_ok: bool) -> bool:
     return True
 
 
-def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: Say) -> Path:
+def record_comparison(c: Comparison, directory: Path, figures: bool, say: Say) -> Path:
     """Write the run folder of the paper's problem; return the path of the record."""
     results = {
-        "published": {"a1": paper.A1, "b1": paper.B1, "zp": paper.ZP, "condition_number": paper.KAPPA},
+        "published": {"a1": published.A1, "b1": published.B1, "zp": published.ZP, "condition_number": published.KAPPA},
         "as_printed": c.as_printed,
         "why": c.why,
         "designs": [describe_row(row) for row in c.rows()],
@@ -108,7 +109,7 @@ def record_comparison(c: paper.Comparison, directory: Path, figures: bool, say: 
     named = [
         (name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in designs if row is not None
     ]
-    compared = {"level": paper.KAPPA, "crossings": c.crossings}
+    compared = {"level": published.KAPPA, "crossings": c.crossings}
     return _record(c.result, results, named if figures else [], directory, say, **compared)
 
 
@@ -132,7 +133,7 @@ def _record(
     return path
 
 
-def describe_row(row: paper.Row) -> dict[str, Any]:
+def describe_row(row: Row) -> dict[str, Any]:
     """Return a row of the comparison as plain JSON values."""
     return {
         "title": row.title,

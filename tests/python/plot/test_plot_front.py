@@ -12,7 +12,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.front import Sketch, front
-from ninedof.plot.poses import PoseConditions, poses
+from ninedof.plot.pose_conditions import PoseConditions, poses
 
 
 def row(limit, status, objective=None, price=None, dominated=False):

@@ -15,7 +15,7 @@ from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result
-from ninedof.paper import paper as the_paper
+from ninedof.paper.comparison import compare
 from ninedof.runs import job
 from ninedof.runs.records import describe_result
 from ninedof.support.arrays import thread_argument
@@ -55,7 +55,7 @@ def _optimize_paper(
     study: Study, directory: Path, threads: int | None, figures: bool, screen: Screen, check: bool
 ) -> int:
     with screen.progress("the paper's problem") as bar:
-        comparison = the_paper.compare(study.starts, study.seed, threads, bar.starts)
+        comparison = compare(study.starts, study.seed, threads, bar.starts)
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
     if comparison.result.interrupted:

@@ -6,7 +6,7 @@ from rich.table import Table
 
 from ninedof.cli.options import Json, Threads
 from ninedof.cli.screen import Screen
-from ninedof.paper import paper as the_paper
+from ninedof.paper.verdicts import verdicts
 
 PLACE = 7
 EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
@@ -15,7 +15,7 @@ EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
 def paper(threads: Threads = None, json: Json = False) -> None:
     """Print every number of the paper beside ours, with a verdict each."""
     screen = Screen(json)
-    found = the_paper.verdicts(threads)
+    found = verdicts(threads)
     table = Table(
         title="The paper's numbers and ours, lengths in units of l_c", title_justify="left", title_style="bold"
     )

@@ -31,7 +31,7 @@ from ninedof.cli.options import (
 )
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
-from ninedof.paper import paper
+from ninedof.paper.published import published_variables
 from ninedof.runs.design_file import Design, hexagonal_design
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import thread_argument
@@ -199,7 +199,7 @@ def parse_over(text: str) -> tuple[str, Values]:
 def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
     """Return the design that is moved: the published one at its best zs where none is given."""
     if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
-        return hexagonal_design(paper.published_variables())
+        return hexagonal_design(published_variables())
     return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
 
 
@@ -212,7 +212,7 @@ def _variables(
     given = {name: value for name, value in sides.items() if value is not None}
     if both := sorted(set(given) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
-    values = given or paper.published_variables()
+    values = given or published_variables()
     if theta_z_deg is not None:
         values["theta_z"] = math.radians(theta_z_deg)
     return {name: value for name, value in values.items() if name not in over}

@@ -16,7 +16,7 @@ from ninedof.cli.options import Figures, Json, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_summary import draw, pose_bar, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.paper import paper
+from ninedof.paper.published import published_variables
 from ninedof.runs import job
 from ninedof.runs.design_file import Design, hexagonal_design, load_design
 from ninedof.runs.workspace_records import write_workspace
@@ -118,7 +118,7 @@ def workspace(
     )
     screen = Screen(json)
     thread_argument(options.threads)
-    given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
+    given = hexagonal_design(published_variables()) if design is None else load_design(design)
     if options.lc is not None:
         given = given._replace(characteristic_length=length_option(options.lc))
     search = {name: value for name, value in options.search.items() if value is not None}
