@@ -63,7 +63,7 @@ def test_a_wrong_number_ends_the_program(compare):
 
 @pytest.mark.slow
 def test_the_script_runs_without_its_cpp_programs(tmp_path):
-    command = [sys.executable, str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
+    command = [sys.executable, str(BENCH / "comparison.py"), "--poses", "40", "--rounds", "1"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     rows = {

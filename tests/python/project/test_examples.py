@@ -1,12 +1,12 @@
 """Every file in examples/ runs and ends as its first lines say."""
 
 import json
+import math
 import runpy
 from pathlib import Path
 
 import pytest
 
-import ninedof as nd
 from ninedof.cli.app import main
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -49,13 +49,8 @@ def test_study(name, tmp_path, capsys):
     with pytest.raises(SystemExit) as end:
         main(["optimize", str(EXAMPLES / name), "--no-figures", "--json", "--out", str(tmp_path / "run")])
     assert end.value.code == STATUS[name]
-    assert json.loads(capsys.readouterr().out)["optimization"]["candidates"]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", AT_MOST)
-def test_values_of_studies(name):
-    assert nd.optimize(nd.Study.load(EXAMPLES / name)).objective <= AT_MOST[name]
+    best = json.loads(capsys.readouterr().out)["optimization"]["candidates"][0]
+    assert best["objective"] <= AT_MOST.get(name, math.inf)
 
 
 def test_design(capsys):

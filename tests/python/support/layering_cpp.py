@@ -12,12 +12,12 @@ BESIDE = ("cpp/bindings", "tests/cpp", "bench/cpp")  # trees that use the core a
 TREES = (PUBLIC, PRIVATE, *BESIDE)
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def tree_of(name: str) -> str:
     return next(tree for tree in TREES if name.startswith(f"{tree}/"))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def room_of(name: str) -> str | None:
     """The room that a file lies in, None outside all of them."""
     tree = tree_of(name)
@@ -27,12 +27,12 @@ def room_of(name: str) -> str | None:
     return None
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def without_comments(text: str) -> str:
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def first_comment(text: str) -> str:
     """The comment that a file begins with, as one line."""
     block = re.match(r"\s*((?:\s*//[^\n]*\n?)+|/\*.*?\*/)", text, flags=re.DOTALL)

@@ -10,7 +10,7 @@ from layering import AT_RUN_TIME, CORE_USERS, HEAVY, ORACLES, PYTHON_ROOMS, TEST
 CORE = "_core"
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def imports(text: str, package: str, *, run_time: bool = False, top_only: bool = False) -> frozenset[str]:
     """Dotted names that a module of this text imports, `package` being its own, for relative imports.
 
@@ -36,7 +36,7 @@ def imports(text: str, package: str, *, run_time: bool = False, top_only: bool =
     return frozenset(out)
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def parsed(text: str) -> ast.Module:
     return ast.parse(text)
 

@@ -73,7 +73,7 @@ def signs(m):
 
 
 def states_at(cells, origin, points):
-    """State of the cell that each point lies in, -1 outside all cells. Cells of one size lie on a grid from `origin`."""
+    """State of the cell that holds each point, -1 where none does. Cells of one size lie on a grid from `origin`."""
     state = np.full(len(points), -1)
     for one in np.unique(cells.size, axis=0):
         of_size = (cells.size == one).all(axis=1)
