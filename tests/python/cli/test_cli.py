@@ -5,7 +5,6 @@ import shlex
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -220,16 +219,21 @@ def test_interrupted_run_keeps_what_it_has(tmp_path):
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
 sys.path[:] = {sys.path}
-import ninedof.cli.app
-print("ready", flush=True)
+import ninedof.cli.app, ninedof.cli.screen
+report = ninedof.cli.screen.Bar.starts
+def starts(bar, done, total, best):
+    report(bar, done, total, best)
+    if done < total:
+        sys.stderr.write("working\\n")
+ninedof.cli.screen.Bar.starts = starts
 ninedof.cli.app.main({arguments})
 """
     command = [sys.executable, "-c", script]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
-        assert child.stdout.readline() == "ready\n"
-        time.sleep(1.5)  # past the small studies, into the large one
+        while "working" not in child.stderr.readline():  # past the small studies, in the large one
+            assert child.poll() is None
         child.send_signal(signal.SIGINT)
-        out, err = child.communicate(timeout=30)
+        out, err = child.communicate(timeout=120)
     assert child.returncode == 130, err
     assert "Traceback" not in err
     assert "3.762659" in out

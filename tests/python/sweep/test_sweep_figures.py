@@ -171,8 +171,12 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
 
 
 def test_what_is_singular_everywhere_is_drawn_too():
-    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435], "z_p": (-0.5, 0.5, 3)}))
-    plot.sweep(nd.sweep(G, HOME, {"z_s": [-2.4435]}))
+    for over in ({"z_s": [-2.4435], "z_p": (-0.5, 0.5, 3)}, {"z_s": [-2.4435]}):
+        found = nd.sweep(G, HOME, over)
+        assert np.isinf(found["condition_number"]).all()
+        figure = plot.sweep(found)
+        figure.draw_without_rendering()
+        assert not any(np.isfinite(line.get_ydata()).any() for line in lines(figure))
 
 
 def test_a_name_that_is_not_there():
