@@ -60,9 +60,7 @@ def test_continuation_of_o_is_as_good_as_a_search(published, case):
     assert known.sum() > 10
     worse = kappa[known] > searched[known] * (1.0 + 1e-6)
     assert worse.mean() <= 0.01
-    assert (kappa[known] >= searched[known] * (1.0 - 1e-4)).mean() > 0.95, (
-        "the search rarely misses an optimum"
-    )
+    assert (kappa[known] >= searched[known] * (1.0 - 1e-4)).mean() > 0.95, "the search rarely misses an optimum"
 
 
 def test_methods_agree_on_the_best_o(published):
