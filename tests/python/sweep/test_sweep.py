@@ -183,7 +183,8 @@ def test_chunks_change_nothing_where_o_is_carried():
         assert found.tobytes() == whole.tobytes()
 
 
-MANY = {"x_p": (-1.2, 1.2, 41), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}  # three blocks, the last one short
+# Blocks of 18 rows of x_p: two of them, in a long run three, the last one short.
+MANY = {"x_p": (-1.2, 1.2, size(21, 41)), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}
 
 
 @pytest.fixture(scope="module")

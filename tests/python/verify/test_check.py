@@ -153,7 +153,7 @@ def test_a_design_beside_the_optimum_is_not_stationary(paper, shift):
 
 @pytest.mark.parametrize("shift", [0.3, 0.01])
 def test_perturbations_find_something_better_beside_the_optimum(paper, shift):
-    wrong = check(moved(paper, zp=shift))
+    wrong = check(moved(paper, zp=shift), perturbations=size(1000, 4000))
     assert not wrong["perturbations"].passed
     assert wrong["perturbations"].figure > 1e-6
     assert "FAILED  perturbations" in wrong.report()
