@@ -1,9 +1,14 @@
 """What all tests share: one hypothesis profile and the paper's robot."""
 
+import signal
+
 import pytest
 from hypothesis import HealthCheck, settings
 
 import ninedof as nd
+
+# A job in the background ignores SIGINT, and so would the programs that tests start and interrupt.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # The same examples in every run: a failure found by chance must not vanish by chance. No deadline: sanitizers are slow.
 settings.register_profile(

@@ -13,7 +13,7 @@ from ninedof import _core
 from ninedof.support.angles import exact_degrees
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 
-__all__ = ["Limit", "for_core", "parse", "to_table"]
+__all__ = ["Limit", "for_core", "names_with_max", "parse", "to_table"]
 
 Limit = tuple[float | None, float | None] | Mapping[str, Any]
 """(low, high), None for an open side; where there are options, a mapping of min, max and the options."""
@@ -70,6 +70,11 @@ def parse(name: str, value: Any) -> Limit:
         raise ValueError(f"{name}: got {', '.join(options)} alone, expected {' or '.join(shape.sides)} too")
     sides = {side: limit for side, limit in (("min", low), ("max", high)) if limit is not None}
     return MappingProxyType(sides | options)
+
+
+def names_with_max() -> list[str]:
+    """Return the constraints that have a max."""
+    return [name for name in _core.constraint_names() if "max" in SHAPES.get(name, Shape()).sides]
 
 
 def to_table(name: str, limit: Limit) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""The numbers of the paper beside ours."""
+"""The paper: its published design, our answer beside it, and a verdict on each of its numbers."""

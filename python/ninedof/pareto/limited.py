@@ -8,13 +8,15 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof.design.indices import objectives
+from ninedof.design.limits import names_with_max
 from ninedof.design.study import Study
 from ninedof.support.arguments import did_you_mean, shown
-from ninedof.verify.rules import RULES
 
-__all__ = ["CONDITION_LIMIT", "floor_of", "limited", "own_value", "resolve"]
+__all__ = ["CONDITION_LIMIT", "floor_of", "limited", "own_value", "resolve", "value_at"]
 
 CONDITION_LIMIT = "condition_limit"
+MOST_STEPS = 100  # of Newton's method; it takes about ten
+SMALL = 1e-8  # margin from which one more step is exact
 
 
 def resolve(study: Study, against: str) -> tuple[Study, str]:
@@ -24,7 +26,7 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     "speed" for a study of the condition number becomes a study of speed under a moving condition limit, the same
     front seen from the other side.
     """
-    known = [name for name, rule in RULES.items() if rule.upper is not None]
+    known = names_with_max()
     if isinstance(against, str) and against in known:
         return study, against
     index = study.objective.index
@@ -62,6 +64,26 @@ def own_value(study: Study, against: str) -> float | None:
         return study.objective.condition_limit
     found = _entry(study, against).get("max")
     return None if found is None or not math.isfinite(found) else float(found)
+
+
+def value_at(study: Study, against: str, variables: Mapping[str, float]) -> float:
+    """Return the least limit that allows a design: the limit at which the design's margin is zero.
+
+    A margin is log(limit / value) or 1 - value / limit. Newton's method is used in the limit or in its logarithm,
+    whichever step is the safe one; each is exact for one of the two forms.
+    """
+    options = {key: value for key, value in _entry(study, against).items() if key not in ("min", "max")}
+    limit, before = own_value(study, against) or 1.0, 0.0
+    for _ in range(MOST_STEPS):
+        alone = replace(study, constraints={against: options | {"max": limit}})
+        margin = alone.evaluate(variables).margins[against]
+        if margin == before == 1.0:  # 1 - value / limit at two limits: the value is zero
+            return 0.0
+        limit *= math.exp(-margin) if margin > 0.0 else 1.0 - margin
+        if abs(margin) <= SMALL:
+            break
+        before = margin
+    return limit
 
 
 def floor_of(study: Study, against: str) -> float:

@@ -8,12 +8,10 @@ from dataclasses import replace
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
-from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, limited, own_value
+from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, own_value, value_at
 from ninedof.pareto.solving import Interrupted, Sweep
-from ninedof.verify.robot import Places
-from ninedof.verify.rules import limit_of, measured
 
-__all__ = ["span", "value_taken"]
+__all__ = ["span"]
 
 DEAR = 3.0  # times the best objective: designs beyond interest nobody
 NEAR_LEAST = 1.002  # times the least condition number: there the two indices leave one design only
@@ -46,16 +44,12 @@ def span(sweep: Sweep) -> tuple[float, float] | None:
     return _tightest(sweep, high, objective_of(best)), high
 
 
-def value_taken(sweep: Sweep, result: Result) -> float:
-    """Return the least value of the limit that allows the best design of a result."""
-    best = result.best
-    assert best is not None
+def _value_taken(sweep: Sweep, result: Result) -> float:
+    """Return the least limit that allows the best design of a result."""
+    assert result.best is not None
     if sweep.against == CONDITION_LIMIT:
-        return max(best.conditions)
-    # The value does not matter, only which options come with it.
-    entry = limited(sweep.study, sweep.against, own_value(sweep.study, sweep.against) or 1.0).constraints[sweep.against]
-    places = Places(result.study, best.variables)
-    return measured(limit_of(sweep.against, entry), places.robot(places.x))
+        return max(result.best.conditions)
+    return value_at(sweep.study, sweep.against, result.best.variables)
 
 
 def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
@@ -76,14 +70,14 @@ def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
     if math.isnan(objective_of(widest)):
         sweep.open_ended = widest
         return None
-    high = max(value_taken(sweep, widest), low)
+    high = max(_value_taken(sweep, widest), low)
     sweep.solve(high, [widest])
     return low, high
 
 
 def _loosest(sweep: Sweep, open_ended: Result) -> float:
     if not math.isnan(objective_of(open_ended)):
-        return max(value_taken(sweep, open_ended), floor_of(sweep.study, sweep.against))
+        return max(_value_taken(sweep, open_ended), floor_of(sweep.study, sweep.against))
     own = own_value(sweep.study, sweep.against)
     if own is None:
         raise ValueError(

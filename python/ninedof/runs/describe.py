@@ -9,7 +9,8 @@ import numpy as np
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import result_from
-from ninedof.paper import paper
+from ninedof.paper import published
+from ninedof.paper.comparison import Comparison, Row
 from ninedof.pareto import Front
 from ninedof.pareto.limited import limited
 
@@ -30,10 +31,10 @@ def front_from(study: Study, data: Mapping[str, Any]) -> Front:
     return Front(study, against, limits, results, data["interrupted"], float(data["seconds"]))
 
 
-def describe_comparison(c: paper.Comparison) -> dict[str, Any]:
+def describe_comparison(c: Comparison) -> dict[str, Any]:
     """Return the comparison with the published optimum as plain values."""
     return {
-        "published": {"a1": paper.A1, "b1": paper.B1, "zp": paper.ZP, "condition_number": paper.KAPPA},
+        "published": {"a1": published.A1, "b1": published.B1, "zp": published.ZP, "condition_number": published.KAPPA},
         "as_printed": c.as_printed,
         "why": c.why,
         "designs": [_row(row) for row in c.rows()],
@@ -41,7 +42,7 @@ def describe_comparison(c: paper.Comparison) -> dict[str, Any]:
     }
 
 
-def _row(row: paper.Row) -> dict[str, Any]:
+def _row(row: Row) -> dict[str, Any]:
     return {
         "title": row.title,
         "variables": row.variables,

@@ -11,7 +11,8 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.result import Result
-from ninedof.paper import paper
+from ninedof.paper import published
+from ninedof.paper.comparison import Comparison
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 
@@ -30,7 +31,7 @@ TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
-def figures_of(run: Result | paper.Comparison, say: Say) -> Callable[[Path], list[Path]] | None:
+def figures_of(run: Result | Comparison, say: Say) -> Callable[[Path], list[Path]] | None:
     """Return a function that draws the figures into a folder; None for an interrupted run or one without an optimum."""
     designs: list[Named]
     if isinstance(run, Result):
@@ -42,7 +43,7 @@ def figures_of(run: Result | paper.Comparison, say: Say) -> Callable[[Path], lis
         rows = [("published, best zs", run.best_zs), ("optimum", run.same_class)] if run.same_class is not None else []
         named = [(name, row) for name, row in rows if row is not None]
         designs = [(name, row.geometry, row.configuration, row.condition_number, 1.0) for name, row in named]
-        result, compared = run.result, {"level": paper.KAPPA, "crossings": run.crossings}
+        result, compared = run.result, {"level": published.KAPPA, "crossings": run.crossings}
     if result.interrupted or not designs:
         return None
     return lambda directory: _figures(designs, result, directory, say, **compared)

@@ -15,7 +15,7 @@ from typing import Any
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, result_from
-from ninedof.paper import paper
+from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.runs.describe import describe_comparison, describe_front, front_from
 from ninedof.support.files import write_whole
@@ -30,7 +30,7 @@ FORMAT = "ninedof-record-2"
 STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"  # of earlier releases
 FILE = "record.json"
 
-Run = Result | paper.Comparison | Front | WorkspaceMap | SweepResult
+Run = Result | Comparison | Front | WorkspaceMap | SweepResult
 ARRAYS = {"workspace": "map.npz", "sweep": "sweep.npz", "atlas": "atlas.npz"}
 
 
@@ -99,7 +99,7 @@ def write_run(
 def _record_of(run: Run, asked: Mapping[str, Any], results: Mapping[str, Any]) -> Record:
     if isinstance(run, Result):
         return Record("optimization", run.study, {"optimization": run.to_dict()})
-    if isinstance(run, paper.Comparison):
+    if isinstance(run, Comparison):
         return Record("comparison", run.result.study, describe_comparison(run))
     if isinstance(run, Front):
         return Record("front", run.study, {"front": describe_front(run)})

@@ -14,7 +14,7 @@ from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Status
-from ninedof.paper import paper
+from ninedof.paper import published
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
@@ -98,9 +98,9 @@ def _points(points: int | None, default: int) -> int:
 
 
 def _figure_6(points: int) -> GridWork:
-    home = Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    home = Configuration.neutral(published.ZP, published.published_zs()[2])
     axes = (Axis("coordinate", len(SHOWN), 0.0, len(SHOWN) - 1.0), Axis("displacement", points, -REACH, REACH))
-    return GridWork(_Displaced(paper.published_geometry(), home), Grid(axes), (INDICES["condition_number"],), 16384)
+    return GridWork(_Displaced(published.published_geometry(), home), Grid(axes), (INDICES["condition_number"],), 16384)
 
 
 @dataclass(frozen=True, eq=False)

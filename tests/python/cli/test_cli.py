@@ -5,12 +5,11 @@ import shlex
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
-from ninedof.cli.app import main
+from ninedof.cli.app import app, main
 
 
 def run(capsys, line):
@@ -198,6 +197,15 @@ def test_help(capsys, line):
         assert "Example" in out
 
 
+def test_every_command_has_a_row_in_the_readme():
+    commands = [command.callback.__name__ for command in app.registered_commands]
+    assert len(commands) > 6
+    assert commands[0] == "optimize"
+    readme = (Path(__file__).resolve().parents[3] / "README.md").read_text()
+    rows = [row for row in readme.splitlines() if row.startswith("| `ninedof")]
+    assert [name for name in commands if not any(f"ninedof {name}" in row for row in rows)] == []
+
+
 def test_version(capsys):
     status, out, _ = run(capsys, "--version")
     assert status == 0
@@ -211,16 +219,21 @@ def test_interrupted_run_keeps_what_it_has(tmp_path):
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
 sys.path[:] = {sys.path}
-import ninedof.cli.commands, ninedof.cli.app
-print("ready", flush=True)
+import ninedof.cli.app, ninedof.cli.screen
+report = ninedof.cli.screen.Bar.starts
+def starts(bar, done, total, best):
+    report(bar, done, total, best)
+    if done < total:
+        sys.stderr.write("working\\n")
+ninedof.cli.screen.Bar.starts = starts
 ninedof.cli.app.main({arguments})
 """
     command = [sys.executable, "-c", script]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
-        assert child.stdout.readline() == "ready\n"
-        time.sleep(1.5)  # past the small studies, into the large one
+        while "working" not in child.stderr.readline():  # past the small studies, in the large one
+            assert child.poll() is None
         child.send_signal(signal.SIGINT)
-        out, err = child.communicate(timeout=30)
+        out, err = child.communicate(timeout=120)
     assert child.returncode == 130, err
     assert "Traceback" not in err
     assert "3.762659" in out

@@ -1,8 +1,8 @@
 """Single designs of studies: objective, condition numbers, margins and all gradients, for every family and option.
 
 Oracle: design_oracle, which rebuilds everything from the tables of the study file and shares no formula with the core.
-Gradients are held against its central differences; the few places where a kink lies within a step are left out, and
-counted.
+Gradients are compared with central differences, of the oracle's objective and of the core's margins, which the oracle
+confirms; the few places where a kink lies within a step are left out, and counted.
 """
 
 import itertools
@@ -10,11 +10,11 @@ import math
 
 import numpy as np
 import pytest
-from design_margins import segment_distance
 from design_oracle import TRIPLES, Oracle, differences, family_names, is_angle, joints
 from numpy.testing import assert_allclose
 
 import ninedof as nd
+from ninedof.verify.spacing import between_segments
 
 FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
 LIMITS = (
@@ -159,7 +159,7 @@ def test_values(family):
         assert problem.characteristic_length(x) == pytest.approx(expected["characteristic_length"], rel=exact)
         margins = margins_of(core)
         assert set(margins) == set(data["constraints"])
-        for name, value in expected["margins"].items():
+        for name, value in oracle.margins(problem.names, x).items():
             assert margins[name] == pytest.approx(value, rel=exact, abs=exact), (name, data)
 
 
@@ -172,9 +172,10 @@ def test_gradients(family):
         names, core = problem.names, problem.evaluate(x)
         free = np.array([not isinstance(data["variables"].get(n), float) for n in names])
 
-        def values(y, oracle=oracle, names=names):
-            found = oracle.evaluate(names, y)
-            return {"log objective": np.log(found["objective"])} | found["margins"]
+        def values(y, problem=problem, oracle=oracle, names=names):
+            every = [margins_of(problem.evaluate(one)) for one in y.reshape(-1, y.shape[-1])]
+            found = {name: np.reshape([margins[name] for margins in every], y.shape[:-1]) for name in every[0]}
+            return {"log objective": np.log(oracle.evaluate(names, y)["objective"])} | found
 
         found = {"log objective": core["gradient"]} | {name: slope for name, _, slope in core["margins"]}
         for name, (expected, doubt) in differences(values, x, 1e-3 * np.maximum(np.abs(x), 0.1)).items():
@@ -204,11 +205,12 @@ def test_joints_and_poses(family):
 def test_a_study_evaluates_as_its_problem(family):
     data, design = of_family(family)[5]
     point = nd.Study.from_dict(data).evaluate({n: float(x) for n, x in design.items()})
-    expected = Oracle(data).evaluate(list(design), np.array(list(design.values())))
+    oracle, x = Oracle(data), np.array(list(design.values()))
+    expected, margins = oracle.evaluate(list(design), x), oracle.margins(list(design), x)
     assert point.objective == pytest.approx(expected["objective"], rel=1e-8)
     assert point.condition_number == pytest.approx(expected["condition_number"], rel=1e-8)
     assert_allclose(point.conditions, expected["conditions"], rtol=1e-8)
-    assert point.margins == pytest.approx({n: float(m) for n, m in expected["margins"].items()}, rel=1e-8, abs=1e-8)
+    assert point.margins == pytest.approx(margins, rel=1e-8, abs=1e-8)
 
 
 # --- Units ------------------------------------------------------------------------------------------------------------
@@ -268,7 +270,7 @@ def test_legs_that_share_a_joint_have_no_clearance_limit():
     limits = {"leg_clearance": {"min": 0.05, "of": "zp"}}
     variables = values | {"a2": [1.0, 9.0], "b1": [1.0, 9.0]}
     data = {"design": {"family": "hexagonal"}, "variables": variables, "constraints": limits}
-    expected = Oracle(data).evaluate(list(values), list(values.values()))["margins"]["leg_clearance"]
+    expected = Oracle(data).margins(list(values), list(values.values()))["leg_clearance"]
     found = nd.Study.from_dict(data).evaluate(values).margins["leg_clearance"]
     assert found == pytest.approx(expected, rel=1e-12)
     assert found > 0.0
@@ -282,6 +284,6 @@ def test_the_oracle_of_distances():
     t = np.linspace(0.0, 1.0, 121)[:, None, None]
     a, b, c, d = ends
     grid = np.linalg.norm((a + t * (b - a))[:, None] - (c + t * (d - c))[None], axis=-1).min(axis=(0, 1))
-    exact = segment_distance(a, b, c, d)
+    exact = between_segments(a, b, c, d)
     assert (exact <= grid + 1e-12).all()
     assert_allclose(exact, grid, atol=0.05)

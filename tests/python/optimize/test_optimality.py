@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 from proved_bound import least_by_height
+from sizes import size
 
 import ninedof as nd
 
@@ -76,11 +77,12 @@ def neighbour(study, base, size, rng):
 
 
 def test_no_feasible_neighbour_is_better(result):
-    """2000 random steps of every size from the best design; 200 small ones from every other local optimum."""
+    """Random steps of every size from the best design; small ones from every other local optimum."""
     rng, study = np.random.default_rng(0), result.study
     for k, candidate in enumerate(result.candidates):
-        sizes = np.repeat(10.0 ** np.arange(-8.0, 0.0), 250) if k == 0 else np.repeat([1e-7, 1e-6, 1e-5, 1e-4], 50)
-        points = [neighbour(study, candidate.variables, size, rng) for size in sizes]
+        every, small = 10.0 ** np.arange(-8.0, 0.0), [1e-7, 1e-6, 1e-5, 1e-4]
+        sizes = np.repeat(every, size(80, 250)) if k == 0 else np.repeat(small, size(20, 50))
+        points = [neighbour(study, candidate.variables, step, rng) for step in sizes]
         points = [p for p in points if p is not None]
         assert len(points) > 0.15 * len(sizes)
         kappa = [nd.condition_number(p.geometry, p.configuration, study.characteristic_length) for p in points]

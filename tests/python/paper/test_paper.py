@@ -3,12 +3,14 @@
 import pytest
 
 import ninedof as nd
-from ninedof.paper import paper
+from ninedof.paper import published
+from ninedof.paper.comparison import compare
+from ninedof.paper.verdicts import verdicts
 
 
 @pytest.fixture(scope="module")
 def comparison():
-    return paper.compare()
+    return compare()
 
 
 def test_published_number_is_reproduced(comparison):
@@ -40,12 +42,12 @@ def test_why_says_it_in_two_sentences(comparison):
 
 
 def test_eq_7_fails_in_the_twist_alone():
-    slopes = paper.displacement_slopes(paper.published_zs()[2])
+    slopes = published.displacement_slopes(published.published_zs()[2])
     assert abs(slopes.pop("theta_z") + 0.52) < 1e-3
     assert max(map(abs, slopes.values())) < 1e-6
 
 
 def test_verdicts_hold_the_known_figures():
-    text = " ".join(v.ours + " " + v.verdict for v in paper.verdicts())
+    text = " ".join(v.ours + " " + v.verdict for v in verdicts())
     for figure in ("3.7866", "3.5503", "3.762659", "3.749827", "6.1902", "3.8819", "2.9062", "unbounded"):
         assert figure in text

@@ -8,6 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
+from sizes import size
 
 import ninedof as nd
 from ninedof.pareto import pareto
@@ -132,8 +133,10 @@ def test_two_indices():
 @pytest.mark.parametrize("name", TRADED)
 def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
-    found = pareto(study, against, points=9)
-    assert len(objectives(found)) == 9
+    points = size(5, 9)
+    study = study.with_solver(size(16, study.starts))
+    found = pareto(study, against, points=points)
+    assert len(objectives(found)) == points
     assert is_monotone(found)
     assert list(found.limits) == sorted(found.limits)
     without = nd.optimize(limited(study, against, None))
@@ -179,7 +182,7 @@ def test_without_a_scale_limits_must_be_given():
     ):
         pareto(boundless, "radius_ratio")
     limited_itself = replace(boundless, constraints={"radius_ratio": (None, 1.0)})
-    assert is_monotone(pareto(limited_itself, "radius_ratio", points=5))
+    assert is_monotone(pareto(limited_itself, "radius_ratio", points=size(3, 5), starts=size(16, 64)))
 
 
 # --- Monotone, whatever the solver does -------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 """Figures: what is on them, that they keep to scale, that files come out whole and the same every time."""
 
+import functools
 import math
 import subprocess
 import sys
@@ -270,9 +271,15 @@ def test_powers_of_ten(value, text):
 # --- Files ------------------------------------------------------------------------------------------------------------
 
 
+@functools.cache
+def figure_of(make):
+    """The figure, made once for the tests that do not change it."""
+    return make()
+
+
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
 def test_files_are_whole_and_reproducible(make, tmp_path):
-    first, second = (plot.save(make(), tmp_path / name, "figure") for name in "ab")
+    first, second = plot.save(figure_of(make), tmp_path / "a", "figure"), plot.save(make(), tmp_path / "b", "figure")
     assert [path.name for path in first] == ["figure.png", "figure.svg"]
     assert sorted(path.name for path in (tmp_path / "a").iterdir()) == ["figure.png", "figure.svg"]
     for one, other in zip(first, second, strict=True):
@@ -284,7 +291,7 @@ def test_files_are_whole_and_reproducible(make, tmp_path):
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
 def test_nothing_leaves_the_figure(make):
-    figure = make()
+    figure = figure_of(make)
     figure.draw_without_rendering()
     low, high = figure.get_tightbbox().get_points()
     assert np.all(low > 0)

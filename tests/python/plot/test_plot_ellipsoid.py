@@ -101,7 +101,7 @@ def test_nothing_leaves_the_figure_and_files_are_the_same_twice(make, tmp_path):
     low, high = figure.get_tightbbox().get_points()
     assert np.all(low > 0)
     assert np.all(high < figure.get_size_inches())
-    once, twice = (plot.save(make(), tmp_path / name, "figure") for name in "ab")
+    once, twice = plot.save(figure, tmp_path / "a", "figure"), plot.save(make(), tmp_path / "b", "figure")
     for one, other in zip(once, twice, strict=True):
         assert one.read_bytes() == other.read_bytes()
 

@@ -1,5 +1,6 @@
 """Figures of fronts and of poses: every point is there, marks say what they mean, nothing leaves the picture."""
 
+import functools
 import math
 from xml.etree import ElementTree
 
@@ -12,7 +13,7 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.plot import style
 from ninedof.plot.front import Sketch, front
-from ninedof.plot.poses import PoseConditions, poses
+from ninedof.plot.pose_conditions import PoseConditions, poses
 
 
 def row(limit, status, objective=None, price=None, dominated=False):
@@ -143,9 +144,15 @@ def test_singular_poses_stand_at_the_edge():
 # --- All --------------------------------------------------------------------------------------------------------------
 
 
+@functools.cache
+def figure_of(make):
+    """The figure, made once for the tests that do not change it."""
+    return make()
+
+
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
 def test_nothing_leaves_the_figure(make):
-    figure = make()
+    figure = figure_of(make)
     figure.draw_without_rendering()
     low, high = figure.get_tightbbox().get_points()
     assert np.all(low > 0)
@@ -174,7 +181,7 @@ def test_no_words_on_words(make):
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
 def test_files_are_whole_and_reproducible(make, tmp_path):
-    first, second = (plot.save(make(), tmp_path / name, "figure") for name in "ab")
+    first, second = plot.save(figure_of(make), tmp_path / "a", "figure"), plot.save(make(), tmp_path / "b", "figure")
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes()
     assert ElementTree.parse(first[1]).getroot().tag.endswith("svg")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sizes import size
 
 BENCH = Path(__file__).resolve().parents[3] / "bench" / "python"
 
@@ -63,7 +64,11 @@ def test_a_wrong_number_ends_the_program(compare):
 
 @pytest.mark.slow
 def test_the_script_runs_without_its_cpp_programs(tmp_path):
-    command = [sys.executable, str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
+    # Each level of instructions costs a process, and each of those imports the script: one level is enough here.
+    one_level = f"import sys; sys.path.insert(0, {str(BENCH)!r}); import comparison; "
+    one_level += "comparison.available_levels = lambda: ['base']; comparison.main(['--poses', '40', '--rounds', '1'])"
+    every_level = [str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
+    command = [sys.executable, *size(["-c", one_level], every_level)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     rows = {

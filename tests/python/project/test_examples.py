@@ -1,12 +1,13 @@
 """Every file in examples/ runs and ends as its first lines say."""
 
 import json
+import math
 import runpy
 from pathlib import Path
 
 import pytest
+from sizes import size
 
-import ninedof as nd
 from ninedof.cli.app import main
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -30,6 +31,7 @@ SCRIPTS = {  # what each must print
     "17_best_map.py": ["14641 poses", "best 4.0790"],
     "15_workspace.py": ["converged: volume 7.80", "ball of radius 0.87", "leg_limits 84", "of SO(3)"],
 }
+MANY_POSES = {"08_machine.toml"}  # four starts find the same optimum
 AT_MOST = {  # of the objective: values of searches that share nothing with ours, or of the theory notes
     "01_paper.toml": 3.762660,
     "06_twist.toml": 3.749828,
@@ -46,16 +48,12 @@ def test_no_example_is_left_out():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", STATUS)
 def test_study(name, tmp_path, capsys):
+    starts = size(["--starts", "4"], []) if name in MANY_POSES else []
     with pytest.raises(SystemExit) as end:
-        main(["optimize", str(EXAMPLES / name), "--no-figures", "--json", "--out", str(tmp_path / "run")])
+        main(["optimize", str(EXAMPLES / name), "--no-figures", "--json", "--out", str(tmp_path / "run"), *starts])
     assert end.value.code == STATUS[name]
-    assert json.loads(capsys.readouterr().out)["optimization"]["candidates"]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", AT_MOST)
-def test_values_of_studies(name):
-    assert nd.optimize(nd.Study.load(EXAMPLES / name)).objective <= AT_MOST[name]
+    best = json.loads(capsys.readouterr().out)["optimization"]["candidates"][0]
+    assert best["objective"] <= AT_MOST.get(name, math.inf)
 
 
 def test_design(capsys):

@@ -6,6 +6,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -54,7 +55,7 @@ def penalised(x, g, p, q, signs):
 def test_no_better_point_in_the_chamber(hexagonal):
     rng = np.random.default_rng(5)
     compared = 0
-    for _ in range(12):
+    for _ in range(size(7, 12)):
         g, p, q = random_case(rng, hexagonal)
         best = nd.best_internal_point(g, p, q)
         if best.status == "unbounded":
@@ -73,7 +74,7 @@ def test_no_better_point_in_the_chamber(hexagonal):
             if (signs_and_values(g, p, q, way)[0] == signs[-1]).all():  # else: the same signs, another chamber
                 compared += 1
                 assert end.fun >= best.value * (1.0 - 1e-6)
-    assert compared > 15
+    assert compared > size(8, 15)
 
 
 def test_o_moves_while_the_platform_stays(published):

@@ -7,6 +7,7 @@ import numpy_model
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -80,7 +81,7 @@ def test_no_point_of_a_fine_grid_is_better(published):
     best = nd.best_internal_map(published, plane(12))
     ticks = [np.linspace(-2.5, 2.5, 26), np.linspace(-2.5, 2.5, 26), np.linspace(0.1, 3.9, 26)]
     box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
-    for k in ((0, 0), (3, 7), (6, 6), (11, 4)):
+    for k in ((0, 0), (3, 7), (6, 6), (11, 4))[:: size(2, 1)]:
         s = best.configuration.internal_point[k]
         where = nd.Configuration(
             np.broadcast_to(best.configuration.position[k], box.shape),

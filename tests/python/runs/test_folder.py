@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.paper import paper
+from ninedof.paper.comparison import compare
 from ninedof.runs.design_file import load_design
 from ninedof.runs.folder import Record, load, load_record, write_record, write_run
 from ninedof.support.json import decode, encode
@@ -67,7 +67,7 @@ def test_every_kind_of_run_has_a_record_and_is_read_back(tmp_path, published):
     home = nd.Configuration.neutral(3.9828, 2.4435)
     runs = {
         "optimization": nd.optimize(nd.Study(starts=4)),
-        "comparison": paper.compare(),
+        "comparison": compare(),
         "front": nd.pareto(nd.Study(starts=4), "radius_ratio", values=[2.0]),
         "workspace": nd.workspace(published, ([-1, -1, 3], [1, 1, 5]), criteria={"leg_limits": (2.5, 6.5)}),
         "sweep": nd.sweep(published, home, {"x_p": (-1.0, 1.0, 3)}),

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 import ninedof as nd
+from ninedof.cli.app import main
 from ninedof.pareto import Front, pareto
 from ninedof.runs.folder import Record, load, write_record, write_run
 from ninedof.verify import check
@@ -67,15 +68,14 @@ def test_a_front_that_is_not_whole_is_refused(tmp_path):
 # --- The command ------------------------------------------------------------------------------------------------------
 
 
-def command(tmp_path, **options):
-    from ninedof.cli.commands.front import pareto as run
-
-    given = {"study": None, "against": "radius_ratio", "values": [1.5, 2.0], "points": 13, "out": tmp_path / "run"}
-    return run(**(given | {"starts": None, "threads": None, "figures": True, "json": False} | options))
+def command(tmp_path, line):
+    with pytest.raises(SystemExit) as end:
+        main(["pareto", "--out", str(tmp_path / "run"), *line.split()])
+    return end.value.code
 
 
 def test_the_command_prints_and_records(tmp_path, capsys):
-    assert command(tmp_path) == 0
+    assert command(tmp_path, "--value 1.5 --value 2") == 0
     out = capsys.readouterr().out
     for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
         assert words in out
@@ -85,7 +85,7 @@ def test_the_command_prints_and_records(tmp_path, capsys):
 
 
 def test_the_command_prints_json(tmp_path, capsys):
-    assert command(tmp_path, json=True, figures=False) == 0
+    assert command(tmp_path, "--value 1.5 --value 2 --json --no-figures") == 0
     data = json.loads(capsys.readouterr().out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
     assert data["record"].endswith("record.json")
@@ -93,14 +93,12 @@ def test_the_command_prints_json(tmp_path, capsys):
 
 
 def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
-    assert command(tmp_path, against="leg_ratio", values=[0.5]) == 3
+    assert command(tmp_path, "--against leg_ratio --value 0.5") == 3
     assert "infeasible" in capsys.readouterr().out
 
 
 def test_the_command_keeps_what_an_interruption_leaves(tmp_path, monkeypatch):
-    from ninedof.cli.commands import front as module
-
     found = replace(pareto(PAPER, "radius_ratio", values=[2.0]), interrupted=True)
-    monkeypatch.setattr(module, "trace_front", lambda *_, **__: found)
-    assert command(tmp_path) == 130
+    monkeypatch.setattr("ninedof.cli.commands.pareto.trace_front", lambda *_, **__: found)
+    assert command(tmp_path, "--value 2") == 130
     assert load(tmp_path / "run").interrupted

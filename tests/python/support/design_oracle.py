@@ -1,17 +1,21 @@
 """Design studies once more, in plain numpy: what `Study.evaluate` must answer.
 
 Reads the tables of a study file and rebuilds everything from them: joints, poses, legs, J' and its singular values
-(LAPACK, through numpy_model), aggregates, margins. Shares with the package only the words of the study file. Values
-only: gradients come from differences of these. Arrays carry leading dimensions, so that all the neighbours a difference
-needs are one call.
+(LAPACK, through numpy_model), aggregates. Shares with the package only the words of the study file. Values only:
+gradients come from differences of these. Arrays carry leading dimensions, so that all the neighbours a difference needs
+are one call. Margins, of one design at a time, come from the definitions in ninedof.verify, which share nothing with
+the core but the lengths of legs; test_check_parts.py holds those definitions against numbers done by hand.
 """
 
 import math
 
-import design_margins as margins
 import numpy as np
 import numpy_model as model
 from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.verify import robot as verified
+from ninedof.verify.rules import limits_of, margins
 
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 K = math.sqrt(3.0) / 6.0
@@ -154,8 +158,8 @@ class Oracle:
     """The tables of a study file, ready to be evaluated."""
 
     def __init__(self, data):
-        self.design, self.variables = data["design"], data["variables"]
-        self.constraints, self.objective = data.get("constraints", {}), data.get("objective", {})
+        self.data, self.design, self.variables = data, data["design"], data["variables"]
+        self.objective = data.get("objective", {})
         self.poses = listed_poses(self.objective)
         self.meets = self.joints_that_meet()
 
@@ -170,23 +174,25 @@ class Oracle:
         gap = [np.linalg.norm(x[:, :, None] - y[:, None], axis=-1).max(axis=0) for x, y in (g[:2], g[2:])]
         return tuple(g < 1e-12 for g in gap)
 
-    def evaluate(self, names, x):
-        """Objective, condition numbers and smallest margins at x (..., len(names))."""
+    def at(self, names, x):
+        """Named variables, the joints, and p, Q, s of the neutral pose and of the poses looked at, at x (..., n)."""
         x = np.asarray(x, dtype=float)
         v = {n: np.full(x.shape[:-1], float(b)) for n, b in self.variables.items() if not isinstance(b, list)}
         v |= {n: x[..., k] for k, n in enumerate(names)}
-        geometry = joints(self.design["family"], v)
         home = placed(v, (np.zeros(3), np.zeros(3), np.zeros(3), False), 0)
         places = [placed(v, pose, k) for k, pose in enumerate(self.poses, 1)] or [home]
-        neutral, posed = robot(geometry, [home]), robot(geometry, places)
-        case = margins.Case(geometry, v["zp"], v["zs"], neutral, posed, self.meets)
+        return v, joints(self.design["family"], v), home, places
 
+    def evaluate(self, names, x):
+        """Objective and condition numbers at x (..., len(names))."""
+        v, geometry, home, places = self.at(names, x)
+        neutral, posed = robot(geometry, [home]), robot(geometry, places)
         lc = self.design.get("characteristic_length", 1.0)
         if "characteristic_length" in v:
             lc = v["characteristic_length"]
         elif isinstance(lc, str):
             lc = length_of_kind(lc, neutral)[..., 0]
-        lc = np.broadcast_to(lc, x.shape[:-1])
+        lc = np.broadcast_to(lc, np.shape(x)[:-1])
         sigma = model.singular_values(posed, lc[..., None, None, None])
         sigma_home = model.singular_values(neutral, lc[..., None, None, None])[..., 0, :]
         conditions = sigma[..., 0] / sigma[..., -1]
@@ -207,15 +213,19 @@ class Oracle:
             "condition_number": sigma_home[..., 0] / sigma_home[..., -1],
             "characteristic_length": lc,
             "configurations": robot(geometry, [home, *(places if self.poses else [])])[4:],
-            "margins": {n: self.margin(n, o, v, case) for n, o in self.constraints.items()},
         }
 
-    def margin(self, name, options, v, case):
-        if name != "singularity_free":
-            return margins.margin(name, options, case)
-        parts = np.arange(1, options.get("steps", 4) + 1) / options.get("steps", 4)
-        ways = [placed(v, pose, k, part) for k, pose in enumerate(self.poses, 1) for part in parts]
-        return margins.singularity_margin(case, robot(case.joints, ways) if ways else None, options.get("min", 1e-3))
+    def margins(self, names, x):
+        """The smallest margin of each constraint at x (len(names),)."""
+        _, geometry, home, places = self.at(names, x)
+        base, platform = self.meets
+        apart = [(0, 1), (0, 2), (1, 2)]
+        apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
+        apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
+        poses = nd.Configuration(*(np.stack(part) for part in zip(*places, strict=True)))
+        case = verified.Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
+        limits = limits_of(nd.Study.from_dict(self.data))
+        return {limit.name: float(margins(limit, case).min()) for limit in limits}
 
 
 def _first(m):

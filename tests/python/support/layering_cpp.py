@@ -1,5 +1,6 @@
 """What is wrong with the places and includes of the C++ files. The rules are in layering.py."""
 
+import functools
 import re
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import PurePosixPath
@@ -11,10 +12,12 @@ BESIDE = ("cpp/bindings", "tests/cpp", "bench/cpp")  # trees that use the core a
 TREES = (PUBLIC, PRIVATE, *BESIDE)
 
 
+@functools.cache
 def tree_of(name: str) -> str:
     return next(tree for tree in TREES if name.startswith(f"{tree}/"))
 
 
+@functools.cache
 def room_of(name: str) -> str | None:
     """The room that a file lies in, None outside all of them."""
     tree = tree_of(name)
@@ -24,10 +27,12 @@ def room_of(name: str) -> str | None:
     return None
 
 
+@functools.cache
 def without_comments(text: str) -> str:
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
+@functools.cache
 def first_comment(text: str) -> str:
     """The comment that a file begins with, as one line."""
     block = re.match(r"\s*((?:\s*//[^\n]*\n?)+|/\*.*?\*/)", text, flags=re.DOTALL)

@@ -1,16 +1,18 @@
 """What is wrong with the places and imports of the Python files. The rules are in layering.py."""
 
 import ast
+import functools
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import PurePosixPath
 
-from layering import AT_RUN_TIME, CORE_USERS, HEAVY, PYTHON_ROOMS, TEST_ROOMS, cycles, reachable
+from layering import AT_RUN_TIME, CORE_USERS, HEAVY, ORACLES, PYTHON_ROOMS, TEST_ROOMS, cycles, reachable
 
 CORE = "_core"
 
 
-def imports(tree: ast.Module, package: str, *, run_time: bool = False, top_only: bool = False) -> set[str]:
-    """Dotted names that a module imports, `package` being its own, for relative imports.
+@functools.cache
+def imports(text: str, package: str, *, run_time: bool = False, top_only: bool = False) -> frozenset[str]:
+    """Dotted names that a module of this text imports, `package` being its own, for relative imports.
 
     With `run_time`, without those meant for the type checker alone; with `top_only`, only what runs on import.
     """
@@ -30,8 +32,13 @@ def imports(tree: ast.Module, package: str, *, run_time: bool = False, top_only:
         for child in ast.iter_child_nodes(node):
             visit(child)
 
-    visit(tree)
-    return out
+    visit(parsed(text))
+    return frozenset(out)
+
+
+@functools.cache
+def parsed(text: str) -> ast.Module:
+    return ast.parse(text)
 
 
 def own_modules(names: Iterable[str], known: Collection[str]) -> set[str]:
@@ -71,9 +78,8 @@ def python_violations(files: Mapping[str, str]) -> list[str]:
             out.append(f"{name}: in no room; the rooms are {', '.join(PYTHON_ROOMS)}")
             continue
         package = ".".join(["ninedof", *PurePosixPath(name).parent.parts])
-        tree = ast.parse(text)
-        used = own_modules(imports(tree, package), known)
-        top = imports(tree, package, run_time=True, top_only=True)
+        used = own_modules(imports(text, package), known)
+        top = imports(text, package, run_time=True, top_only=True)
         every[module] = used
         on_import[module] = with_packages(own_modules(top, known))
         heavy[module] = {other.split(".")[0] for other in top} & HEAVY
@@ -83,8 +89,10 @@ def python_violations(files: Mapping[str, str]) -> list[str]:
             above = room_of(other)
             if above in PYTHON_ROOMS and PYTHON_ROOMS.index(above) > PYTHON_ROOMS.index(room):
                 out.append(f"{name}: imports upward {other}")
+            if room not in ORACLES.get(above, {room}) | {above}:
+                out.append(f"{name}: uses the oracle {other}; only {', '.join(sorted(ORACLES[above]))} may")
         if room in AT_RUN_TIME:
-            rooms = {room_of(other) for other in own_modules(imports(tree, package, run_time=True), known)}
+            rooms = {room_of(other) for other in own_modules(imports(text, package, run_time=True), known)}
             out.extend(f"{name}: must not use {x}" for x in sorted(rooms - {room} - AT_RUN_TIME[room]))
     for module in sorted(reachable("__init__", on_import) | {"__init__"}):
         out.extend(f"{module}: loads {x} on `import ninedof`" for x in sorted(heavy.get(module, ())))

@@ -72,7 +72,23 @@ def signs(m):
     return np.sign(np.stack([np.linalg.det(x) for x in (np.cross(d, w), lower, upper)], axis=-1))
 
 
-def volume_of_balls(inside, outside, low, high, steps=1500):
+def states_at(cells, origin, points):
+    """State of the cell that holds each point, -1 where none does. Cells of one size lie on a grid from `origin`."""
+    state = np.full(len(points), -1)
+    for one in np.unique(cells.size, axis=0):
+        of_size = (cells.size == one).all(axis=1)
+        first = np.rint((cells.centre[of_size] - origin) / one - 0.5).astype(np.int64)
+        at = np.floor((points - origin) / one).astype(np.int64)
+        shape = np.maximum(first.max(axis=0), at.max(axis=0)) + 1
+        keys, wanted = (np.ravel_multi_index(k.T, shape) for k in (first, at))
+        order = np.argsort(keys)
+        place = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
+        hit = keys[place] == wanted
+        state[hit] = cells.state[of_size][place[hit]]
+    return state
+
+
+def volume_of_balls(inside, outside, low, high, steps=600):
     """Volume of the points of a box inside every ball (centre, radius) and outside every other, exact along x."""
     y, z = (low[k] + (np.arange(steps) + 0.5) / steps * (high[k] - low[k]) for k in (1, 2))
     y, z = np.meshgrid(y, z, indexing="ij")

@@ -17,7 +17,7 @@ from sweep_work import HOME, G
 import ninedof as nd
 from ninedof import plot
 from ninedof.cli.app import main
-from ninedof.paper import paper
+from ninedof.paper import published
 from ninedof.sweep.figures import ratio_study
 
 
@@ -35,10 +35,10 @@ def seven():
 
 
 def test_figure_6_is_nine_sweeps_of_one_coordinate(six):
-    home = nd.Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    home = nd.Configuration.neutral(published.ZP, published.published_zs()[2])
     assert six["coordinate"].tolist() == "x_p y_p z_p theta_x theta_y theta_z x_s y_s z_s".split()
     for k, name in enumerate(six["coordinate"].tolist()):
-        alone = nd.sweep(paper.published_geometry(), home, {name: (-1.0, 1.0, 201)})["condition_number"]
+        alone = nd.sweep(published.published_geometry(), home, {name: (-1.0, 1.0, 201)})["condition_number"]
         np.testing.assert_allclose(six["condition_number"][k], alone, rtol=1e-12)
 
 
@@ -218,9 +218,9 @@ def test_sweep_over_poses(here, capsys):
     names = {p.name for p in (here / "run").iterdir()}
     assert names == {"chunks", "record.json", "sweep.npz", "sweep.png", "sweep.svg"}
     found = nd.SweepResult.load("run/sweep.npz")
-    home = nd.Configuration.neutral(paper.ZP, paper.published_zs()[2])
+    home = nd.Configuration.neutral(published.ZP, published.published_zs()[2])
     degrees = np.radians([-30.0, 0.0, 30.0])
-    expected = nd.sweep(paper.published_geometry(), home, {"x_p": (-1.0, 1.0, 5), "theta_z": degrees}, "leg_ratio")
+    expected = nd.sweep(published.published_geometry(), home, {"x_p": (-1.0, 1.0, 5), "theta_z": degrees}, "leg_ratio")
     assert found["leg_ratio"].tobytes() == expected["leg_ratio"].tobytes()
 
 
@@ -278,7 +278,7 @@ def test_the_atlas_command(here, capsys, monkeypatch):
 
 def test_the_bar_shows_the_time_to_go(capsys):
     """At the pace of the last points: 10 of 100 every 10 s, so 80 s after 20 of them."""
-    from ninedof.cli.commands.screen import Screen
+    from ninedof.cli.screen import Screen
 
     screen, now = Screen(False), [0.0]
     screen.progress_console.get_time = lambda: now[0]

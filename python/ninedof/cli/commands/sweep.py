@@ -7,15 +7,32 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from rich.table import Table
+import typer
 
-from ninedof.cli.commands.evaluation import chosen_design, length_option
-from ninedof.cli.commands.kept import compute, run_folder, write
-from ninedof.cli.commands.screen import DONE, INTERRUPTED, Screen
-from ninedof.paper import paper
+from ninedof.cli.chosen_design import chosen_design, length_option
+from ninedof.cli.long_run import compute, run_folder, write
+from ninedof.cli.options import (
+    BaseSide1,
+    BaseSide2,
+    Figures,
+    Height,
+    InternalHeight,
+    Json,
+    Out,
+    PlatformSide1,
+    PlatformSide2,
+    Resume,
+    Scheduler,
+    Threads,
+    TwistDeg,
+)
+from ninedof.cli.screen import INTERRUPTED, Screen
+from ninedof.cli.sweep_summary import describe, json_data, summary_table
+from ninedof.design.indices import computed
+from ninedof.paper.published import published_variables
 from ninedof.runs.design_file import Design, hexagonal_design
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import thread_argument
@@ -24,11 +41,20 @@ from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES
 
-__all__ = ["SweepOptions", "sweep"]
-
 FIGURES = ("figure-6", "figure-7")
 HEIGHTS = ("zp", "zs")
-MOST_PRINTED = 10_000  # numbers that JSON repeats; the file has them all
+
+
+PLACE = 4
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof sweep figure-6                   the condition number against displacement, as in the paper's Fig. 6
+
+  ninedof sweep --over x_p=-1:1:201 --over theta_z_deg=-60:60:121
+
+  ninedof sweep design.toml --over z_s=-1:1:401 --index singular_values --index leg_lengths
+
+  ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations"""
 
 
 @dataclass(frozen=True)
@@ -46,17 +72,53 @@ class SweepOptions:
 
 
 def sweep(
-    what: str | None,
-    sides: Mapping[str, float | None],
-    theta_z_deg: float | None,
-    options: SweepOptions,
-    out: Path | None,
-    resume: bool,
-    scheduler: str | None,
-    figures: bool,
-    json: bool,
-) -> int:
-    """Sweep; print, record, return the exit status."""
+    what: Annotated[
+        str | None,
+        typer.Argument(
+            help="figure-6, figure-7, or a design: a file (TOML), a run folder or its record.json. The published "
+            "design at its best zs if none is given."
+        ),
+    ] = None,
+    over: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
+            "theta_z x_s y_s z_s, or a1 a2 b1 b2 zp zs of designs. Angles in radians, or in degrees with _deg behind "
+            "the name."
+        ),
+    ] = None,
+    index: Annotated[
+        list[str] | None,
+        typer.Option(
+            help=f"What is computed, condition_number by default; may be repeated. One of {', '.join(computed())}."
+        ),
+    ] = None,
+    absolute: Annotated[
+        bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
+    ] = False,
+    internal_point: Annotated[
+        str | None, typer.Option(help="Where O is while the platform moves: held (default), carried or best.")
+    ] = None,
+    a1: BaseSide1 = None,
+    a2: BaseSide2 = None,
+    b1: PlatformSide1 = None,
+    b2: PlatformSide2 = None,
+    zp: Height = None,
+    zs: InternalHeight = None,
+    theta_z_deg: TwistDeg = None,
+    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number or a kind.")] = None,
+    points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None,
+    chunk: Annotated[int | None, typer.Option(help="Points a chunk. The result does not depend on it.")] = None,
+    out: Out = None,
+    resume: Resume = False,
+    scheduler: Scheduler = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Compute an index over one to three coordinates of the configuration, or variables of the design."""
+    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    options = SweepOptions(over or (), index or (), absolute, internal_point, lc, points, chunk, threads)
     screen = Screen(json)
     thread_argument(options.threads)
     if what in FIGURES:
@@ -68,13 +130,11 @@ def sweep(
     with run_folder(out, resume) as directory:
         result = compute(asked, title, directory, scheduler, screen)
     if result is None:
-        return INTERRUPTED
+        raise typer.Exit(INTERRUPTED)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
-    screen.print(_table(summary, title))
-    write(
-        result, directory, "sweep", (lambda: _figure(result, what)) if figures else None, screen, _data(result, summary)
-    )
-    return DONE
+    screen.print(summary_table(summary, title))
+    draw = (lambda: _figure(result, what)) if figures else None
+    write(result, directory, "sweep", draw, screen, json_data(result, summary))
 
 
 def _asked(
@@ -143,7 +203,7 @@ def parse_over(text: str) -> tuple[str, Values]:
 def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
     """Return the design that is moved: the published one at its best zs where none is given."""
     if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
-        return hexagonal_design(paper.published_variables())
+        return hexagonal_design(published_variables())
     return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
 
 
@@ -156,53 +216,10 @@ def _variables(
     given = {name: value for name, value in sides.items() if value is not None}
     if both := sorted(set(given) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
-    values = given or paper.published_variables()
+    values = given or published_variables()
     if theta_z_deg is not None:
         values["theta_z"] = math.radians(theta_z_deg)
     return {name: value for name, value in values.items() if name not in over}
-
-
-def describe(result: SweepResult, name: str) -> dict[str, Any]:
-    """Return what is most and least of an index, where, and how many points have none."""
-    values = result[name]
-    finite = np.isfinite(values)
-    out: dict[str, Any] = {
-        "points": int(values.size),
-        "infinite": int(np.isinf(values).sum()),
-        "missing": int(np.isnan(values).sum()),
-    }
-    if finite.any():
-        for word, pick in (("least", np.argmin), ("greatest", np.argmax)):
-            fill = np.inf if word == "least" else -np.inf
-            at = np.unravel_index(int(pick(np.where(finite, values, fill))), values.shape)
-            out[word] = {"value": float(values[at]), "at": result.at(name, at)}
-    return out
-
-
-def _table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold")
-    counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
-    for head in ("index", "", "value", "at", *counts):
-        table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
-    for name, row in summary.items():
-        table.add_row(name.replace("_", " "), "least", *_end(row.get("least")), *(str(row[word]) for word in counts))
-        table.add_row("", "greatest", *_end(row.get("greatest")), end_section=True)
-    return table
-
-
-def _end(end: Mapping[str, Any] | None) -> tuple[str, str]:
-    if end is None:
-        return "-", "-"
-    where = (f"{name} = {v:.5g}" if isinstance(v, float) else f"{name} {v}" for name, v in end["at"].items())
-    return f"{end['value']:.6g}", "\n".join(where)
-
-
-def _data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:
-    data: dict[str, Any] = {"sweep": {"dims": dict(result.dims), "indices": summary, "attributes": result.attributes}}
-    if sum(a.size for a in (*result.arrays.values(), *result.coords.values())) <= MOST_PRINTED:
-        data["sweep"]["coords"] = {name: values.tolist() for name, values in result.coords.items()}
-        data["sweep"]["arrays"] = {name: values.tolist() for name, values in result.arrays.items()}
-    return data
 
 
 def _figure(result: SweepResult, what: str | None) -> Any:

@@ -3,32 +3,39 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
+import typer
 
-from ninedof.cli.commands.evaluation import length_option
-from ninedof.cli.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen, from_first_news
+from ninedof.cli.chosen_design import length_option
+from ninedof.cli.options import Figures, Json, Out, Threads
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.cli.workspace_summary import draw, pose_bar, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.paper import paper
+from ninedof.paper.published import published_variables
 from ninedof.runs.design_file import Design, hexagonal_design, load_design
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
-from ninedof.workspace import WorkspaceMap
 from ninedof.workspace import workspace as find_workspace
 
-__all__ = ["WorkspaceOptions", "workspace"]
-
 ANGLES = ("base_cone", "platform_cone")
-SHOWN = 8  # limits in the table
+
+
+Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
+PLACE = 6
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof workspace --legs 2.5 6.5 --condition 5 --singularity-free
+
+  ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
+
+  ninedof workspace --archetype orientation --angle-deg 60 --legs 2.5 6.5 --json | jq .workspace.volume"""
 
 
 @dataclass(frozen=True)
@@ -47,14 +54,72 @@ class WorkspaceOptions:
     threads: int | None
 
 
-def workspace(design: Path | None, options: WorkspaceOptions, out: Path | None, figures: bool, json: bool) -> int:
-    """Find the workspace of a design, whose configuration is home; print, record, return the exit status.
-
-    The published design if none is given.
-    """
+def workspace(
+    design: Annotated[
+        Path | None, typer.Argument(help="A design file (TOML) or a run folder; the published design if none is given.")
+    ] = None,
+    archetype: Annotated[
+        str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
+    ] = "constant_orientation",
+    x: Ends = None,
+    y: Ends = None,
+    z: Ends = None,
+    legs: Annotated[
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs.")
+    ] = None,
+    condition: Annotated[float | None, typer.Option(help="Greatest condition number.")] = None,
+    base_cone_deg: Annotated[float | None, typer.Option(help="Greatest angle at a base joint from home.")] = None,
+    platform_cone_deg: Annotated[float | None, typer.Option(help="The same at a platform joint.")] = None,
+    clearance: Annotated[float | None, typer.Option(help="Least distance of legs that share no joint.")] = None,
+    singularity_free: Annotated[
+        bool, typer.Option("--singularity-free", help="Connected with home, on its side of every singularity.")
+    ] = False,
+    angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None,
+    tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None,
+    torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None,
+    orientations: Annotated[int | None, typer.Option(help="How many rotations make a set.")] = None,
+    position: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(metavar="X Y Z", help="Of orientation: where the platform is; the home position by default."),
+    ] = None,
+    internal_point: Annotated[
+        str | None, typer.Option(help="Where O is: best, or a fraction between the plates; 0.5 by default.")
+    ] = None,
+    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
+    method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
+    tolerance: Annotated[float, typer.Option(help="Error wanted, as a share of the volume.")] = 1e-3,
+    resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
+    points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None,
+    out: Out = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Find where a robot can work: the volume, its boundary and what limits it."""
+    criteria = {
+        "leg_limits": legs,
+        "condition_number": condition,
+        "base_cone": base_cone_deg,
+        "platform_cone": platform_cone_deg,
+        "leg_clearance": clearance,
+        "singularity_free": singularity_free,
+    }
+    options = WorkspaceOptions(
+        archetype=archetype,
+        box={"x": x, "y": y, "z": z},
+        position=position,
+        criteria=criteria,
+        region_deg={"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg},
+        orientations=orientations,
+        internal_point=internal_point,
+        lc=lc,
+        search={"method": method, "tolerance": tolerance, "resolution": resolution, "points": points, "seed": seed},
+        threads=threads,
+    )
     screen = Screen(json)
     thread_argument(options.threads)
-    given = hexagonal_design(paper.published_variables()) if design is None else load_design(design)
+    given = hexagonal_design(published_variables()) if design is None else load_design(design)
     if options.lc is not None:
         given = given._replace(characteristic_length=length_option(options.lc))
     search = {name: value for name, value in options.search.items() if value is not None}
@@ -63,22 +128,21 @@ def workspace(design: Path | None, options: WorkspaceOptions, out: Path | None, 
             if name in search:
                 raise ValueError(f"--{name}: got {search[name]}, expected none with --method grid")
     asked = _arguments(given, options) | search
-    with run_directory(out) as directory, _bar(screen, options.archetype.replace("_", " ")) as progress:
+    with run_directory(out) as directory, pose_bar(screen, options.archetype.replace("_", " ")) as progress:
         found = find_workspace(
             given.geometry, **asked, home=given.configuration, threads=options.threads, progress=progress
         )
-    screen.print(_table(found))
-    for sentence in _sentences(found):
+    screen.print(workspace_table(found))
+    for sentence in sentences(found):
         screen.print(sentence)
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
-    record = write_run(found, directory, partial(_draw, found, screen) if drawn else None, _describe(given, asked))
-    screen.print(
-        f"run folder {directory}: {record.name}, map.npz" + (", figure workspace (PNG and SVG)" if drawn else "")
-    )
+    record = write_run(found, directory, partial(draw, found, screen) if drawn else None, _describe(given, asked))
+    figure = ", figure workspace (PNG and SVG)" if drawn else ""
+    screen.print(f"run folder {directory}: {record.name}, map.npz{figure}")
     screen.data({"workspace": found.to_dict(), "record": str(record)})
     if found.interrupted:
-        return INTERRUPTED
-    return DONE if found.volume > 0.0 else NO_RESULT
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
 
 
 def _arguments(given: Design, options: WorkspaceOptions) -> dict[str, Any]:
@@ -137,80 +201,3 @@ def _describe(given: Design, asked: Mapping[str, Any]) -> dict[str, Any]:
         "home": {"position": c.position, "rotation": c.rotation, "internal_point": c.internal_point},
         **asked,
     }
-
-
-@contextmanager
-def _bar(screen: Screen, title: str) -> Iterator[Any]:
-    """Show a bar of poses with the time to go, as far as is known from the levels before."""
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=12),
-        TextColumn("{task.completed:,.0f} poses{task.fields[volume]}"),
-        TimeRemainingColumn(),
-        TextColumn("to go"),
-    )
-    with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
-        task = shown.add_task(title, total=None, volume="")
-
-        def progress(done: int, expected: int, volume: float | None) -> None:
-            words = "" if volume is None else f", volume {volume:.4g}"
-            shown.start()
-            shown.update(task, completed=done, total=expected, volume=words)
-
-        yield progress
-
-
-def _table(found: WorkspaceMap) -> Table:
-    """Lay a workspace out for a person."""
-    table = Table(title="Workspace", title_justify="left", title_style="bold", show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
-    table.add_row("volume", f"{found.volume:.6g}")
-    table.add_row("  error, estimated", f"{found.error:.2g}")
-    table.add_row("  share of the box or region", f"{100.0 * found.share:.3g} %")
-    if found.unseen > 0.0:
-        table.add_row("  too thin to be seen, at most (95 %)", f"{found.unseen:.2g}")
-    if len(found.pieces) > 1:
-        table.add_row("  pieces", str(len(found.pieces)))
-    if found.ball_radius > 0.0:
-        table.add_row("largest ball: radius", f"{found.ball_radius:.4g}")
-        table.add_row("largest box: sides", "  ".join(f"{side:.4g}" for side in found.box_high - found.box_low))
-    table.add_section()
-    table.add_row("global conditioning index", f"{found.conditioning_index:.5f}")
-    table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
-    table.add_row("condition number: 95 %", f"{found.percentiles[95]:.4f}")
-    table.add_row("condition number: worst", f"{found.worst_condition_number:.4f}")
-    table.add_section()
-    for name, share in list(found.limits().items())[:SHOWN]:
-        table.add_row(f"boundary by {name.replace('_', ' ')}", f"{100.0 * share:.1f} %")
-    return table
-
-
-def _sentences(found: WorkspaceMap) -> Iterator[str]:
-    words = {
-        "limited": "the number of poses ran out before the error asked for was reached",
-        "empty": "no allowed pose was found",
-        "stopped": "interrupted: what was known until then is kept",
-    }
-    if found.status in words:
-        yield f"[bold]{found.status}[/bold]: {words[found.status]}"
-    if not found.home_allowed:
-        yield f"the home pose is not allowed: {found.home_limit}"
-    if found.box_limits:
-        yield "the workspace runs to the box: in a larger one it would be larger"
-
-
-def _draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
-    screen.say("drawing the workspace")
-    from ninedof import plot
-
-    middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
-    sections = []
-    for fixed in (1, 2):
-        drawn = [k for k in range(3) if k != fixed]
-        ball = (middle[drawn], found.ball_radius) if found.ball_radius > 0.0 else None
-        inner = (found.box_low[drawn], found.box_high[drawn]) if np.isfinite(found.box_low).all() else None
-        plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
-        sections.append(plot.Section(plane, ball, inner))
-    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels)
-    return plot.save(figure, directory, "workspace")

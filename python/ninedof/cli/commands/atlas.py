@@ -4,40 +4,48 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+import typer
 from rich.table import Table
 
 from ninedof.atlas import atlas as survey
 from ninedof.atlas.sample import VARIABLES, squared_radius_ratio
-from ninedof.cli.commands.kept import compute, run_folder, write
-from ninedof.cli.commands.screen import DONE, INTERRUPTED, Screen
+from ninedof.cli.long_run import compute, run_folder, write
+from ninedof.cli.options import Figures, Json, Out, Resume, Scheduler
+from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.sweep import SweepResult
 
-__all__ = ["atlas"]
-
 SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 
 
+PLACE = 5
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof atlas                                        a million designs
+
+  ninedof atlas --designs 100000000 --out atlas        a hundred million; --resume after an interruption"""
+
+
 def atlas(
-    designs: int,
-    seed: int,
-    out: Path | None,
-    resume: bool,
-    scheduler: str | None,
-    figures: bool,
-    json: bool,
-) -> int:
-    """Survey; print, record, return the exit status."""
+    designs: Annotated[int, typer.Option(help="How many designs.")] = 1_000_000,
+    seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0,
+    out: Out = None,
+    resume: Resume = False,
+    scheduler: Scheduler = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Survey the hexagonal family: how its designs are distributed, the best for each size of the base."""
     screen = Screen(json)
     asked = partial(survey, designs, seed)
     with run_folder(out, resume) as directory:
         result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
     if result is None:
-        return INTERRUPTED
+        raise typer.Exit(INTERRUPTED)
     screen.print(_table(result))
     ratio, best = result["radius_ratio"], result["best"]
     rows = [
@@ -60,7 +68,6 @@ def atlas(
         return plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
 
     write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]
-    return DONE
 
 
 def _table(result: SweepResult) -> Table:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from ninedof.cli.commands.comparison import comparison_table, comparison_words
-from ninedof.cli.commands.screen import Screen, exit_status
-from ninedof.cli.commands.tables import price_text, result_table
+import typer
+
+from ninedof.cli.comparison_table import comparison_table, comparison_words
+from ninedof.cli.options import Figures, Json, Out, Starts, StudyFile, Threads
+from ninedof.cli.result_table import price_text, result_table
+from ninedof.cli.screen import Screen, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result
-from ninedof.paper import paper as the_paper
+from ninedof.paper.comparison import compare
 from ninedof.runs.describe import describe_comparison
 from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import figures_of
@@ -20,32 +23,41 @@ from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 from ninedof.verify.verdict import check as examine
 
+PLACE = 1
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof optimize                         the paper's problem, beside the published optimum
+
+  ninedof optimize study.toml --out run1   a study of your own, run folder run1
+
+  ninedof optimize --json --no-figures | jq .optimization.status"""
+
 
 def optimize(
-    study: Path | None,
-    out: Path | None,
-    starts: int | None,
-    seed: int | None,
-    threads: int | None,
-    figures: bool,
-    json: bool,
-    check: bool = False,
-) -> int:
-    """Solve a study, or the paper's beside the published optimum; print, record, return the exit status."""
+    study: StudyFile = None,
+    out: Out = None,
+    starts: Starts = None,
+    seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    check: Annotated[bool, typer.Option("--check", help="Verify the best design by other means, and say how.")] = False,
+    json: Json = False,
+) -> None:
+    """Find the best design of a study: by default, the one of least condition number."""
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
     directory = new_directory(out)
     if study is None:
-        return _optimize_paper(chosen, directory, threads, figures, screen, check)
-    return _optimize_study(chosen, study.name, directory, threads, figures, screen, check)
+        raise typer.Exit(_optimize_paper(chosen, directory, threads, figures, screen, check))
+    raise typer.Exit(_optimize_study(chosen, study.name, directory, threads, figures, screen, check))
 
 
 def _optimize_paper(
     study: Study, directory: Path, threads: int | None, figures: bool, screen: Screen, check: bool
 ) -> int:
     with screen.progress("the paper's problem") as bar:
-        comparison = the_paper.compare(study.starts, study.seed, threads, bar.starts)
+        comparison = compare(study.starts, study.seed, threads, bar.starts)
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
     if comparison.result.interrupted:

@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ninedof.cli.commands.screen import Screen
+from ninedof.cli.screen import Screen
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.extras import MissingExtra

@@ -3,23 +3,60 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+import typer
 from rich.table import Table
 
-from ninedof.cli.commands.screen import DONE, Screen
-from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.cli.chosen_design import chosen_design, length_option
+from ninedof.cli.options import (
+    BaseSide1,
+    BaseSide2,
+    Height,
+    InternalHeight,
+    Json,
+    PlatformSide1,
+    PlatformSide2,
+    TwistDeg,
+)
+from ninedof.cli.screen import Screen
 from ninedof.design.indices import computed
-from ninedof.runs.design_file import Design, hexagonal_design, indices, load_design
+from ninedof.runs.design_file import indices
+
+PLACE = 3
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4435
+
+  ninedof evaluate design.toml --lc optimal
+
+  ninedof evaluate runs/20260101-120000    the best design of a run"""
 
 
 def evaluate(
-    design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None, lc: str | None, json: bool
-) -> int:
-    """Print the indices of a design."""
+    design: Annotated[
+        Path | None, typer.Argument(help="A design file (TOML), a run folder or its record.json.")
+    ] = None,
+    a1: BaseSide1 = None,
+    a2: BaseSide2 = None,
+    b1: PlatformSide1 = None,
+    b2: PlatformSide2 = None,
+    zp: Height = None,
+    zs: InternalHeight = None,
+    theta_z_deg: TwistDeg = None,
+    lc: Annotated[
+        str | None,
+        typer.Option(
+            help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; 1 by default."
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Print the indices of one design and configuration."""
     screen = Screen(json)
+    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
     given = chosen_design(design, sides, theta_z_deg)
     if lc is not None:
         given = given._replace(characteristic_length=length_option(lc))
@@ -46,27 +83,3 @@ def evaluate(
     if not 0.0 < o < p:
         screen.print("O is not between base and platform: studies keep 0 < zs < zp.")
     screen.data(values)
-    return DONE
-
-
-def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
-    """Return the design of a file, or of sides and heights."""
-    named = {name: value for name, value in sides.items() if value is not None}
-    if design is not None:
-        if named or theta_z_deg is not None:
-            raise ValueError(f"design: got a file and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
-        return load_design(design)
-    missing = [f"--{name}" for name, value in sides.items() if value is None]
-    if missing:
-        raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
-    return hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)})
-
-
-def length_option(text: str) -> float | str:
-    """Return a characteristic length as --lc gives it."""
-    try:
-        return float(text)
-    except ValueError:
-        if text not in KINDS:
-            raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
-        return text

@@ -7,11 +7,12 @@ from typing import Any
 
 from rich.table import Table
 
-from ninedof.cli.commands.tables import short
-from ninedof.paper import paper as the_paper
+from ninedof.cli.result_table import short
+from ninedof.paper import published
+from ninedof.paper.comparison import Comparison
 
 
-def comparison_table(c: the_paper.Comparison) -> Table:
+def comparison_table(c: Comparison) -> Table:
     """Lay the published optimum and ours side by side: one design a column."""
     table = Table(title="The paper's design problem, lengths in units of l_c", title_justify="left", title_style="bold")
     table.add_column("", overflow="fold")
@@ -32,11 +33,11 @@ def comparison_table(c: the_paper.Comparison) -> Table:
     for label, names, printed in (("base a1, a2", base, "0, -"), ("platform b1, b2", platform, "5.8124, -")):
         line(label, printed, *(", ".join(short(r.variables[n]) for n in names) for _, r in rows))
     line("base / platform", "-", *(f"{r.radius_ratio:.4f}" for _, r in rows))
-    line("height zp", f"{the_paper.ZP:.4f}", *(f"{r.variables['zp']:.4f}" for _, r in rows))
+    line("height zp", f"{published.ZP:.4f}", *(f"{r.variables['zp']:.4f}" for _, r in rows))
     line("height of O, zs", "-", *(f"{r.variables['zs']:.4f}" for _, r in rows), end_section=True)
     for k, label in enumerate(("external legs l", "upper internal q", "lower internal r")):
         line(label, "-", *(f"{r.legs[k]:.4f}" for _, r in rows), end_section=k == 2)
-    line("condition number", f"{the_paper.KAPPA:.4f}", *(f"{r.condition_number:.6f}" for _, r in rows), style="bold")
+    line("condition number", f"{published.KAPPA:.4f}", *(f"{r.condition_number:.6f}" for _, r in rows), style="bold")
     line("below 3.9110 by", "-", *("-" if abs(r.gain) < 0.005 else f"{r.gain:.2f} %" for _, r in rows))
     line("limits reached", "-", *("\n".join(_binding(r.variables, r.active)) for _, r in rows))
     return table
@@ -46,13 +47,13 @@ def _binding(variables: Mapping[str, float], active: tuple[str, ...]) -> list[st
     return [f"{name} = {short(variables[name])}" if name in variables else name for name in active] or ["nothing"]
 
 
-def comparison_words(c: the_paper.Comparison) -> str:
+def comparison_words(c: Comparison) -> str:
     """Say what the table does not."""
     below, above = c.crossings
     return (
         f"Read with a as the base, as eqs. (37)-(38) have it, eq. (39) allows no condition number under "
         f"{c.as_printed:.4f}: a and b are swapped, and a2, b2, zs are missing. "
-        f"With base side {the_paper.BASE_SIDE:.4f} and platform side {the_paper.PLATFORM_SIDE:.4f}, 3.9110 occurs at "
+        f"With base side {published.BASE_SIDE:.4f} and platform side {published.PLATFORM_SIDE:.4f}, 3.9110 occurs at "
         f"zs = {below:.4f} and {above:.4f}; the least along zs is {c.best_zs.condition_number:.4f} at "
         f"{c.best_zs.variables['zs']:.4f}.\n\n{c.why}\n"
     )

@@ -49,7 +49,7 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
 
     Examples
     --------
-    >>> from ninedof.plot.poses import PoseConditions, poses
+    >>> from ninedof.plot.pose_conditions import PoseConditions, poses
     >>> designs = [PoseConditions("robust", [4.1, 4.3, 4.2]), PoseConditions("neutral only", [3.8, 4.9, 4.4])]
     >>> figure = poses(designs, names=["neutral", "x + 0.1", "x - 0.1"])
 

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from rich.table import Table
 
-from ninedof.cli.commands.screen import DONE, Screen
-from ninedof.paper import paper as the_paper
+from ninedof.cli.options import Json, Threads
+from ninedof.cli.screen import Screen
+from ninedof.paper.verdicts import verdicts
+
+PLACE = 7
+EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
 
 
-def paper(threads: int | None, json: bool) -> int:
-    """Print the paper's numbers beside ours."""
+def paper(threads: Threads = None, json: Json = False) -> None:
+    """Print every number of the paper beside ours, with a verdict each."""
     screen = Screen(json)
-    found = the_paper.verdicts(threads)
+    found = verdicts(threads)
     table = Table(
         title="The paper's numbers and ours, lengths in units of l_c", title_justify="left", title_style="bold"
     )
@@ -21,4 +25,3 @@ def paper(threads: int | None, json: bool) -> int:
         table.add_row(v.where, v.printed, v.ours, v.verdict, end_section=True)
     screen.print(table)
     screen.data([{"where": v.where, "printed": v.printed, "ours": v.ours, "verdict": v.verdict} for v in found])
-    return DONE

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
+import typer
 from rich.table import Table
 
-from ninedof.cli.commands.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.cli.options import Figures, Json, Out, Starts, StudyFile, Threads
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
@@ -26,46 +27,37 @@ __all__ = ["front_table", "pareto"]
 SKETCHED = 4  # designs drawn from above
 
 
+PLACE = 2
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof pareto --against radius_ratio    how the paper's optimum falls as the base may grow
+
+  ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4"""
+
+
 def pareto(
-    study: Path | None,
-    against: str,
-    values: Sequence[float] | None,
-    points: int,
-    out: Path | None,
-    starts: int | None,
-    threads: int | None,
-    figures: bool,
-    json: bool,
-) -> int:
-    """Find a front of a study (the paper's if none is given); print, record, return the exit status.
-
-    Parameters
-    ----------
-    study : path or None
-    against : str
-        What the objective is traded against.
-    values : sequence of float or None
-        Limits to solve; found by the tool if None or empty.
-    points : int
-        How many, in that case.
-    out : path or None
-        Run folder.
-    starts, threads : int or None
-    figures : bool
-        Whether figures are drawn.
-    json : bool
-        Whether the result goes to standard output as JSON.
-
-    """
+    study: StudyFile = None,
+    against: Annotated[
+        str, typer.Option(help="The limit that is swept: a constraint, or condition_limit.")
+    ] = "radius_ratio",
+    value: Annotated[
+        list[float] | None, typer.Option(help="A limit to solve; give it several times. Found by the tool if left out.")
+    ] = None,
+    points: Annotated[int, typer.Option(help="How many limits, where the tool finds them.")] = 13,
+    out: Out = None,
+    starts: Starts = None,
+    threads: Threads = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Trade the condition number against a limit: the least of it for each value."""
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
     directory = new_directory(out)
     name = "the paper's problem" if study is None else study.name
     with screen.progress(f"{name}, {against}") as bar:
-        front = trace_front(
-            chosen, against, list(values) if values else None, points, threads=threads, progress=bar.starts
-        )
+        front = trace_front(chosen, against, value or None, points, threads=threads, progress=bar.starts)
     screen.print(front_table(front))
     if front.interrupted:
         screen.print("[bold]interrupted[/bold]: what was found until then is kept")
@@ -74,8 +66,8 @@ def pareto(
     screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if drawn else ""))
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:
-        return INTERRUPTED
-    return DONE if any(not math.isnan(value) for value in front.objectives) else NO_RESULT
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(DONE if any(not math.isnan(found) for found in front.objectives) else NO_RESULT)
 
 
 def front_table(front: Front) -> Table:

@@ -1,0 +1,33 @@
+"""The design that options name: a file, or sides and heights; and its characteristic length."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.runs.design_file import Design, hexagonal_design, load_design
+
+
+def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
+    """Return the design of a file, or of sides and heights."""
+    named = {name: value for name, value in sides.items() if value is not None}
+    if design is not None:
+        if named or theta_z_deg is not None:
+            raise ValueError(f"design: got a file and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
+        return load_design(design)
+    missing = [f"--{name}" for name, value in sides.items() if value is None]
+    if missing:
+        raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
+    return hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)})
+
+
+def length_option(text: str) -> float | str:
+    """Return a characteristic length as --lc gives it."""
+    try:
+        return float(text)
+    except ValueError:
+        if text not in KINDS:
+            raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
+        return text

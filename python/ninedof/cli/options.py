@@ -1,0 +1,31 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the result as JSON on standard output, words on standard error.")
+]
+Threads = Annotated[
+    int | None, typer.Option(help="Threads; one a processor by default. The result does not depend on it.")
+]
+StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
+Out = Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")]
+Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
+Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on with the interrupted run in --out.")]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a Dask scheduler whose workers compute, as tcp://host:8786.")
+]
+
+BaseSide1 = Annotated[float | None, typer.Option(help="Base side (eq. 37).")]
+BaseSide2 = Annotated[float | None, typer.Option(help="Base side.")]
+PlatformSide1 = Annotated[float | None, typer.Option(help="Platform side (eq. 38).")]
+PlatformSide2 = Annotated[float | None, typer.Option(help="Platform side.")]
+Height = Annotated[float | None, typer.Option(help="Height of the platform.")]
+InternalHeight = Annotated[float | None, typer.Option(help="Height of the internal point.")]
+TwistDeg = Annotated[float | None, typer.Option(help="Twist of the platform, degrees; 0 by default.")]

@@ -1,0 +1,60 @@
+"""The result of a sweep in a few words: extremes of each index, as a table and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from rich.table import Table
+
+from ninedof.sweep import SweepResult
+
+__all__ = ["describe", "json_data", "summary_table"]
+
+MOST_PRINTED = 10_000  # numbers that JSON repeats; the file has them all
+
+
+def describe(result: SweepResult, name: str) -> dict[str, Any]:
+    """Return what is most and least of an index, where, and how many points have none."""
+    values = result[name]
+    finite = np.isfinite(values)
+    out: dict[str, Any] = {
+        "points": int(values.size),
+        "infinite": int(np.isinf(values).sum()),
+        "missing": int(np.isnan(values).sum()),
+    }
+    if finite.any():
+        for word, pick in (("least", np.argmin), ("greatest", np.argmax)):
+            fill = np.inf if word == "least" else -np.inf
+            at = np.unravel_index(int(pick(np.where(finite, values, fill))), values.shape)
+            out[word] = {"value": float(values[at]), "at": result.at(name, at)}
+    return out
+
+
+def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
+    """Lay out least and greatest value of each index, and where they are."""
+    table = Table(title=title, title_justify="left", title_style="bold")
+    counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
+    for head in ("index", "", "value", "at", *counts):
+        table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
+    for name, row in summary.items():
+        table.add_row(name.replace("_", " "), "least", *_end(row.get("least")), *(str(row[word]) for word in counts))
+        table.add_row("", "greatest", *_end(row.get("greatest")), end_section=True)
+    return table
+
+
+def _end(end: Mapping[str, Any] | None) -> tuple[str, str]:
+    if end is None:
+        return "-", "-"
+    where = (f"{name} = {v:.5g}" if isinstance(v, float) else f"{name} {v}" for name, v in end["at"].items())
+    return f"{end['value']:.6g}", "\n".join(where)
+
+
+def json_data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the machine-readable result; with all values where there are not too many."""
+    data: dict[str, Any] = {"sweep": {"dims": dict(result.dims), "indices": summary, "attributes": result.attributes}}
+    if sum(a.size for a in (*result.arrays.values(), *result.coords.values())) <= MOST_PRINTED:
+        data["sweep"]["coords"] = {name: values.tolist() for name, values in result.coords.items()}
+        data["sweep"]["arrays"] = {name: values.tolist() for name, values in result.arrays.items()}
+    return data

@@ -1,0 +1,99 @@
+"""A workspace for a person: the bar while it is found, its table, what to say, its figure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from ninedof.cli.screen import Screen, from_first_news
+from ninedof.workspace import WorkspaceMap
+
+__all__ = ["draw", "pose_bar", "sentences", "workspace_table"]
+
+SHOWN = 8  # limits in the table
+
+
+@contextmanager
+def pose_bar(screen: Screen, title: str) -> Iterator[Any]:
+    """Show a bar of poses with the time to go, as far as is known from the levels before."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=12),
+        TextColumn("{task.completed:,.0f} poses{task.fields[volume]}"),
+        TimeRemainingColumn(),
+        TextColumn("to go"),
+    )
+    with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
+        task = shown.add_task(title, total=None, volume="")
+
+        def progress(done: int, expected: int, volume: float) -> None:
+            words = "" if math.isnan(volume) else f", volume {volume:.4g}"
+            shown.start()
+            shown.update(task, completed=done, total=expected, volume=words)
+
+        yield progress
+
+
+def workspace_table(found: WorkspaceMap) -> Table:
+    """Lay a workspace out for a person."""
+    table = Table(title="Workspace", title_justify="left", title_style="bold", show_header=False)
+    table.add_column()
+    table.add_column(justify="right")
+    table.add_row("volume", f"{found.volume:.6g}")
+    table.add_row("  error, estimated", f"{found.error:.2g}")
+    table.add_row("  share of the box or region", f"{100.0 * found.share:.3g} %")
+    if found.unseen > 0.0:
+        table.add_row("  too thin to be seen, at most (95 %)", f"{found.unseen:.2g}")
+    if len(found.pieces) > 1:
+        table.add_row("  pieces", str(len(found.pieces)))
+    if found.ball_radius > 0.0:
+        table.add_row("largest ball: radius", f"{found.ball_radius:.4g}")
+        table.add_row("largest box: sides", "  ".join(f"{side:.4g}" for side in found.box_high - found.box_low))
+    table.add_section()
+    table.add_row("global conditioning index", f"{found.conditioning_index:.5f}")
+    table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
+    table.add_row("condition number: 95 %", f"{found.percentiles[95]:.4f}")
+    table.add_row("condition number: worst", f"{found.worst_condition_number:.4f}")
+    table.add_section()
+    for name, share in list(found.limits().items())[:SHOWN]:
+        table.add_row(f"boundary by {name.replace('_', ' ')}", f"{100.0 * share:.1f} %")
+    return table
+
+
+def sentences(found: WorkspaceMap) -> Iterator[str]:
+    """Say what the table does not."""
+    words = {
+        "limited": "the number of poses ran out before the error asked for was reached",
+        "empty": "no allowed pose was found",
+        "stopped": "interrupted: what was known until then is kept",
+    }
+    if found.status in words:
+        yield f"[bold]{found.status}[/bold]: {words[found.status]}"
+    if not found.home_allowed:
+        yield f"the home pose is not allowed: {found.home_limit}"
+    if found.box_limits:
+        yield "the workspace runs to the box: in a larger one it would be larger"
+
+
+def draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
+    """Draw two sections through the middle; return the files."""
+    screen.say("drawing the workspace")
+    from ninedof import plot
+
+    middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
+    sections = []
+    for fixed in (1, 2):
+        drawn = [k for k in range(3) if k != fixed]
+        ball = (middle[drawn], found.ball_radius) if found.ball_radius > 0.0 else None
+        inner = (found.box_low[drawn], found.box_high[drawn]) if np.isfinite(found.box_low).all() else None
+        plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
+        sections.append(plot.Section(plane, ball, inner))
+    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels)
+    return plot.save(figure, directory, "workspace")
