@@ -68,13 +68,13 @@ class Screen:
             TextColumn("to go"),
             TimeElapsedColumn(),
         )
-        with from_first_news(Progress(*columns, console=self.progress_console)) as shown:
+        with started_by_first_report(Progress(*columns, console=self.progress_console)) as shown:
             yield PointBar(shown, title)
 
 
 @contextmanager
-def from_first_news(shown: Progress) -> Iterator[Progress]:
-    """Leave it to the first news to start a bar: input that is refused before shows none."""
+def started_by_first_report(shown: Progress) -> Iterator[Progress]:
+    """Let the first report start the bar: input that is refused before that shows none."""
     try:
         yield shown
     finally:

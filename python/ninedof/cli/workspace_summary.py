@@ -12,7 +12,7 @@ import numpy as np
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ninedof.cli.screen import Screen, from_first_news
+from ninedof.cli.screen import Screen, started_by_first_report
 from ninedof.workspace import WorkspaceMap
 
 __all__ = ["draw", "pose_bar", "sentences", "workspace_table"]
@@ -30,7 +30,7 @@ def pose_bar(screen: Screen, title: str) -> Iterator[Any]:
         TimeRemainingColumn(),
         TextColumn("to go"),
     )
-    with from_first_news(Progress(*columns, console=screen.progress_console)) as shown:
+    with started_by_first_report(Progress(*columns, console=screen.progress_console)) as shown:
         task = shown.add_task(title, total=None, volume="")
 
         def progress(done: int, expected: int, volume: float) -> None:

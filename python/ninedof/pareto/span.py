@@ -13,8 +13,8 @@ from ninedof.pareto.solving import Interrupted, Sweep
 
 __all__ = ["span"]
 
-DEAR = 3.0  # times the best objective: designs beyond interest nobody
-NEAR_LEAST = 1.002  # times the least condition number: there the two indices leave one design only
+MOST_OBJECTIVE = 3.0  # times the best objective; worse designs are not of interest
+NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
 STEPS_DOWN = 12  # halvings
 BISECTIONS = 6
 
@@ -66,7 +66,7 @@ def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
         sweep.open_ended = least
         return None
     low = NEAR_LEAST * least.best.objective
-    widest = sweep.solve(max(DEAR * low, low + 1.0), [least])
+    widest = sweep.solve(max(MOST_OBJECTIVE * low, low + 1.0), [least])
     if math.isnan(objective_of(widest)):
         sweep.open_ended = widest
         return None
@@ -107,4 +107,4 @@ def _tightest(sweep: Sweep, high: float, objective: float) -> float:
 
 def _is_worth_it(sweep: Sweep, limit: float, looser: float, objective: float) -> bool:
     value = objective_of(sweep.solve(limit, [sweep.results[looser]]))
-    return value <= DEAR * objective  # NaN, no design, is not
+    return value <= MOST_OBJECTIVE * objective  # NaN, no design, is not

@@ -1,4 +1,4 @@
-"""Figures. What is drawn comes in as geometries, configurations and arrays; nothing is computed but where the ink goes.
+"""Figures of geometries, configurations and arrays that the caller passes in; nothing but the layout is computed.
 
 Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
 """

@@ -1,6 +1,7 @@
-"""The check of a result: everything computed once more another way, and the claim of an optimum put to the test.
+"""The check of a result: every number computed again in another way, and the claim of an optimum tested.
 
-`verdict` holds what a caller sees; the other files each hold one question.
+`verdict` is what a caller uses; each other file answers one question. Nothing of the product uses this package: it is a
+second opinion. `rules` holds every constraint from its definition, independent of the core.
 """
 
 from ninedof.verify.verdict import Check, Finding, check

@@ -1,8 +1,8 @@
-"""Is a design stationary, kinks and all: the least convex combination of the gradients that are active.
+"""Stationarity of a design, also at a kink: the least convex combination of the active gradients.
 
 At a minimum some convex combination of the objective's gradients is balanced by the limits and bounds that hold:
-no direction improves to first order. The gradients at a tie are endless; those that matter are added one by one, each
-the one that the combination so far has most to fear from.
+no direction improves to first order. A tie has infinitely many gradients; those that matter are added one by one, each
+time the one that most reduces the combination so far.
 """
 
 from __future__ import annotations
