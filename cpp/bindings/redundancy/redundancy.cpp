@@ -123,7 +123,7 @@ py::dict best_map(const Geometry& g, const Array& position, const Array& rotatio
     return best_internal_map(g, {poses, shape, starts}, problem, how, control);
   });
   py::dict out = columns_of(map.points);
-  out["audit"] = dict_of(map.audit);
+  out["audit"] = audit_dict(map.audit);
   out["searched"] = map.searched;
   out["followed"] = map.followed;
   return out;

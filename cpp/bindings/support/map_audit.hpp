@@ -7,7 +7,7 @@
 
 namespace ninedof::python {
 
-inline pybind11::dict dict_of(const MapAudit& a) {
+inline pybind11::dict audit_dict(const MapAudit& a) {
   pybind11::dict out;
   out["poses"] = a.poses;
   out["missed"] = a.missed;

@@ -145,7 +145,7 @@ py::dict dict_of(const WorkspaceMap& m) {
   out["low"] = array_from(m.low);
   out["high"] = array_from(m.high);
   out["evaluations"] = m.evaluations;
-  out["internal_point_audit"] = dict_of(m.internal_points);
+  out["internal_point_audit"] = audit_dict(m.internal_points);
   return out;
 }
 
