@@ -31,7 +31,8 @@ double criterion_value(const PoseObjective& objective, const Vec3& x) {
 InternalPoint unbounded(const LocalMinimum& local) {
   InternalPoint out;
   out.status = InternalPointStatus::unbounded;
-  if (local.ending == Ending::in_joint) out.active.add(ActiveBounds::low(3 + local.leg));
+  if (local.ending == Ending::in_joint)
+    out.active.add(local.leg >= 0 ? ActiveBounds::low(3 + local.leg) : ActiveBounds::clearance(2));
   for (int k = 3; k < 9 && local.ending == Ending::away; ++k) out.active.add(ActiveBounds::high(k));
   return out;
 }

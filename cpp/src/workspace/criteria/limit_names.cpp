@@ -25,7 +25,7 @@ std::string item_name(const ConstraintInfo& row, int k) {
       const auto [a, b] = leg_pair(k);
       return name + leg_name(a) + " " + leg_name(b);
     }
-    case WorkspaceItems::determinants: return std::array{"det M", "det B", "det C"}[static_cast<std::size_t>(k)];
+    case WorkspaceItems::determinants: return std::array{"det N", "det B", "det C"}[static_cast<std::size_t>(k)];
     case WorkspaceItems::itself:
     case WorkspaceItems::none: break;
   }

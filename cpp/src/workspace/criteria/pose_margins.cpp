@@ -77,7 +77,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   if (criteria.base_cone) base_.emplace(*criteria.base_cone, false, home_points, home_.rotation);
   if (criteria.platform_cone) platform_.emplace(*criteria.platform_cone, true, home_points, home_.rotation);
   const PerMechanism at_home = singularity_margins(g, home_);
-  signs_ = {at_home.m < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
+  signs_ = {at_home.n < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
 
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
   const auto groups = [&](int count, double scale) {
