@@ -162,7 +162,7 @@ def test_a_regular_motion_is_noticed_by_its_own_legs_by_the_least_singular_value
     d, w = from_o(m)
     rates[0] *= size(model.legs(m)[0]) / size(d) / size(w)  # the rows of unit vectors
     at_o = found.pdot + np.cross(found.omega, m.s - m.p)
-    k = "mcb".index(found.mechanism)
+    k = "ncb".index(found.mechanism)
     moving = size([found.omega, at_o, found.sdot][k])
     assert_allclose(size(rates[k]), found.smallest["nbc".index(found.mechanism)] * moving, rtol=1e-9, atol=1e-14)
     assert_allclose(np.delete(rates, k, axis=0), 0.0, atol=1e-12)
