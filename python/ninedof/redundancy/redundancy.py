@@ -28,7 +28,7 @@ class InternalPointStatus(StrEnum):
     INFEASIBLE = "infeasible"
     """An external leg is out of its limits, or no point keeps the internal ones; `active` names them."""
     UNBOUNDED = "unbounded"
-    """The criterion improves without end as O moves away, or into a joint; `active` names the legs."""
+    """The criterion improves without end as O moves away, or into a joint; `active` names the legs or det N."""
     SINGULAR = "singular"
     """The start lies on a singularity, and so in no chamber."""
     MISSING = "missing"
