@@ -13,7 +13,7 @@ namespace {
 constexpr double on_singularity = 1e-12;  // |det| below which its sign is rounding
 constexpr double contact = 1e-7;  // distance from a limit that counts as touching
 constexpr double broken_alike = 1e-6;  // violations closer than this count as equal
-constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det M = 0
+constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det N = 0
 
 /// The criterion as reported to the caller.
 double criterion_value(const PoseObjective& objective, const Vec3& x) {
