@@ -25,6 +25,23 @@ std::span<const double> own(const Problem& problem, const std::vector<double>& x
   return {x.data(), problem.variables.size()};
 }
 
+/// The rows of a table as (name, kind, sides, units, options, default low side).
+py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
+  py::list out;
+  for (const ConstraintInfo& row : table) {
+    py::list sides, units, options;
+    if (row.sides != LimitSides::only_high) sides.append("min");
+    if (row.sides != LimitSides::only_low) sides.append("max");
+    units.append(to_string(Unit::length));
+    if (row.of != Unit::length) units.append(to_string(row.of));
+    if (*row.option != '\0') options.append(row.option);
+    const py::object low = row.default_low > 0.0 ? py::object(py::float_(row.default_low)) : py::none();
+    out.append(
+        py::make_tuple(row.name, to_string(row.kind), py::tuple(sides), py::tuple(units), py::tuple(options), low));
+  }
+  return py::tuple(out);
+}
+
 Limit limit_from(const py::dict& d) {
   Limit out;
   out.name = d["name"].cast<std::string>();
@@ -100,12 +117,9 @@ py::tuple configurations_at(const Problem& problem, const std::vector<double>& x
 
 void bind_design(py::module_& m) {
   m.def("design_family_names", &design_family_names);
-  m.def("constraint_names", &constraint_names);
-  m.def("constraint_kinds", [] {
-    py::dict out;
-    for (const std::string& name : constraint_names()) out[py::str(name)] = to_string(constraint_kind(name));
-    return out;
-  });
+  m.attr("constraint_table") = rows_of(constraint_table());
+  m.attr("criterion_table") = rows_of(criterion_table());
+  m.attr("singularity_free_steps") = py::make_tuple(Limit{}.steps, Limit::most_steps);
   m.def("family_variables", [](const std::string& family) {
     py::list out;
     for (const VariableInfo& v : design_family(family).variables())

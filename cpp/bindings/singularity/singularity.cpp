@@ -7,7 +7,7 @@ namespace ninedof::python {
 namespace {
 
 double* write(const PerMechanism& x, double* to) {
-  to[0] = x.m;
+  to[0] = x.n;
   to[1] = x.b;
   to[2] = x.c;
   return to + 3;

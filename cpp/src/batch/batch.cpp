@@ -81,7 +81,7 @@ void singularity_margins(const Geometry& g, const Configurations& c, double* out
   kernels::table().singularity_margins(block(g, c), out);
   recompute_unsure(c.count, 3, out, [&](long k, double* to) {
     const PerMechanism margins = ninedof::singularity_margins(g, at(c, k));
-    to[0] = margins.m;
+    to[0] = margins.n;
     to[1] = margins.b;
     to[2] = margins.c;
   });

@@ -9,7 +9,7 @@ namespace ninedof {
 namespace {
 
 const char* leg_names[] = {"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
-const char* determinant_names[] = {"det B", "det C", "det M"};
+const char* determinant_names[] = {"det B", "det C", "det N"};
 
 void require_limits(bool fine, const LegLimits& l, int k, const char* expected) {
   if (!fine)

@@ -1,15 +1,16 @@
 #pragma once
-/// Pairs of legs that could collide, and the distance of two legs as segments.
+/// Pairs of legs that can collide, and the distance between the axes of two legs.
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "ninedof/math/types.hpp"
+#include "ninedof/robot/points.hpp"
 
 namespace ninedof {
 
-/// The pairs of legs (in the order of leg_lengths) that do not share a joint. All internal legs end in O, so at least
-/// one leg of a pair is external: three pairs of external legs, eighteen of an external and an internal leg.
+/// The pairs of legs (order of leg_lengths) that can be apart. The internal legs all end in O, so that one leg of each
+/// pair is external: three pairs of external legs, eighteen of an external and an internal one.
 constexpr int leg_pairs = 21;
 
 inline std::pair<int, int> leg_pair(int item) {
@@ -17,19 +18,30 @@ inline std::pair<int, int> leg_pair(int item) {
   return {(item - 3) / 6, 3 + (item - 3) % 6};
 }
 
-/// Whether two joints coincide, to rounding.
+/// Whether two joints are in the same place.
 inline bool joints_coincide(const Vec3& x, const Vec3& y) {
   return (x - y).squaredNorm() <= 1e-24 * (x.squaredNorm() + y.squaredNorm());
 }
 
-/// The nearest points of two segments: their positions along each, from 0 to 1, and the vector from the second to the
+/// Whether the legs of a pair share a joint; the twelve joints in the order of Points, each in the frame of its body.
+inline bool share_joint(const std::array<Vec3, 12>& joint, int pair) {
+  const auto [a, b] = leg_pair(pair);
+  const LegEnds one = leg_ends(a), two = leg_ends(b);
+  const auto same = [&](int i, int j) {
+    return joints_coincide(joint[static_cast<std::size_t>(i)], joint[static_cast<std::size_t>(j)]);
+  };
+  // Leg a is external, from the base to the platform. An upper leg starts on the platform, all others on the base.
+  return same(two.from < point_u ? one.from : one.to, two.from) || (b < 3 && same(one.to, two.to));
+}
+
+/// The nearest points of two segments: the fractions `s` and `t` along them, and the vector from the second to the
 /// first.
 struct Nearest {
   double s, t;
   Vec3 apart;
 };
 
-/// For the segments from a to b and from c to d. The squared distance is convex in (s, t): its minimum lies inside the
+/// Of the segments from a to b and from c to d. The squared distance is convex in (s, t): its minimum is inside the
 /// unit square or on one of its four sides.
 inline Nearest nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -43,6 +55,14 @@ inline Nearest nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
     s = uu > 0.0 ? clamp((uv * t - uw) / uu) : 0.0;
   }
   return {s, t, w + s * u - t * v};
+}
+
+/// Of the axes of a pair of legs.
+inline Nearest nearest(const Points& at, int pair) {
+  const auto [a, b] = leg_pair(pair);
+  const LegEnds one = leg_ends(a), two = leg_ends(b);
+  const auto point = [&](int k) -> const Vec3& { return at[static_cast<std::size_t>(k)]; };
+  return nearest(point(one.from), point(one.to), point(two.from), point(two.to));
 }
 
 }  // namespace ninedof

@@ -1,5 +1,5 @@
 #pragma once
-/// The two motions of a point on the path p + t pdot, exp(t omega) Q, s + t sdot, enclosed.
+/// Enclosures of the two motions of a point on the path p + t pdot, exp(t omega) Q, s + t sdot.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ninedof {
 
-/// start + t velocity; `size` is that of the coordinates that `start` is a sum of, `error` what it is off beyond rounding.
+/// start + t velocity. `size` is that of the coordinates that `start` is a sum of, `error` its error beyond rounding.
 struct Line {
   Vec3 start, velocity;
   double size, error = 0.0;
@@ -24,7 +24,8 @@ struct Line {
   }
 };
 
-/// exp(t omega) v by Rodrigues' formula, v a vector of the platform in base axes that is off by `v_error` beyond rounding.
+/// exp(t omega) v by Rodrigues' formula. v is a vector of the platform in base axes, its error beyond rounding
+/// `v_error`.
 struct Turning {
   Turning(const Vec3& v, const Vec3& omega, double v_error = 0.0) : rate(omega.norm()), size(v.norm()), error(v_error) {
     const Vec3 axis = rate > 0.0 ? Vec3(omega / rate) : Vec3(Vec3::Zero());

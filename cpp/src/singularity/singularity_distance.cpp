@@ -1,9 +1,8 @@
-/// distance_to_singularity: along p + t pdot, exp(t omega) Q, s + t sdot each determinant is a smooth function of t, whose
-/// first zero is sought. Numerators only, which are smooth where a leg or a direction vanishes:
+/// distance_to_singularity: the first zero of each determinant along p + t pdot, exp(t omega) Q, s + t sdot. Only the
+/// numerators are used, which stay smooth where a leg or a direction vanishes:
 ///   B  height of O over the plane of the lower joints, linear in t;
 ///   C  height of O over the plane of the upper joints, linear in t times trigonometric in |omega| t;
-///   M  det[d_i x w_i], d_i linear, w_i linear plus trigonometric.
-/// Declared in ninedof/singularity/singularity.hpp.
+///   N  det[d_i x w_i], d_i linear, w_i linear plus trigonometric.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -20,7 +19,7 @@
 namespace ninedof {
 namespace {
 
-/// The unit normal of three points and how far rounding may have turned it: far, for a sliver of a triangle.
+/// The unit normal of three points and its rounding error, which is large for a thin triangle.
 struct Normal {
   explicit Normal(const Triple& t) {
     const Vec3 a = t[1] - t[0], b = t[2] - t[0], raw = a.cross(b);
@@ -32,7 +31,7 @@ struct Normal {
   double error;
 };
 
-/// The largest coordinate, as a power of two: lengths divided by it keep their bits, and products of nine do not overflow.
+/// The largest coordinate, rounded to a power of two: division by it is exact, and products of nine do not overflow.
 double length_unit(const Geometry& g, const Configuration& c) {
   double largest = std::max(c.position.cwiseAbs().maxCoeff(), c.internal_point.cwiseAbs().maxCoeff());
   for (const Triple* t : {&g.base_external(), &g.base_internal(), &g.platform_external(), &g.platform_internal()})
@@ -57,7 +56,7 @@ struct Path {
     }
   }
 
-  /// A time in which the robot moves by about its own size.
+  /// Time in which the robot moves by about its own size.
   double pace() const { return 1.0 / (omega.norm() + pdot.norm() + sdot.norm()); }
 
   double unit;
@@ -85,7 +84,7 @@ FirstRoot first_loss_of_c(const Path& path, double most) {
   return first_root(height, most, path.pace());
 }
 
-FirstRoot first_loss_of_m(const Path& path, double most) {
+FirstRoot first_loss_of_n(const Path& path, double most) {
   std::array<Line, 3> d;
   std::array<Turning, 3> joint{Turning(path.u[0], path.omega), Turning(path.u[1], path.omega),
                                Turning(path.u[2], path.omega)};
@@ -109,16 +108,16 @@ SingularityDistance distance_to_singularity(const Geometry& g, const Configurati
   if (direction.hasNaN() || c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN())
     return {not_a_number, Mechanism::none, {not_a_number, not_a_number, not_a_number}, false};
   const Path path(g, c, direction);
-  const FirstRoot m = first_loss_of_m(path, most), lower = first_loss_of_b(path, most),
+  const FirstRoot n = first_loss_of_n(path, most), lower = first_loss_of_b(path, most),
                   upper = first_loss_of_c(path, most);
-  SingularityDistance out{infinity, Mechanism::none, {m.at, lower.at, upper.at}, true};
+  SingularityDistance out{infinity, Mechanism::none, {n.at, lower.at, upper.at}, true};
   const auto consider = [&](const FirstRoot& root, Mechanism mechanism) {
     if (!(root.at < out.distance)) return;
     out.distance = root.at;
     out.mechanism = mechanism;
     out.resolved = root.resolved;
   };
-  consider(m, Mechanism::m);
+  consider(n, Mechanism::n);
   consider(upper, Mechanism::c);
   consider(lower, Mechanism::b);
   return out;

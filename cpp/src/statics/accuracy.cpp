@@ -6,7 +6,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/math/error.hpp"
-#include "singularity/three_blocks.hpp"
+#include "singularity/unit_rows.hpp"
 
 namespace ninedof {
 namespace {
@@ -46,12 +46,13 @@ void validate(const Tolerances& t) {
 }
 
 Mat9 error_map(const Geometry& g, const Configuration& c) {
-  const auto [b, upper, m] = three_blocks(g, c);
-  if (!(b + upper + m).allFinite()) return Mat9::Constant(not_a_number);
+  const UnitRows rows = unit_rows(spans(g, c));
+  const Mat3 n = rows_of(rows.n), b = rows_of(rows.b), upper = rows_of(rows.c);
+  if (!(n + b + upper).allFinite()) return Mat9::Constant(not_a_number);
   Mat9 map = Mat9::Constant(infinity);
   if (!regular(b)) return map;
   map.bottomRows<3>() << Mat3::Zero(), Mat3::Zero(), b.inverse();
-  if (regular(upper) && regular(m)) map.topRows<6>() = jacobian(g, c);
+  if (regular(upper) && regular(n)) map.topRows<6>() = jacobian(g, c);
   return map;
 }
 

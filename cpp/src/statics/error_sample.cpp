@@ -12,7 +12,7 @@
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "ninedof/statics/accuracy.hpp"
-#include "singularity/three_blocks.hpp"
+#include "singularity/unit_rows.hpp"
 
 namespace ninedof {
 namespace {
@@ -62,7 +62,7 @@ std::optional<Geometry> built(const Geometry& g, const Tolerances& t, Draws& dra
 Vec9 error_sample(const Geometry& g, const Configuration& c, const Tolerances& t, std::uint64_t seed,
                   std::uint64_t index) {
   validate(t);
-  const std::array<int, 3> intended = sides(three_blocks(g, c));
+  const std::array<int, 3> intended = sides(unit_rows(spans(g, c)));
   if (std::ranges::count(intended, 0) > 0) return Vec9::Constant(not_a_number);  // singular: the side is not defined
   Draws draws(seed, index);
   Vec9 lengths = leg_lengths(g, c);
@@ -72,7 +72,7 @@ Vec9 error_sample(const Geometry& g, const Configuration& c, const Tolerances& t
   const Tracked found = track(*made, lengths, c);
   if (found.status != TrackStatus::tracked) return Vec9::Constant(not_a_number);
   // Large joint errors may put the intended configuration on another side of a singularity of the robot with errors.
-  if (sides(three_blocks(*made, found.configuration)) != intended) return Vec9::Constant(not_a_number);
+  if (sides(unit_rows(spans(*made, found.configuration))) != intended) return Vec9::Constant(not_a_number);
   return minus(found.configuration, c);
 }
 

@@ -4,30 +4,12 @@
 
 #include "workspace/cells/octree.hpp"
 #include "workspace/checks.hpp"
-#include "workspace/limits.hpp"
 #include "workspace/measures/inscribed.hpp"
 #include "workspace/measures/pieces.hpp"
 #include "workspace/methods/sampling.hpp"
 
 namespace ninedof {
 namespace {
-
-std::vector<std::string> all_names() {
-  const std::string leg[] = {"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
-  std::vector<std::string> out;
-  for (const char* side : {" low", " high"})
-    for (const std::string& name : leg) out.push_back(name + side);
-  for (const bool platform : {false, true})
-    for (std::size_t k = 0; k < 6; ++k)
-      out.push_back((platform ? "platform_cone " : "base_cone ") + leg[k < 3 ? k : platform ? k : k + 3]);
-  for (int item = 0; item < leg_pairs; ++item) {
-    const auto [a, b] = leg_pair(item);
-    out.push_back("leg_clearance " + leg[a] + " " + leg[b]);
-  }
-  for (const char* name : {"condition_number", "det M", "det B", "det C", "region", "box", "internal_point"})
-    out.emplace_back(name);
-  return out;
-}
 
 void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected, const Control& control,
                    WorkspaceMap& map) {
@@ -67,11 +49,6 @@ const char* to_string(WorkspaceStatus status) {
     case WorkspaceStatus::stopped: return "stopped";
   }
   return "";
-}
-
-const std::vector<std::string>& limit_names() {
-  static const std::vector<std::string> names = all_names();
-  return names;
 }
 
 WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,

@@ -28,7 +28,7 @@ from ninedof.singularity.singularity import singularity_margins
 __all__ = ["INDICES", "Index", "computed", "objectives"]
 
 LEGS = tuple(f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3))
-MECHANISMS = ("det_m", "det_b", "det_c")
+MECHANISMS = ("det_n", "det_b", "det_c")
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Constraints of a study: as people give them, as files hold them, as the core takes them."""
+"""Limits of constraints: parse what a study gives, write it to files, convert it for the core."""
 
 from __future__ import annotations
 
@@ -13,36 +13,36 @@ from ninedof import _core
 from ninedof.support.angles import exact_degrees
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 
-__all__ = ["Limit", "for_core", "names_with_max", "parse", "to_table"]
+__all__ = ["CONSTRAINTS", "Limit", "Row", "for_core", "names_with_max", "parse", "to_table"]
 
 Limit = tuple[float | None, float | None] | Mapping[str, Any]
-"""(low, high), None for an open side; where there are options, a mapping of min, max and the options."""
+"""(low, high), None for an open side; with options a mapping of min, max and the options."""
 
 
-class Shape(NamedTuple):
-    """What may be said about one constraint besides its kind, which the core knows."""
+class Row(NamedTuple):
+    """A row of the core's table of constraints, or of criteria of workspaces."""
 
-    sides: tuple[str, ...] = ("min", "max")
-    of: tuple[str, ...] = ("length",)
-    options: tuple[str, ...] = ()
+    name: str
+    kind: str
+    """"ratio", "length", "angle" or "sign"."""
+    sides: tuple[str, ...]
+    """"min", "max" or both."""
+    units: tuple[str, ...]
+    """Values of the option `of`, the default first."""
+    options: tuple[str, ...]
+    """Further options: "radius", "axis", "steps"."""
+    default_low: float | None
+    """min where none is given."""
+
+    @property
+    def is_angle(self) -> bool:
+        """Whether limits are angles, in radians."""
+        return self.kind == "angle"
 
 
-SHAPES = {
-    "stroke_ratio": Shape(("max",)),
-    "stroke": Shape(("max",), ("length", "zp")),
-    "leg_length": Shape(of=("length", "zp")),
-    "external_length": Shape(of=("length", "zp")),
-    "upper_length": Shape(of=("length", "zp")),
-    "lower_length": Shape(of=("length", "zp")),
-    "joint_height": Shape(("max",), ("length", "radius")),
-    "joint_spacing": Shape(("min",), ("length", "radius")),
-    "leg_clearance": Shape(("min",), ("length", "zp"), ("radius",)),
-    "base_cone": Shape(("max",), options=("axis",)),
-    "platform_cone": Shape(("max",), options=("axis",)),
-    "singularity_free": Shape(("min",), options=("steps",)),
-}
-LEAST_DETERMINANT = 1e-3  # default of singularity_free
-STEPS, MOST_STEPS = 4, 1000  # parts of the way from the neutral pose that singularity_free looks at
+ROWS = {row.name: row for row in (Row(*values) for values in _core.constraint_table)}
+CONSTRAINTS = tuple(ROWS)
+STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 
 
 def parse(name: str, value: Any) -> Limit:
@@ -51,30 +51,30 @@ def parse(name: str, value: Any) -> Limit:
     `value` is (low, high), None for an open side, or a mapping of min, max (max_deg for angles) and the options of the
     constraint.
     """
-    shape = SHAPES.get(name, Shape())
+    row = ROWS[name]
     if isinstance(value, Mapping):
-        low, high, options = _from_mapping(name, shape, value)
+        low, high, options = _from_mapping(row, value)
     else:
         expected = "(low, high), None for an open side, or a mapping"
         low, high = (None if x is None else number(name, x) for x in pair(name, value, expected))
         options = {}
-    if name == "singularity_free" and low is None:
-        low = LEAST_DETERMINANT
+    if low is None:
+        low = row.default_low
     for side, limit in (("min", low), ("max", high)):
-        if limit is not None and side not in shape.sides:
-            raise ValueError(f"{name}: got a {side}, {limit:g}, expected only a {shape.sides[0]}")
-    _sensible(name, low, high)
+        if limit is not None and side not in row.sides:
+            raise ValueError(f"{name}: got a {side}, {limit:g}, expected only a {row.sides[0]}")
+    _require_sensible(row, low, high)
     if not options:
         return low, high
     if low is None and high is None:
-        raise ValueError(f"{name}: got {', '.join(options)} alone, expected {' or '.join(shape.sides)} too")
+        raise ValueError(f"{name}: got {', '.join(options)} alone, expected {' or '.join(row.sides)} too")
     sides = {side: limit for side, limit in (("min", low), ("max", high)) if limit is not None}
     return MappingProxyType(sides | options)
 
 
 def names_with_max() -> list[str]:
     """Return the constraints that have a max."""
-    return [name for name in _core.constraint_names() if "max" in SHAPES.get(name, Shape()).sides]
+    return [name for name, row in ROWS.items() if "max" in row.sides]
 
 
 def to_table(name: str, limit: Limit) -> dict[str, Any]:
@@ -83,7 +83,7 @@ def to_table(name: str, limit: Limit) -> dict[str, Any]:
     out: dict[str, Any] = {}
     for side, value in (("min", low), ("max", high)):
         if value is not None:
-            degrees = exact_degrees(value) if _is_angle(name) else None
+            degrees = exact_degrees(value) if ROWS[name].is_angle else None
             out |= {side: value} if degrees is None else {f"{side}_deg": degrees[0]}
     return out | {key: list(v) if isinstance(v, tuple) else v for key, v in options.items()}
 
@@ -108,10 +108,6 @@ def _unit(axis: Sequence[float]) -> list[float]:
     return [float(v) for v in scaled / np.linalg.norm(scaled)]
 
 
-def _is_angle(name: str) -> bool:
-    return str(_core.constraint_kinds()[name]) == "angle"
-
-
 def _parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
     if isinstance(limit, tuple):
         return *limit, {}
@@ -119,20 +115,19 @@ def _parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
     return limit.get("min"), limit.get("max"), options
 
 
-def _from_mapping(
-    name: str, shape: Shape, given: Mapping[str, Any]
-) -> tuple[float | None, float | None, dict[str, Any]]:
+def _from_mapping(row: Row, given: Mapping[str, Any]) -> tuple[float | None, float | None, dict[str, Any]]:
     """Return low, high and the options that are not at their default."""
-    sides = [*shape.sides, *(f"{side}_deg" for side in shape.sides if _is_angle(name))]
-    of = ["of"] if len(shape.of) > 1 else []
-    known_keys(f"constraints.{name}", given, [*sides, *of, *shape.options])
+    name = row.name
+    sides = [*row.sides, *(f"{side}_deg" for side in row.sides if row.is_angle)]
+    of = ["of"] if len(row.units) > 1 else []
+    known_keys(f"constraints.{name}", given, [*sides, *of, *row.options])
     low, high = _side(name, given, "min"), _side(name, given, "max")
     if given.get("radius") is not None:
         if low is not None:
             raise ValueError(f"{name}: got both min and radius, expected one of the two (min is twice the radius)")
         low = 2.0 * number(f"{name}.radius", given["radius"])
     options: dict[str, Any] = {}
-    if choice(f"{name}.of", given.get("of", "length"), shape.of) != "length":
+    if choice(f"{name}.of", given.get("of", row.units[0]), row.units) != row.units[0]:
         options["of"] = given["of"]
     if "axis" in given:
         options["axis"] = _axis(f"{name}.axis", given["axis"])
@@ -158,12 +153,13 @@ def _axis(name: str, value: Any) -> Vector:
     return axis
 
 
-def _sensible(name: str, low: float | None, high: float | None) -> None:
-    """Refuse limits that no design could meet, or that mean nothing."""
+def _require_sensible(row: Row, low: float | None, high: float | None) -> None:
+    """Raise for limits that no design can meet or that have no effect."""
+    name = row.name
     least, most = 0.0 if low is None else low, math.inf if high is None else high
     if not (0.0 <= least <= most and least < math.inf and most > 0.0):
         raise ValueError(f"{name}: got ({low}, {high}), expected 0 <= low <= high, high above 0")
-    if high is not None and _is_angle(name) and not high <= math.pi:
+    if high is not None and row.is_angle and not high <= math.pi:
         raise ValueError(f"{name}: got {high:g} radians, expected at most pi (degrees are given as max_deg)")
-    if name == "singularity_free" and not 0.0 < least < 1.0:
+    if row.kind == "sign" and not 0.0 < least < 1.0:
         raise ValueError(f"{name}: got min = {least:g}, expected a number between 0 and 1")

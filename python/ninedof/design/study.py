@@ -95,7 +95,7 @@ class Study:
         known = _core.family_variables(family)
         length = _length(self.characteristic_length)
         known_keys("variables", self.variables, [name for name, *_ in known])
-        known_keys("constraints", self.constraints, _core.constraint_names())
+        known_keys("constraints", self.constraints, limits.CONSTRAINTS)
         variables: dict[str, Bound] = {}
         for name, kind, low, high in known:
             unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0

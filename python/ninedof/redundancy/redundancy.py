@@ -28,7 +28,7 @@ class InternalPointStatus(StrEnum):
     INFEASIBLE = "infeasible"
     """An external leg is out of its limits, or no point keeps the internal ones; `active` names them."""
     UNBOUNDED = "unbounded"
-    """The criterion improves without end as O moves away, or into a joint; `active` names the legs."""
+    """The criterion improves without end as O moves away, or into a joint; `active` names the legs or det N."""
     SINGULAR = "singular"
     """The start lies on a singularity, and so in no chamber."""
     MISSING = "missing"
@@ -68,7 +68,7 @@ def best_internal_point(
     """Return the best internal point for a pose of the platform.
 
     The pose fixes the external legs. O is free in three directions (`null_motion`): the six internal legs move it while
-    the platform stays at rest. The search stays in the chamber of `start`, the region in which det B, det C and det M
+    the platform stays at rest. The search stays in the chamber of `start`, the region in which det B, det C and det N
     keep their signs: the robot can reach the result without passing a singularity. Newton's method finds local optima
     from many starts; the best is returned.
 
@@ -81,7 +81,7 @@ def best_internal_point(
         Q, platform frame to base frame. The identity by default. Broadcasts against the position.
     criterion : {"condition_number", "singularity", "leg_centring"}
         "condition_number" minimises that of J' (eq. 2). "singularity" maximises the least of |det B|, |det C| and
-        |det M|, which are free of units. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over
+        |det N| of `singularity_margins`. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over
         the internal legs, and needs finite limits.
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.

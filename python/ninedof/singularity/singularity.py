@@ -1,4 +1,4 @@
-"""Where locked legs no longer hold the robot: which mechanism gives way, how it moves, how far off that is."""
+"""Singularities: which mechanism is lost, how the robot then moves, and how far away that is."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ __all__ = [
 
 
 class Mechanism(StrEnum):
-    """What can give way while all nine legs are locked."""
+    """A way in which nine locked legs can fail to hold the robot."""
 
     NONE = ""
     """Nothing, or a configuration without data."""
-    M = "m"
+    N = "n"
     """The planes (O, A_i, B_i) of the external legs share a line through O; the platform turns about it."""
     B = "b"
-    """O is in the plane of the lower internal joints; it leaves the plane and drags the platform along."""
+    """O is in the plane of the lower internal joints; it leaves the plane and takes the platform along."""
     C = "c"
     """O is in the plane of the upper internal joints; the platform moves and O does not."""
 
 
 class SingularityMargins(NamedTuple):
-    """Signed determinants of rows without unit: in [-1, 1], zero at a singularity, the same in any length unit."""
+    """Signed determinants, each in [-1, 1]: zero at a singularity, the same in any length unit."""
 
-    det_m: Any
+    det_n: Any
     """Of the rows d^_i x w^_i, unit vectors from O to the joints of external leg i; shape (...)."""
     det_b: Any
     """Of the unit vectors of the lower internal legs, base joint to O; shape (...)."""
@@ -50,14 +50,14 @@ class SingularityMargins(NamedTuple):
 
 
 class Singularity(NamedTuple):
-    """What is weakest at a configuration; leading dimensions are those of the configuration."""
+    """The weakest mechanism of a configuration; leading dimensions are those of the configuration."""
 
     margins: SingularityMargins
     """Signed determinants of the three mechanisms."""
     smallest: Floats
-    """Smallest singular values of the same three matrices in the order m, b, c, shape (..., 3)."""
+    """Smallest singular values of the same three matrices in the order n, b, c, shape (..., 3)."""
     mechanism: Any
-    """The `Mechanism` whose smallest singular value is least; for a stack an array of their words."""
+    """The `Mechanism` whose smallest singular value is least; for a stack an array of their values."""
     omega: Floats
     """Turn of the platform in its uncontrolled motion, rad, base frame, shape (..., 3)."""
     pdot: Floats
@@ -67,16 +67,16 @@ class Singularity(NamedTuple):
 
 
 class SingularityDistance(NamedTuple):
-    """How far it is to the first singular configuration on a path; leading dimensions broadcast."""
+    """The first singular configuration on a path; leading dimensions broadcast."""
 
     distance: Any
     """In multiples of the direction, shape (...); infinite where the whole path is free."""
     mechanism: Any
-    """The `Mechanism` lost there, `NONE` where the path is free; for a stack an array of their words."""
+    """The `Mechanism` lost there, `NONE` where the path is free; for a stack an array of their values."""
     each: Floats
-    """The distance for each mechanism alone, in the order m, b, c, shape (..., 3)."""
+    """The distance for each mechanism alone, in the order n, b, c, shape (..., 3)."""
     resolved: Any
-    """False where the path is known to be free up to `distance`, and what lies beyond was not settled; shape (...)."""
+    """False where the path is free up to `distance` and undecided beyond; shape (...)."""
 
 
 def singularity_margins(
@@ -84,9 +84,10 @@ def singularity_margins(
 ) -> SingularityMargins:
     """Return the signed, length-free determinants whose zeros are the singularities.
 
-    det H = -det M det C det B / l_c^3: each factor is a way of its own to lose control, and changes sign across it.
-    Their size says how spread the directions of the legs are, not how far a singularity is: for that see `singularity`
-    and `distance_to_singularity`. Theory of position and velocity, section 5.
+    det H = -det N' det C det B / l_c^3, N' with rows w_i x e_i: each factor is an independent singularity and changes
+    sign across it. The three determinants are those of rows without unit, as defined below. Their size says how spread
+    the directions of the legs are, not how far away a singularity is: for that see `singularity` and
+    `distance_to_singularity`. Theory of position and velocity, section 5.
 
     Parameters
     ----------
@@ -96,13 +97,14 @@ def singularity_margins(
     threads : int, optional
         One a processor by default. The result does not depend on it.
     out : numpy.ndarray, shape (..., 3), optional
-        Where to put the three: float64, C-contiguous, aligned. The result shows it.
+        Array for the result: float64, C-contiguous, aligned. The result is a view of it.
 
     Returns
     -------
     SingularityMargins
-        det_m, det_b, det_c, each a float or of shape (...). det_m is the Jacobian determinant of the rotation problem
-        with unit vectors; the theory's det M, of rows w_i x e_i, is det_m |d_1||w_1||d_2||w_2||d_3||w_3| / (l1 l2 l3).
+        det_n, det_b, det_c in [-1, 1], each a float or of shape (...), of the rows d^_i x w^_i (N), e^_i (B) and
+        e~_i (C). det_n is also the Jacobian determinant of the rotation problem with unit vectors;
+        det N' = det_n |d_1||w_1||d_2||w_2||d_3||w_3| / (l1 l2 l3).
         A leg of zero length, and a joint of an external leg at O, make their determinant 0.
 
     Examples
@@ -121,7 +123,7 @@ def singularity_margins(
 
 
 def singularity(geometry: Geometry, configuration: Configuration, threads: int | None = None) -> Singularity:
-    """Return which mechanism is closest to giving way, and the motion that locked legs hold least.
+    """Return the weakest mechanism, and the motion that locked legs resist least.
 
     Parameters
     ----------
@@ -134,15 +136,15 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     Returns
     -------
     Singularity
-        The mechanism is the one of least singular value; of several lost to rounding (1.4e-14) the first of m, c, b, so
-        that the motion exists. The motion is noticed by its own legs only: m by the external ones (sdot = 0, the
-        platform turns about a line through O), c by the upper (sdot = 0), b by the lower (sdot normal to their plane),
-        and by these not at all where the configuration is singular. It is as long as a turn by one radian,
+        The mechanism is the one of least singular value; of several lost to rounding (1.4e-14) the first of n, c, b, so
+        that the motion exists. The motion changes the lengths of its own legs only: n of the external ones (sdot = 0,
+        the platform turns about a line through O), c of the upper (sdot = 0), b of the lower (sdot normal to their
+        plane). Where the configuration is singular it changes no length. Its size is that of a turn by one radian,
 
             |omega|^2 + (|v_O|^2 + |sdot|^2) / L^2 = 1,    v_O = pdot + omega x (s - p),
 
         L the root mean square distance of the six platform joints from O: the same motion in any length unit, its sign
-        arbitrary. It is NaN where the mechanism is lost to a leg of zero length: that leg locks whatever moves it.
+        arbitrary. It is NaN where a leg of zero length is the cause: that leg locks its two ends together.
 
     See Also
     --------
@@ -163,12 +165,12 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     shape = configuration.shape
     omega, pdot, sdot = (flat[:, k : k + 3].reshape(*shape, 3) for k in (7, 10, 13))
     return Singularity(
-        _margins(flat[:, :3], shape), flat[:, 3:6].reshape(*shape, 3), _words(flat[:, 6], shape), omega, pdot, sdot
+        _margins(flat[:, :3], shape), flat[:, 3:6].reshape(*shape, 3), _mechanisms(flat[:, 6], shape), omega, pdot, sdot
     )
 
 
 def uncontrolled_motions(geometry: Geometry, configuration: Configuration, tolerance: float = 1e-9) -> Floats:
-    """Return every independent motion that the nine legs do not notice.
+    """Return every independent motion that changes no leg length.
 
     Parameters
     ----------
@@ -182,9 +184,9 @@ def uncontrolled_motions(geometry: Geometry, configuration: Configuration, toler
     Returns
     -------
     numpy.ndarray, shape (k, 9)
-        Rows (omega, pdot, sdot), base frame, the least noticed first, none where the robot is under control. A small
-        multiple of one is a tangent for `Configuration.moved`; leg lengths change in second order. They are orthonormal
-        in the measure of `singularity`. A leg of zero length holds its two ends together.
+        Rows (omega, pdot, sdot), base frame, by ascending singular value; none away from singularities. A small
+        multiple of a row is a tangent for `Configuration.moved`; leg lengths change in second order. Rows are
+        orthonormal in the measure of `singularity`. A leg of zero length holds its two ends together.
 
     Raises
     ------
@@ -211,12 +213,12 @@ def distance_to_singularity(
     most: float = 1.0,
     threads: int | None = None,
 ) -> SingularityDistance:
-    """Return how far one can go along a direction before a mechanism gives way.
+    """Return the distance along a direction to the first singularity.
 
     The path is t -> configuration.moved(t * direction): p and s on straight lines, the platform turning about a fixed
-    axis at a fixed rate. Nothing is stepped over: a step is only as long as bounds of the derivatives prove the
-    determinants to keep their signs. A zero that is touched without a change of sign is found where the determinant
-    sinks below its rounding error, its place known to about the square root of that.
+    axis at a fixed rate. No zero is stepped over: within each step, bounds of the derivatives prove that the
+    determinants keep their signs. A zero without change of sign is found where the determinant is below its rounding
+    error; its place is then known to about the square root of that error.
 
     Parameters
     ----------
@@ -227,8 +229,8 @@ def distance_to_singularity(
         (omega, dp, ds): rotation vector in radians and displacements in length units, base frame, as for
         `Configuration.moved`. Broadcasts against the configuration.
     most : float
-        How far to look, in multiples of the direction. 1 by default: the displacement itself, so that an infinite
-        answer says that the whole move is free. For a pure rotation 2 pi / |omega| is all there is.
+        End of the path, in multiples of the direction. 1 by default: the displacement itself, so that an infinite
+        answer says that the whole move is free. A pure rotation repeats after 2 pi / |omega|.
     threads : int, optional
         Threads for a stack; one a processor by default. The result does not depend on it.
 
@@ -260,7 +262,7 @@ def distance_to_singularity(
     out = _core.distance_to_singularity(*flat, t, as_number("most", most), thread_argument(threads))
     return SingularityDistance(
         out[:, 0].reshape(shape)[()],
-        _words(out[:, 1], shape),
+        _mechanisms(out[:, 1], shape),
         out[:, 3:].reshape(*shape, 3),
         (out[:, 2] == 1.0).reshape(shape)[()],
     )
@@ -270,6 +272,6 @@ def _margins(flat: Floats, shape: tuple[int, ...]) -> SingularityMargins:
     return SingularityMargins(*(flat[:, k].reshape(shape)[()] for k in range(3)))
 
 
-def _words(codes: Floats, shape: tuple[int, ...]) -> Any:
-    words = np.array(list(Mechanism), dtype="U1")[codes.astype(int)].reshape(shape)  # members in the core's order
-    return words if shape else Mechanism(str(words))
+def _mechanisms(codes: Floats, shape: tuple[int, ...]) -> Any:
+    values = np.array(list(Mechanism), dtype="U1")[codes.astype(int)].reshape(shape)  # members in the core's order
+    return values if shape else Mechanism(str(values))

@@ -49,10 +49,11 @@ def _directions(robot: Robot, body: str, c: Configuration) -> Floats:
 
 
 def determinants(robot: Robot, steps: int) -> Floats:
-    """Return det B, det C and det M, made positive at the neutral pose, there and along straight ways to all poses.
+    """Return det B, det C and det N, made positive at the neutral pose, there and along straight ways to all poses.
 
-    Rows are unit vectors: lower internal legs (B), upper internal legs (C), and w_i x e_i with w_i from O to the
-    platform's external joint (M). A robot that can be assembled on one side of a zero cannot be driven to the other.
+    Rows are unit vectors of the lower internal legs (B) and the upper internal legs (C), and d_i x w_i with unit
+    vectors from O to the base joint and the platform joint of external leg i (N). A robot that can be assembled on one
+    side of a zero cannot be driven to the other.
 
     Parameters
     ----------
@@ -77,10 +78,15 @@ def determinants(robot: Robot, steps: int) -> Floats:
 def _triples(robot: Robot, c: Configuration) -> Floats:
     start, end = robot.ends(c)
     along = end - start
-    levers = np.cross(end[..., :3, :] - c.internal_point[..., None, :], along[..., :3, :])
-    rows = np.stack([along[..., 6:9, :], along[..., 3:6, :], levers], axis=-3)
-    sizes = np.linalg.norm(rows, axis=-1, keepdims=True)
-    out: Floats = np.linalg.det(rows / np.where(sizes > 0.0, sizes, 1.0))
+    to_base, to_platform = (at[..., :3, :] - c.internal_point[..., None, :] for at in (start, end))
+    turning = np.cross(_units(to_base), _units(to_platform))
+    out: Floats = np.linalg.det(np.stack([_units(along[..., 6:9, :]), _units(along[..., 3:6, :]), turning], axis=-3))
+    return out
+
+
+def _units(v: Floats) -> Floats:
+    sizes = np.linalg.norm(v, axis=-1, keepdims=True)
+    out: Floats = v / np.where(sizes > 0.0, sizes, 1.0)
     return out
 
 

@@ -1,4 +1,4 @@
-"""What makes a pose allowed, as the core takes it."""
+"""Criteria of a workspace: check what is given and convert it for the core."""
 
 from __future__ import annotations
 
@@ -7,36 +7,38 @@ from typing import Any
 
 import numpy as np
 
+from ninedof import _core
+from ninedof.design.limits import Row
 from ninedof.redundancy.search_arguments import leg_limits
 from ninedof.support.arguments import known_keys, shown, vector
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 __all__ = ["CRITERIA", "criteria_of"]
 
-CRITERIA = ("leg_limits", "base_cone", "platform_cone", "leg_clearance", "condition_number", "singularity_free")
+ROWS = {row.name: row for row in (Row(*values) for values in _core.criterion_table)}
+CRITERIA = tuple(ROWS)
 
 
 def criteria_of(criteria: Mapping[str, Any] | None, characteristic_length: float) -> dict[str, Any]:
-    """Check the criteria by name."""
+    """Check the criteria by name; those that are not given are None."""
     given = {} if criteria is None else criteria
     known_keys("criteria", given, CRITERIA)
     found: dict[str, Any] = dict.fromkeys(CRITERIA)
-    for name, value in given.items():
-        if value is None:
-            continue
-        if name == "leg_limits":
-            found[name] = _leg_limits(value)
-        elif name == "singularity_free":
-            if not isinstance(value, bool | np.bool_):
-                raise ValueError(f"singularity_free: got {shown(value)}, expected True or False")
-            found[name] = bool(value)
-        elif name in ("base_cone", "platform_cone"):
-            found[name] = _cone(name, value)
-        else:
-            found[name] = _number(name, value)
+    found |= {name: _checked(ROWS[name], value) for name, value in given.items() if value is not None}
     found["singularity_free"] = bool(found["singularity_free"])
     found["characteristic_length"] = as_number("characteristic_length", characteristic_length)
     return found
+
+
+def _checked(row: Row, value: Any) -> Any:
+    """Return a criterion as the core takes it: by the sides, the kind and the options of its row."""
+    if len(row.sides) == 2:
+        return _leg_limits(row.name, value)
+    if row.kind == "sign":
+        if not isinstance(value, bool | np.bool_):
+            raise ValueError(f"{row.name}: got {shown(value)}, expected True or False")
+        return bool(value)
+    return _cone(row.name, value) if "axis" in row.options else _number(row.name, value)
 
 
 def _number(name: str, value: Any) -> float:
@@ -45,16 +47,16 @@ def _number(name: str, value: Any) -> float:
     return as_number(name, value)
 
 
-def _leg_limits(value: Any) -> tuple[Floats, Floats]:
-    low, high = leg_limits(value, "leg_limits")
+def _leg_limits(name: str, value: Any) -> tuple[Floats, Floats]:
+    low, high = leg_limits(value, name)
     for k in np.flatnonzero(~((low >= 0.0) & (low < high) & np.isfinite(low))).tolist():
         leg = f"{'lqr'[k // 3]}{k % 3 + 1}"
-        raise ValueError(f"leg_limits ({leg}): got {low[k]:g} to {high[k]:g}, expected 0 <= low < high, low finite")
+        raise ValueError(f"{name} ({leg}): got {low[k]:g} to {high[k]:g}, expected 0 <= low < high, low finite")
     return low, high
 
 
 def _cone(name: str, value: Any) -> tuple[float, Floats]:
-    """Return the greatest angle and the axis; zero stands for each leg's own direction at home."""
+    """Return the greatest angle and the axis; a zero axis means each leg's own direction at the home configuration."""
     if not isinstance(value, Mapping):
         return _number(name, value), np.zeros(3)
     known_keys(name, value, ("max", "axis"))

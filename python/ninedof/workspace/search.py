@@ -80,7 +80,7 @@ def workspace(
           at `home`, seen from that body; {"max": angle, "axis": (x, y, z)} for one axis of that body.
         - "leg_clearance": least distance of the axes of legs that share no joint.
         - "condition_number": its greatest value, at least 1.
-        - "singularity_free": True for poses that are connected with `home` and where det M, det B and det C have the
+        - "singularity_free": True for poses that are connected with `home` and where det N, det B and det C have the
           signs they have there. By cells: pieces closer than one of the smallest cells count as one.
     internal_point : float, array_like, mapping or "best"
         The rule for O. A number: that fraction of the way from the centroid of the lower to that of the upper internal

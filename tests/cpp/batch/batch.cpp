@@ -283,7 +283,7 @@ TEST_SUITE("batch") {
         for (std::size_t j = 0; j < 9; ++j)
           CHECK(std::abs(lengths[9 * k + j] - expected[static_cast<Eigen::Index>(j)]) <= 4e-16 * size * 10.0);
         const PerMechanism m = singularity_margins(g, s.each[k]);
-        CHECK(std::abs(margins[3 * k] - m.m) <= 1e-14);
+        CHECK(std::abs(margins[3 * k] - m.n) <= 1e-14);
         CHECK(std::abs(margins[3 * k + 1] - m.b) <= 1e-14);
         CHECK(std::abs(margins[3 * k + 2] - m.c) <= 1e-14);
         if (k % 50 == 0) CHECK(margins[3 * k + 1] == 0.0);

@@ -1,5 +1,5 @@
-/// singularity.hpp against the matrices of eqs. (31)-(35), the neutral closed forms of the theory, the extended-precision
-/// oracle, leg lengths along the motions it names, and poses that are singular by construction.
+/// singularity.hpp against the matrices of eqs. (31)-(35), the neutral closed forms of the theory, the
+/// extended-precision oracle, leg lengths along the motions it names, and poses that are singular by construction.
 
 #include "ninedof/singularity/singularity.hpp"
 
@@ -28,7 +28,7 @@ Robot lost(Random& random, Mechanism mechanism) {
   const Geometry& g = r.geometry;
   if (mechanism == Mechanism::b) c.internal_point = in_plane(g.base_internal());
   if (mechanism == Mechanism::c) c.internal_point = c.position + c.rotation * in_plane(g.platform_internal());
-  if (mechanism == Mechanism::m) {  // base joints moved within planes that share a line through O
+  if (mechanism == Mechanism::n) {  // base joints moved within planes that share a line through O
     const Vec3 line = random.unit();
     Triple base;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -42,7 +42,7 @@ Robot lost(Random& random, Mechanism mechanism) {
 }
 
 double of(const PerMechanism& x, Mechanism mechanism) {
-  return mechanism == Mechanism::m ? x.m : mechanism == Mechanism::b ? x.b : x.c;
+  return mechanism == Mechanism::n ? x.n : mechanism == Mechanism::b ? x.b : x.c;
 }
 
 Vec9 tangent(const Velocity& v) {
@@ -62,7 +62,7 @@ double spread(const Robot& r) {
   return out;
 }
 
-constexpr Mechanism every[] = {Mechanism::m, Mechanism::b, Mechanism::c};
+constexpr Mechanism every[] = {Mechanism::n, Mechanism::b, Mechanism::c};
 
 }  // namespace
 
@@ -78,7 +78,7 @@ TEST_SUITE("singularity") {
       CHECK(std::abs(margins.b - v.B.determinant()) <= 32.0 * eps);
       CHECK(std::abs(margins.c - v.C.determinant()) <= 32.0 * eps);
       const double expected = v.F.fullPivLu().determinant() * lc * lc * lc;
-      CHECK(std::abs(margins.m * spread(r) * margins.c - expected) <= 1e-13 * (spread(r) + std::abs(expected)));
+      CHECK(std::abs(margins.n * spread(r) * margins.c - expected) <= 1e-13 * (spread(r) + std::abs(expected)));
     }
   }
 
@@ -93,10 +93,10 @@ TEST_SUITE("singularity") {
       const double ru = (2.0 * a1 * b1 + a1 * b2 + a2 * b1 + 2.0 * a2 * b2) / 6.0;
       const double l = std::sqrt(R2 + U2 - 2.0 * ru + zp * zp), q = std::sqrt(U2 + rho * rho);
       const double lower = std::sqrt(R2 + zs * zs), root3 = std::numbers::sqrt3;
-      const double det_m =
+      const double det_n =
           -0.75 * (a2 * b1 - a1 * b2) * (rho * rho * R2 + zs * zs * U2 + 2.0 * rho * zs * ru) / (l * l * l);
       const PerMechanism margins = singularity_margins(r.geometry, r.configuration);
-      CHECK(std::abs(margins.m * spread(r) - det_m) <= 64.0 * eps * (spread(r) + std::abs(det_m)));
+      CHECK(std::abs(margins.n * spread(r) - det_n) <= 64.0 * eps * (spread(r) + std::abs(det_n)));
       CHECK(std::abs(margins.c - 0.5 * root3 * rho * 3.0 * U2 / (q * q * q)) <= 32.0 * eps);
       CHECK(std::abs(margins.b + 0.5 * root3 * zs * 3.0 * R2 / (lower * lower * lower)) <= 32.0 * eps);
     }
@@ -121,11 +121,11 @@ TEST_SUITE("singularity") {
         upper.row(k) = (s - p - q * row(g.platform_internal()[i])).normalized().transpose();
       }
       // Rows are off by the rounding of the coordinates, here up to ten times a leg.
-      CHECK(std::abs(report.sigma.m - static_cast<double>(oracle::singular_values(m)[2])) <= 100.0 * eps);
+      CHECK(std::abs(report.sigma.n - static_cast<double>(oracle::singular_values(m)[2])) <= 100.0 * eps);
       CHECK(std::abs(report.sigma.b - static_cast<double>(oracle::singular_values(b)[2])) <= 100.0 * eps);
       CHECK(std::abs(report.sigma.c - static_cast<double>(oracle::singular_values(upper)[2])) <= 100.0 * eps);
-      CHECK(std::abs(report.margins.m - static_cast<double>(m.determinant())) <= 100.0 * eps);
-      const double least = std::min({report.sigma.m, report.sigma.b, report.sigma.c});
+      CHECK(std::abs(report.margins.n - static_cast<double>(m.determinant())) <= 100.0 * eps);
+      const double least = std::min({report.sigma.n, report.sigma.b, report.sigma.c});
       CHECK(of(report.sigma, report.mechanism) == least);
     }
   }
@@ -152,7 +152,7 @@ TEST_SUITE("singularity") {
         CHECK(along == doctest::Approx(all[0].head<3>().norm()).epsilon(1e-8));
         const Vec3 y = c.internal_point - c.position;
         if (mechanism != Mechanism::b) CHECK(report.motion.sdot == Vec3::Zero());
-        if (mechanism == Mechanism::m) CHECK((report.motion.pdot - y.cross(report.motion.omega)).norm() <= 8.0 * eps);
+        if (mechanism == Mechanism::n) CHECK((report.motion.pdot - y.cross(report.motion.omega)).norm() <= 8.0 * eps);
         if (mechanism == Mechanism::b) {
           const Triple& t = g.base_internal();
           const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
@@ -179,7 +179,7 @@ TEST_SUITE("singularity") {
       }
       const double unit = v.omega.squaredNorm() + (at_o.squaredNorm() + v.sdot.squaredNorm()) / (reach / 6.0);
       CHECK(unit == doctest::Approx(1.0).epsilon(1e-13));
-      const Eigen::Index first = report.mechanism == Mechanism::m ? 0 : report.mechanism == Mechanism::c ? 3 : 6;
+      const Eigen::Index first = report.mechanism == Mechanism::n ? 0 : report.mechanism == Mechanism::c ? 3 : 6;
       const double size = first == 0 ? v.omega.norm() : first == 3 ? at_o.norm() : v.sdot.norm();
       CHECK(rates.segment<3>(first).norm() ==
             doctest::Approx(of(report.sigma, report.mechanism) * size).epsilon(1e-11));
@@ -236,8 +236,8 @@ TEST_SUITE("singularity") {
       // O at a base joint of an external leg: that leg holds no turn about O, and there is one to spare.
       c.internal_point = r.geometry.base_external()[i];
       SingularityReport report = singularity(r.geometry, c);
-      CHECK(report.margins.m == 0.0);
-      CHECK(report.mechanism == Mechanism::m);
+      CHECK(report.margins.n == 0.0);
+      CHECK(report.mechanism == Mechanism::n);
       CHECK(inverse_velocity(r.geometry, c, report.motion).norm() <= 1e-13);
       CHECK(uncontrolled_motions(r.geometry, c).size() == 1);
       // A leg of zero length: lost, but not to a motion.
@@ -265,7 +265,7 @@ TEST_SUITE("singularity") {
       for (const double factor : {0x1p-20, 0x1p30}) {
         const Robot other = scaled(r, factor);
         const SingularityReport report = singularity(other.geometry, other.configuration);
-        CHECK(report.margins.m == one.margins.m);
+        CHECK(report.margins.n == one.margins.n);
         CHECK(report.sigma.b == one.sigma.b);
         CHECK(report.mechanism == one.mechanism);
         CHECK(report.motion.omega == one.motion.omega);
@@ -274,7 +274,7 @@ TEST_SUITE("singularity") {
       for (const double factor : {1e-6, 1e6}) {
         const Robot other = scaled(r, factor);
         const PerMechanism margins = singularity_margins(other.geometry, other.configuration);
-        CHECK(std::abs(margins.m - one.margins.m) <= 100.0 * eps);
+        CHECK(std::abs(margins.n - one.margins.n) <= 100.0 * eps);
         CHECK(std::abs(margins.b - one.margins.b) <= 100.0 * eps);
         CHECK(std::abs(margins.c - one.margins.c) <= 100.0 * eps);
       }
@@ -288,7 +288,7 @@ TEST_SUITE("singularity") {
     CHECK(refuses("tolerance", [&] { uncontrolled_motions(g, c, not_a_number); }));
     c.rotation(1, 1) = not_a_number;
     const PerMechanism margins = singularity_margins(g, c);
-    CHECK((std::isnan(margins.m) && std::isnan(margins.b) && std::isnan(margins.c)));
+    CHECK((std::isnan(margins.n) && std::isnan(margins.b) && std::isnan(margins.c)));
     const SingularityReport report = singularity(g, c);
     CHECK(std::isnan(report.sigma.b));
     CHECK(report.mechanism == Mechanism::none);

@@ -1,5 +1,5 @@
-/// distance_to_singularity against signs of the margins sampled along the path, against paths that can be solved by hand, and
-/// against paths built to touch a singularity without crossing it.
+/// distance_to_singularity against signs of the margins sampled along the path, against paths that can be solved by
+/// hand, and against paths built to touch a singularity without crossing it.
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ Vec9 random_direction(Random& random, int kind) {
 }
 
 double of(const PerMechanism& x, int k) {
-  return k == 0 ? x.m : k == 1 ? x.b : x.c;
+  return k == 0 ? x.n : k == 1 ? x.b : x.c;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ TEST_SUITE("singularity_distance") {
       const Vec9 along = random_direction(random, n % 3);
       const SingularityDistance found = distance_to_singularity(g, c, along, 3.0);
       CHECK(found.resolved);
-      CHECK(found.distance == std::min({found.each.m, found.each.b, found.each.c}));
+      CHECK(found.distance == std::min({found.each.n, found.each.b, found.each.c}));
       const PerMechanism start = singularity_margins(g, c);
       for (int k = 0; k < 3; ++k) {
         const double at = of(found.each, k), end = std::min(at, 3.0), sign = of(start, k);
@@ -100,7 +100,7 @@ TEST_SUITE("singularity_distance") {
     }
   }
 
-  TEST_CASE("two legs that point at O at the same moment: det M touches zero and turns back") {
+  TEST_CASE("two legs that point at O at the same moment: det N touches zero and turns back") {
     Random random(423);
     int touched = 0;
     for (int n = 0; n < 100; ++n) {
@@ -117,11 +117,11 @@ TEST_SUITE("singularity_distance") {
       const double before = random.uniform(0.01, 0.3);
       const Configuration c = plus(then, -before * along);
       const PerMechanism start = singularity_margins(g, c), after = singularity_margins(g, plus(then, 0.01 * along));
-      const double at = distance_to_singularity(g, c, along).each.m;
+      const double at = distance_to_singularity(g, c, along).each.n;
       CHECK(at <= before + 1e-6);
       if (at < before - 1e-6) continue;  // another zero came first
       ++touched;
-      CHECK(start.m * after.m > 0.0);
+      CHECK(start.n * after.n > 0.0);
     }
     CHECK(touched > 50);
   }
@@ -135,7 +135,7 @@ TEST_SUITE("singularity_distance") {
       const SingularityDistance c = distance_to_singularity(g, neutral(2.0, 2.0), along);
       CHECK((c.distance == 0.0 && c.mechanism == Mechanism::c));
       const SingularityDistance m = distance_to_singularity(similar, neutral(2.0, 0.7), along);
-      CHECK((m.distance == 0.0 && m.mechanism == Mechanism::m));
+      CHECK((m.distance == 0.0 && m.mechanism == Mechanism::n));
     }
     const SingularityDistance still = distance_to_singularity(g, neutral(2.0, 1.0), Vec9::Zero());
     CHECK((still.distance == infinity && still.mechanism == Mechanism::none && still.resolved));

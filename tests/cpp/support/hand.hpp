@@ -104,17 +104,18 @@ inline double angle(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0));
 }
 
-/// Determinants of unit rows behind det B, det C and det M.
+/// det B, det C and det N: rows e^_i, e~_i and d^_i x w^_i.
 inline Vec3 determinants(const Geometry& g, const Configuration& c) {
   const ninedof::Legs legs = ninedof::legs(g, c);
-  Mat3 b, upper, m;
+  Mat3 b, upper, n;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     b.row(row) = legs.e_hat[i];
     upper.row(row) = legs.e_tilde[i];
-    m.row(row) = (c.position + legs.u[i] - c.internal_point).cross(legs.e[i]).normalized();
+    const Vec3 d = g.base_external()[i] - c.internal_point, w = c.position + legs.u[i] - c.internal_point;
+    n.row(row) = d.normalized().cross(w.normalized());
   }
-  return {b.determinant(), upper.determinant(), m.determinant()};
+  return {b.determinant(), upper.determinant(), n.determinant()};
 }
 
 /// The extremes of what a limit of lengths, ratios or angles measures, in its unit.

@@ -11,7 +11,7 @@ inline Vec3 in_plane(const Triple& t, Random& random) {
 }
 
 /// Kind 0: O in the plane of the lower joints (det B = 0); 1: in that of the upper ones (det C = 0); 2: on the line of
-/// an external leg (det M = 0).
+/// an external leg (det N = 0).
 inline Robot random_singular_robot(Random& random, int kind) {
   Robot robot = random_robot(random);
   const Geometry& g = robot.geometry;

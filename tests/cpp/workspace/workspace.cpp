@@ -9,7 +9,7 @@
 #include "support/support.hpp"
 #include "workspace/cells/tetrahedra.hpp"
 #include "workspace/chart.hpp"
-#include "workspace/limits.hpp"
+#include "workspace/criteria/limits.hpp"
 #include "workspace/measures/near_points.hpp"
 #include "workspace/measures/pieces.hpp"
 #include "workspace/sequence.hpp"

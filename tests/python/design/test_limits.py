@@ -1,26 +1,42 @@
-"""Constraints as people give them: every form of every name, in normal form, to files and back."""
+"""Limits of constraints: every form of every name, in normal form, to files and back."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof import _core
 from ninedof.design import limits
 
 NAN, INF = math.nan, math.inf
 
-BOTH = {
-    "radius_ratio", "leg_ratio", "zs_fraction", "leg_length", "external_length", "upper_length", "lower_length",
-    "height", "footprint",
-}  # fmt: skip
-MOST = {"stroke_ratio", "stroke", "joint_height", "base_cone", "platform_cone"}
-LEAST = {"joint_spacing", "leg_clearance", "singularity_free"}
+
+def documented():
+    """The constraints of docs/study-file.md as name: (sides, units, default low side)."""
+    text = (Path(__file__).parents[3] / "docs" / "study-file.md").read_text(encoding="utf-8")
+    out = {}
+    for line in text.split("## Constraints")[1].split("| option |")[0].splitlines():
+        cells = re.split(r"(?<!\\)\|", line)
+        if not line.startswith("| `"):
+            continue
+        sides = {side for side in ("min", "max") if re.search(rf"\b{side}\b", cells[3])}
+        default = re.search(r"\(([\d.]+)\)", cells[3])
+        for name in re.findall(r"`(\w+)`", cells[1]):
+            out[name] = (sides, {"length", *re.findall(r"`(\w+)`", cells[4])}, default and float(default[1]))
+    return out
 
 
-def test_every_constraint_is_one_of_these():
-    assert BOTH | MOST | LEAST == set(_core.constraint_names()) == set(_core.constraint_kinds())
+DOCUMENTED = documented()
+BOTH, MOST, LEAST = (
+    {name for name, row in DOCUMENTED.items() if row[0] == sides} for sides in ({"min", "max"}, {"max"}, {"min"})
+)
+
+
+def test_every_constraint_is_documented_with_its_sides_and_units():
+    assert {name: (set(row.sides), set(row.units), row.default_low) for name, row in limits.ROWS.items()} == DOCUMENTED
+    assert set(limits.CONSTRAINTS) == BOTH | MOST | LEAST
 
 
 @pytest.mark.parametrize("name", sorted(BOTH | MOST | LEAST))

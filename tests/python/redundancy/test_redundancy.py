@@ -24,7 +24,7 @@ def random_case(rng, hexagonal):
 
 
 def signs_and_values(g, p, q, s):
-    """Signs of det B, det C and det M, and the condition number, by plain numpy for points s, shape (n, 3)."""
+    """Signs of det B, det C and det N, and the condition number, by plain numpy for points s, shape (n, 3)."""
     n = len(s)
     m = numpy_model.Robot(
         *(

@@ -98,7 +98,7 @@ def test_no_point_of_a_fine_grid_is_better(published):
 
 
 def dets(m):
-    """Determinants of B, C and the matrix behind M."""
+    """Determinants of B, C and N (rows d_i x w_i)."""
     _, b, c, _ = numpy_model.matrices(m)
     x, _, _, u, _ = numpy_model.legs(m)
     w = u + (m.p - m.s)[:, None]

@@ -46,7 +46,7 @@ def test_similar_hexagons_in_the_neutral_pose(a1, a2, ratio):
 
 
 def test_three_leg_planes_with_a_common_line():
-    """det M = 0 away from symmetry: the planes (O, A_i, B_i) meet in one line through O."""
+    """det N = 0 away from symmetry: the planes (O, A_i, B_i) meet in one line through O."""
     rng = np.random.default_rng(5)
     for _ in range(20):
         m = model.random_robots(rng, 1).at(0)

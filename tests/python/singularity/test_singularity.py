@@ -21,11 +21,11 @@ import ninedof as nd
 EPS = np.finfo(float).eps
 SEEDS = st.integers(0, 2**32 - 1)
 SIDES = st.floats(0.05, 5.0)
-MECHANISMS = pytest.mark.parametrize("mechanism", "mbc")
+MECHANISMS = pytest.mark.parametrize("mechanism", "nbc")
 
 
 def spread(m):
-    """What takes det M of unit rows to the theory's det M, of rows w_i x e_i."""
+    """Quotient of det N' with rows w_i x e_i by det N."""
     d, w = from_o(m)
     return (size(d) * size(w) / size(model.legs(m)[0])).prod(axis=-1)
 
@@ -75,7 +75,7 @@ def test_margins_are_determinants_of_unit_rows(seed):
     found = nd.singularity(m.geometry(), m.configuration())
     assert_allclose(found.margins, nd.singularity_margins(m.geometry(), m.configuration()), rtol=0, atol=1e-15)
     assert_allclose(found.smallest, np.linalg.svd(rows, compute_uv=False)[:, -1], rtol=0.0, atol=100 * EPS)
-    assert found.mechanism == "mbc"[int(np.argmin(found.smallest))]
+    assert found.mechanism == "nbc"[int(np.argmin(found.smallest))]
 
 
 @pytest.mark.parametrize("case", reference_cases(), ids=lambda case: case["id"])
@@ -86,7 +86,7 @@ def test_margins_against_50_digits(case):
     found = nd.singularity_margins(g, c)
     assert_array_equal(np.sign(found), np.sign([case["detM"], case["detB"], case["detC"]]))
     assert_allclose([found.det_b, found.det_c], [case["detB"], case["detC"]], rtol=0.0, atol=100 * EPS)
-    assert_allclose(found.det_m, case["detM"] / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
+    assert_allclose(found.det_n, case["detM"] / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
 
 
 @given(a1=SIDES, a2=SIDES, b1=SIDES, b2=SIDES, zp=st.floats(0.2, 5.0), zs=st.floats(-3.0, 8.0))
@@ -97,11 +97,11 @@ def test_neutral_closed_forms(a1, a2, b1, b2, zp, zs):
     R2, U2 = (a1**2 + a1 * a2 + a2**2) / 3, (b1**2 + b1 * b2 + b2**2) / 3
     ru = (2 * a1 * b1 + a1 * b2 + a2 * b1 + 2 * a2 * b2) / 6
     l, q, r = np.sqrt([R2 + U2 - 2 * ru + zp**2, U2 + rho**2, R2 + zs**2])
-    det_m = -0.75 * (a2 * b1 - a1 * b2) * (rho**2 * R2 + zs**2 * U2 + 2 * rho * zs * ru) / l**3
+    det_n = -0.75 * (a2 * b1 - a1 * b2) * (rho**2 * R2 + zs**2 * U2 + 2 * rho * zs * ru) / l**3
     det_c = np.sqrt(3) / 2 * rho * (b1**2 + b1 * b2 + b2**2) / q**3
     det_b = -np.sqrt(3) / 2 * zs * (a1**2 + a1 * a2 + a2**2) / r**3
     found = nd.singularity_margins(g, c)
-    assert_allclose(found.det_m, det_m / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
+    assert_allclose(found.det_n, det_n / spread(model.robot(g, c)), rtol=0.0, atol=100 * EPS)
     assert_allclose([found.det_b, found.det_c], [det_b, det_c], rtol=0.0, atol=100 * EPS)
 
 
@@ -112,10 +112,10 @@ def test_between_the_plates_a_neutral_pose_is_singular_where_the_hexagons_are_si
     c = nd.Configuration.neutral(2.0, 2.0 * zs)
     similar = nd.Geometry.hexagonal(a1, a2, b1, b1 * a2 / a1)
     found = nd.singularity(similar, c)
-    assert abs(found.margins.det_m) <= 16 * EPS
-    assert found.mechanism == "m"
+    assert abs(found.margins.det_n) <= 16 * EPS
+    assert found.mechanism == "n"
     assert nd.condition_number(similar, c) == np.inf
-    margin = nd.singularity_margins(nd.Geometry.hexagonal(a1, a2, b1, ratio * b1 * a2 / a1), c).det_m
+    margin = nd.singularity_margins(nd.Geometry.hexagonal(a1, a2, b1, ratio * b1 * a2 / a1), c).det_n
     if abs(ratio - 1.0) > 1e-9:
         assert np.sign(margin) == np.sign(ratio - 1.0)  # -(a2 b1 - a1 b2)
         assert abs(margin) > 1e-6 * abs(ratio - 1.0)
@@ -127,7 +127,7 @@ def test_each_mechanism_on_purpose(mechanism, seed):
     m = lost(np.random.default_rng(seed), mechanism)
     g, c = m.geometry(), m.configuration()
     found = nd.singularity(g, c)
-    k = "mbc".index(mechanism)
+    k = "nbc".index(mechanism)
     assert found.mechanism is nd.Mechanism(mechanism)
     assert abs(found.margins[k]) <= 100 * EPS
     assert found.smallest[k] <= 100 * EPS
@@ -147,7 +147,7 @@ def test_each_mechanism_on_purpose(mechanism, seed):
         normal = m.Q @ np.cross(m.ut[1] - m.ut[0], m.ut[2] - m.ut[0])
         assert_array_equal(found.sdot, 0.0)
         assert_allclose(np.cross(at_o, normal / size(normal)), 0.0, atol=1e-12)
-    if mechanism == "m":  # a turn about the line that the three leg planes share
+    if mechanism == "n":  # a turn about the line that the three leg planes share
         assert_array_equal(found.sdot, 0.0)
         assert_allclose(at_o, 0.0, atol=1e-14)
         assert_allclose(np.sum(np.cross(*from_o(m)) * found.omega, axis=-1), 0.0, atol=1e-12)
@@ -162,9 +162,9 @@ def test_a_regular_motion_is_noticed_by_its_own_legs_by_the_least_singular_value
     d, w = from_o(m)
     rates[0] *= size(model.legs(m)[0]) / size(d) / size(w)  # the rows of unit vectors
     at_o = found.pdot + np.cross(found.omega, m.s - m.p)
-    k = "mcb".index(found.mechanism)
+    k = "ncb".index(found.mechanism)
     moving = size([found.omega, at_o, found.sdot][k])
-    assert_allclose(size(rates[k]), found.smallest["mbc".index(found.mechanism)] * moving, rtol=1e-9, atol=1e-14)
+    assert_allclose(size(rates[k]), found.smallest["nbc".index(found.mechanism)] * moving, rtol=1e-9, atol=1e-14)
     assert_allclose(np.delete(rates, k, axis=0), 0.0, atol=1e-12)
 
 
@@ -197,7 +197,7 @@ def test_several_lost_together(which, seed):
     assert_allclose(kernel @ (kernel.T @ scaled.T), scaled.T, atol=1e-9)
     # The one that is named exists all the same: with M lost too, O cannot leave the plane to first order.
     found = nd.singularity(g, c)
-    assert found.mechanism == ("c" if which == "b and c" else "m")
+    assert found.mechanism == ("c" if which == "b and c" else "n")
     assert_unnoticed(m, np.concatenate([found.omega, found.pdot, found.sdot]))
 
 
@@ -217,12 +217,12 @@ def test_legs_of_zero_length_and_joints_at_o():
     """Such a row is zero. A leg of zero length locks what it holds; a leg pointing at O holds no turn about it."""
     m = model.random_robots(np.random.default_rng(4), 1).at(0)
     upper = m.p + m.Q @ m.ut[1]
-    for s, mechanism, count in ((m.rh[2], "b", 0), (upper, "c", 0), (m.r[0], "m", 1), (m.p + m.Q @ m.u[0], "m", 1)):
+    for s, mechanism, count in ((m.rh[2], "b", 0), (upper, "c", 0), (m.r[0], "n", 1), (m.p + m.Q @ m.u[0], "n", 1)):
         at = m._replace(s=s)
         g, c = at.geometry(), at.configuration()
         found = nd.singularity(g, c)
         assert found.mechanism == mechanism
-        assert found.margins["mbc".index(mechanism)] == 0.0
+        assert found.margins["nbc".index(mechanism)] == 0.0
         motion = np.concatenate([found.omega, found.pdot, found.sdot])
         assert np.isnan(motion).all() == (count == 0)
         motions = nd.uncontrolled_motions(g, c)
@@ -230,7 +230,7 @@ def test_legs_of_zero_length_and_joints_at_o():
     # An external leg of zero length: three lengths of legs hold one point of the platform.
     touching = m._replace(r=np.vstack([m.p + m.Q @ m.u[0], m.r[1:]]))
     found = nd.singularity(touching.geometry(), touching.configuration())
-    assert (found.margins.det_m, found.mechanism) == (0.0, "m")
+    assert (found.margins.det_n, found.mechanism) == (0.0, "n")
     assert np.isnan(found.omega).all()
     assert len(nd.uncontrolled_motions(touching.geometry(), touching.configuration())) == 0
 
@@ -279,7 +279,7 @@ def test_stack_equals_one_by_one_and_missing_rows_stay_alone(published, stack):
     many = nd.Configuration.neutral(4.0, np.linspace(0.0, 4.0, 5000).reshape(2, 2500))
     one, two = (nd.singularity(published, many, threads=k) for k in (1, 2))
     assert one.omega.shape == (2, 2500, 3)
-    assert one.mechanism.shape == one.margins.det_m.shape == (2, 2500)
+    assert one.mechanism.shape == one.margins.det_n.shape == (2, 2500)
     assert_array_equal(np.concatenate([one.smallest, one.pdot], -1), np.concatenate([two.smallest, two.pdot], -1))
     assert_array_equal(one.mechanism[[0, -1], [0, -1]], ["b", "c"])
     assert nd.singularity(published, stack[:0]).sdot.shape == (0, 3)
@@ -303,12 +303,12 @@ def test_bad_arguments(published, neutral, stack):
         nd.singularity(published, neutral, threads=0)
 
 
-def test_similar_hexagons_det_m_is_odd_in_the_twist_and_the_internal_legs_do_not_see_it():
+def test_similar_hexagons_det_n_is_odd_in_the_twist_and_the_internal_legs_do_not_see_it():
     rng = np.random.default_rng(6)
     g = nd.Geometry.hexagonal(1.0, 2.0, 0.5, 1.0)
     for zp, zs in rng.uniform([1.0, 0.1], [3.0, 0.9], size=(5, 2)):
         margins = nd.singularity_margins(g, nd.Configuration.neutral(zp, zs * zp, np.linspace(-3.0, 3.0, 601)))
-        assert_allclose(margins.det_m, -margins.det_m[::-1], atol=1e-14)
-        assert np.abs(margins.det_m).max() > 0.1
+        assert_allclose(margins.det_n, -margins.det_n[::-1], atol=1e-14)
+        assert np.abs(margins.det_n).max() > 0.1
         assert_allclose(margins.det_b, margins.det_b[0], atol=1e-14)
         assert_allclose(margins.det_c, margins.det_c[0], atol=1e-14)

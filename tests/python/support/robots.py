@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 
 SINGULAR = ("lower plane", "upper plane", "leg through O")
-"""det B = 0, det C = 0, det M = 0."""
+"""det B = 0, det C = 0, det N = 0."""
 
 
 def regular(seed):

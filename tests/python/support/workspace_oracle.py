@@ -65,7 +65,7 @@ def clearance(m, samples=80):
 
 
 def signs(m):
-    """Signs of det M, det B and det C."""
+    """Signs of det N, det B and det C."""
     external, upper, lower, _, _ = model.legs(m)
     d = m.r - m.s[:, None]
     w = external + d

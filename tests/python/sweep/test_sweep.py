@@ -125,8 +125,8 @@ def margins(m):
     *_, u, ut = model.legs(m)
     p, s = m.p[..., None, :], m.s[..., None, :]
     unit = [v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (m.r - s, p + u - s, s - m.rh, s - p - ut)]
-    det_m = np.linalg.det(np.cross(unit[0], unit[1]))
-    return np.stack([det_m, np.linalg.det(unit[2]), np.linalg.det(unit[3])], axis=-1)
+    det_n = np.linalg.det(np.cross(unit[0], unit[1]))
+    return np.stack([det_n, np.linalg.det(unit[2]), np.linalg.det(unit[3])], axis=-1)
 
 
 def test_a_length_kind_is_taken_at_each_pose():

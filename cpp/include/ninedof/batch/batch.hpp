@@ -39,7 +39,7 @@ void condition_numbers(const Geometry& g, const Configurations& c, const Lengths
 /// Singular values of J', descending: 6 numbers per configuration. Throws as condition_numbers does.
 void singular_values(const Geometry& g, const Configurations& c, const Lengths& lc, double* out);
 
-/// Determinants m, b, c of singularity.hpp: 3 numbers per configuration.
+/// Determinants n, b, c of singularity.hpp: 3 numbers per configuration.
 void singularity_margins(const Geometry& g, const Configurations& c, double* out);
 
 /// Condition numbers of hexagonal designs at theta_z = 0, by the closed form: 1 number for each row a1 a2 b1 b2 zp zs,

@@ -1,6 +1,6 @@
 #pragma once
-/// Design constraints as signed margins, positive where the design is allowed: relative to their limit, so that 0.01 is
-/// one per cent to spare.
+/// Design constraints as signed margins, positive where the design is allowed. They are relative to their limit: 0.01
+/// is one per cent to spare.
 
 #include <limits>
 #include <string>
@@ -15,7 +15,7 @@ enum class LimitKind {
   ratio,
   length,  ///< see Limit::of
   angle,   ///< radians
-  sign,    ///< a determinant of unit vectors
+  sign,    ///< a determinant of singularity.hpp, in [-1, 1]
 };
 
 /// What a length is a fraction of.
@@ -27,21 +27,53 @@ enum class Unit {
 
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
 ///
-/// What each name means is said in the file of that name in src/constraints. 0 < zs < zp (eq. 9b) holds everywhere
-/// without being asked for.
+/// What each name means is said in the file of that name in src/design/constraints. 0 < zs < zp (eq. 9b) always holds.
 struct Limit {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Unit of = Unit::length;
-  Vec3 axis =
-      Vec3::Zero();  ///< of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration
-  int steps = 4;             ///< of singularity_free: parts of the displacement to each pose that are checked
+  /// Of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration.
+  Vec3 axis = Vec3::Zero();
+  /// Of singularity_free: parts of the way to each pose that are tested, 1 to most_steps.
+  int steps = 4;
+  static constexpr int most_steps = 1000;
 
   /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
   /// constraint does not have.
   void validate() const;
 };
+
+/// The sides that a limit can have.
+enum class LimitSides { both, only_low, only_high };
+
+/// What a criterion of workspaces has one name for, see limit_names() of workspace.hpp.
+enum class WorkspaceItems {
+  none,           ///< it is no criterion of workspaces
+  leg_sides,      ///< low side of each leg, then high side of each
+  base_legs,      ///< l1 l2 l3 r1 r2 r3
+  platform_legs,  ///< l1 l2 l3 q1 q2 q3
+  pairs_of_legs,  ///< the 21 pairs that need not meet in O
+  itself,         ///< one item
+  determinants,   ///< det N, det B, det C
+};
+
+/// A row of the table of constraints and of the criteria of workspaces.
+struct ConstraintInfo {
+  const char* name;
+  LimitKind kind;
+  LimitSides sides;
+  Unit of = Unit::length;    ///< the unit it takes besides "length", if another
+  const char* option = "";   ///< "axis", "radius" or "steps"; what else a study file may say of it
+  double default_low = 0.0;  ///< its low side where none is given
+  WorkspaceItems items = WorkspaceItems::none;
+};
+
+/// The constraints of designs.
+std::vector<ConstraintInfo> constraint_table();
+
+/// The criteria of workspaces, in the order of limit_names().
+std::vector<ConstraintInfo> criterion_table();
 
 /// Names of all constraints.
 std::vector<std::string> constraint_names();
@@ -51,6 +83,9 @@ LimitKind constraint_kind(const std::string& name);
 
 /// "ratio", "length", "angle" or "sign".
 const char* to_string(LimitKind kind);
+
+/// "length", "zp" or "radius".
+const char* to_string(Unit unit);
 
 /// "length", "zp" or "radius"; throws InvalidArgument for another word.
 Unit unit_from(const std::string& word);

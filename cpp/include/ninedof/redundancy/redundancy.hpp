@@ -4,7 +4,7 @@
 /// The pose (p, Q) fixes the external legs. O may still move: with the platform at rest (ldot = 0), qdot = C sdot and
 /// rdot = B sdot. The three coordinates of O are chosen here.
 ///
-/// The surfaces det B = 0, det C = 0 and det M = 0 (the three kinds of singularity) divide space into chambers. A
+/// The surfaces det B = 0, det C = 0 and det N = 0 (the three kinds of singularity) divide space into chambers. A
 /// search stays in the chamber of its start: the three determinants keep their signs, and O moves along straight lines
 /// on which none of them vanishes. The robot can therefore reach the result without passing a singularity.
 
@@ -25,9 +25,7 @@ namespace ninedof {
 /// What is optimised over O.
 enum class Criterion {
   condition_number,  ///< least condition number of J', eq. (2)
-  /// Greatest of the least |det| of three matrices, made free of units: of e^_i, of e~_i, and of (r_i - s) x (p + Q u_i
-  /// - s).
-  singularity,
+  singularity,  ///< greatest smallest of |det B|, |det C|, |det N|, the determinants of singularity.hpp
   leg_centring,  ///< least sum of ((length - middle) / half range)^2 over the internal legs; needs finite limits
 };
 
@@ -64,7 +62,7 @@ class ActiveBounds {
   static constexpr int count = 21;
   static int low(int leg) { return leg; }
   static int high(int leg) { return 9 + leg; }
-  static int clearance(int determinant) { return 18 + determinant; }  ///< of B, C, M
+  static int clearance(int determinant) { return 18 + determinant; }  ///< of B, C, N
 
   void add(int bound) { bits_ |= std::uint32_t{1} << bound; }
   bool has(int bound) const { return ((bits_ >> bound) & 1U) != 0; }

@@ -159,7 +159,7 @@ struct WorkspaceMap {
   long evaluations = 0;
 };
 
-/// "l1 low", ..., "base_cone r2", "leg_clearance l1 q2", "condition_number", "det M", "region", "box",
+/// "l1 low", ..., "base_cone r2", "leg_clearance l1 q2", "condition_number", "det N", "region", "box",
 /// "internal_point".
 const std::vector<std::string>& limit_names();
 

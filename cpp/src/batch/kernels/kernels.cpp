@@ -145,7 +145,7 @@ void singularity_margins(const Block& b, double* out) {
     alignas(64) double margin[3][chunk];
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Margins<Lanes> m = margins(b.robot, c.poses<Lanes>(k));
-      store(select(m.sure, m.m, unsure), margin[0] + k);
+      store(select(m.sure, m.n, unsure), margin[0] + k);
       store(m.b, margin[1] + k);
       store(m.c, margin[2] + k);
     }

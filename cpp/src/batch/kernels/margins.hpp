@@ -1,5 +1,5 @@
 #pragma once
-/// The three determinants of singularity.hpp.
+/// The three determinants of singularity.hpp, with the rows of singularity/unit_rows.hpp.
 
 #include "batch/kernels/poses.hpp"
 #include "batch/kernels/table.hpp"
@@ -8,7 +8,7 @@ namespace ninedof::kernels::inline NINEDOF_LEVEL {
 
 template <class P>
 struct Margins {
-  P m, b, c;
+  P n, b, c;
   typename P::Mask sure;  ///< whether no two points nearly coincide
 };
 

@@ -29,7 +29,7 @@ struct Table {
   void (*condition_numbers)(const Block& block, double* out);              ///< 1 per row
   void (*frobenius_condition_numbers)(const Block& block, double* out);    ///< 1 per row
   void (*singular_values)(const Block& block, double* out);                ///< of J', descending, 6 per row
-  void (*singularity_margins)(const Block& block, double* out);            ///< m, b, c, 3 per row
+  void (*singularity_margins)(const Block& block, double* out);            ///< n, b, c, 3 per row
   /// Rows a1 a2 b1 b2 zp zs of hexagonal designs at theta_z = 0, in characteristic lengths: 1 per row.
   void (*hexagonal_condition_numbers)(const double* designs, long count, double* out);
 };

@@ -1,5 +1,5 @@
-/// O between the plates (eq. 9b) where the optimizer places it: above the base frame's plane and below the platform frame's, in
-/// every such pose, whatever the tilt. Beyond either lies another machine, on the far side of a singularity.
+/// O between the plates (eq. 9b) where the optimizer places it: above the plane of the base frame and below that of the
+/// platform frame in every such pose. Beyond either plane O would be on the far side of a singularity.
 /// Declared in design/constraints/constraint.hpp.
 
 #include <Eigen/Geometry>
@@ -40,7 +40,7 @@ class BetweenPlates : public Constraint {
     const double size = scale / v.blueprint.zp;
     v.add_zp(-size * value(v, side, item), out);
     if (item % 2 == 0) return v.add_point(k, point_s, Vec3(0.0, 0.0, size), out);
-    // The axis of the platform turns about z with theta_z, and stands still where it does not.
+    // The axis of the platform turns with theta_z.
     const Vec3 axis = at.rotation.col(2);
     v.add_point(k, point_p, size * axis, out);
     v.add_point(k, point_s, -size * axis, out);

@@ -1,5 +1,4 @@
-/// footprint: largest distance of a base joint from z.
-/// Declared in design/constraints/constraint.hpp.
+/// footprint: largest distance of a base joint from z. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

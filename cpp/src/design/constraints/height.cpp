@@ -1,5 +1,5 @@
 /// height: zp, the height of the platform frame over the base frame at the neutral configuration.
-/// Declared in design/constraints/constraint.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

@@ -1,11 +1,9 @@
-/// base_cone, platform_cone: angle between each leg at its joint of that body, pointing away from it, and an axis of that
-/// body: one that is given, or the direction of that leg at the neutral configuration.
-/// Declared in design/constraints/constraint.hpp.
-
-#include <Eigen/Geometry>
-#include <cmath>
+/// base_cone, platform_cone: angle between each leg at its joint of that body, pointing away from it, and an axis of
+/// that body: one that is given, or the direction of that leg at the neutral configuration. Declared in
+/// design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
+#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace {
@@ -17,16 +15,11 @@ class JointCone : public Constraint {
 
  private:
   Form form() const override { return Form::linear; }
-  int items(Side) const override { return 6 * poses_; }
+  int items(Side) const override { return legs_at_body * poses_; }
   bool axis_given() const { return !limit().axis.isZero(0.0); }
 
-  /// Leg of an item: external ones, then those of the body's own internal triple. Its sense away from the joint: against e
-  /// for an external leg seen from the platform.
-  int leg(int item) const {
-    const int k = item % 6;
-    return k < 3 ? k : platform_ ? k : k + 3;
-  }
-  double sense(int item) const { return platform_ && item % 6 < 3 ? -1.0 : 1.0; }
+  int leg(int item) const { return leg_at(platform_, item % legs_at_body); }
+  double sense(int item) const { return sense_at(platform_, item % legs_at_body); }
 
   Vec3 direction(const DesignState& v, int pose, int item) const {
     return sense(item) * v.pose(pose).legs.direction[static_cast<std::size_t>(leg(item))];
@@ -42,9 +35,8 @@ class JointCone : public Constraint {
   }
 
   double value(const DesignState& v, Side, int item) const override {
-    const int pose = v.first_pose + item / 6;
-    const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
-    return std::atan2(d.cross(a).norm(), d.dot(a));
+    const int pose = v.first_pose + item / legs_at_body;
+    return cone_angle(direction(v, pose, item), axis(v, pose, item));
   }
 
   /// Adds scale * d(direction . g) with g fixed in the base frame.
@@ -59,10 +51,10 @@ class JointCone : public Constraint {
   }
 
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
-    const int pose = v.first_pose + item / 6;
+    const int pose = v.first_pose + item / legs_at_body;
     const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
     const double sine = d.cross(a).norm();
-    if (!(sine > 1e-12)) return;  // the tip of the cone: no direction is uphill to first order
+    if (!(sine > 1e-12)) return;  // on the axis, where the angle has no gradient
     const double by_cosine = -scale / sine;
     add_direction(v, pose, item, a, by_cosine, out);
     if (platform_) v.add_turn(pose, by_cosine * a.cross(d), out);

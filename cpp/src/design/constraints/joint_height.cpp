@@ -1,5 +1,5 @@
-/// joint_height: distance of every joint from the plane z = 0 of its body's frame: how far from planar the plates are.
-/// Declared in design/constraints/constraint.hpp.
+/// joint_height: distance of every joint from the plane z = 0 of its body's frame. Declared in
+/// design/constraints/table.hpp.
 
 #include <cmath>
 

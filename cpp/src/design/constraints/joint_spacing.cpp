@@ -1,6 +1,5 @@
-/// joint_spacing: distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of that
-/// body from z.
-/// Declared in design/constraints/constraint.hpp.
+/// joint_spacing: distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of
+/// that body from z. Declared in design/constraints/table.hpp.
 
 #include <array>
 

@@ -1,5 +1,5 @@
 /// leg_length: every leg at every pose looked at. external_length, upper_length, lower_length: the legs of that kind.
-/// Declared in design/constraints/constraint.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

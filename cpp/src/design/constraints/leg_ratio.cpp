@@ -1,5 +1,4 @@
-/// leg_ratio: longest over shortest leg, of all legs at all poses looked at.
-/// Declared in design/constraints/constraint.hpp.
+/// leg_ratio: longest over shortest leg, of all legs at all poses looked at. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/spread.hpp"
 

@@ -1,5 +1,5 @@
 /// radius_ratio: largest distance of a base joint from z over the same of the platform, each in its own frame.
-/// Declared in design/constraints/constraint.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

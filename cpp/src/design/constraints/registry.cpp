@@ -1,81 +1,74 @@
-/// What constraints there are, and which limits and options each takes.
-/// Declared in design/constraints/constraint.hpp.
+/// Lookups in the table of constraints, and the checks of a limit against its row.
+/// Declared in ninedof/design/constraints.hpp.
 
 #include <cmath>
 
 #include "design/constraints/constraint.hpp"
+#include "design/constraints/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 
 namespace ninedof {
 namespace {
 
-struct Known {
-  const char* name;
-  LimitKind kind;
-  bool low, high;       // sides it has
-  bool of_zp, of_radius;  // units it takes besides lengths
-  std::unique_ptr<Constraint> (*make)(const Limit&, int, Purpose);
-};
-
-constexpr std::array known{
-    Known{"radius_ratio", LimitKind::ratio, true, true, false, false, make_radius_ratio},
-    Known{"leg_ratio", LimitKind::ratio, true, true, false, false, make_leg_ratio},
-    Known{"stroke_ratio", LimitKind::ratio, false, true, false, false, make_stroke},
-    Known{"zs_fraction", LimitKind::ratio, true, true, false, false, make_zs_fraction},
-    Known{"stroke", LimitKind::length, false, true, true, false, make_stroke},
-    Known{"leg_length", LimitKind::length, true, true, true, false, make_leg_length},
-    Known{"external_length", LimitKind::length, true, true, true, false, make_leg_length},
-    Known{"upper_length", LimitKind::length, true, true, true, false, make_leg_length},
-    Known{"lower_length", LimitKind::length, true, true, true, false, make_leg_length},
-    Known{"height", LimitKind::length, true, true, false, false, make_height},
-    Known{"footprint", LimitKind::length, true, true, false, false, make_footprint},
-    Known{"joint_height", LimitKind::length, false, true, false, true, make_joint_height},
-    Known{"joint_spacing", LimitKind::length, true, false, false, true, make_joint_spacing},
-    Known{"leg_clearance", LimitKind::length, true, false, true, false, make_leg_clearance},
-    Known{"base_cone", LimitKind::angle, false, true, false, false, make_joint_cone},
-    Known{"platform_cone", LimitKind::angle, false, true, false, false, make_joint_cone},
-    Known{"singularity_free", LimitKind::sign, true, false, false, false, make_singularity_free},
-};
-
-const Known& find(const std::string& name) {
+const ConstraintRow& find(const std::string& name) {
   std::string names;
-  for (const Known& k : known) {
-    if (name == k.name) return k;
-    names += (names.empty() ? "\"" : ", \"") + std::string(k.name) + "\"";
+  for (const ConstraintRow& row : constraint_rows) {
+    if (row.make == nullptr) continue;
+    if (name == row.info.name) return row;
+    names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
   }
   throw InvalidArgument("constraints", "\"" + name + "\"", "one of " + names);
+}
+
+/// The rows that `keep` accepts.
+template <class Keep>
+std::vector<ConstraintInfo> rows_where(const Keep& keep) {
+  std::vector<ConstraintInfo> out;
+  for (const ConstraintRow& row : constraint_rows)
+    if (keep(row)) out.push_back(row.info);
+  return out;
 }
 
 }  // namespace
 
 void Limit::validate() const {
-  const Known& k = find(name);
+  const ConstraintInfo& row = find(name).info;
   const std::string text = format_interval(low, high);
   if (std::isnan(low) || std::isnan(high) || low > high || low == infinity)
     throw InvalidArgument(name, text, "low <= high, low finite or open");
   if (high <= 0.0) throw InvalidArgument(name, text, "low <= high, low finite and high > 0");
-  const bool open_low = k.kind == LimitKind::sign ? std::isinf(low) : low <= 0.0;
-  if (!k.low && !open_low) throw InvalidArgument(name, text, "only a greatest value (max)");
-  if (!k.high && high < infinity) throw InvalidArgument(name, text, "only a least value (min)");
-  if ((of == Unit::zp && !k.of_zp) || (of == Unit::radius && !k.of_radius))
-    throw InvalidArgument(
-        name, of == Unit::zp ? "of = \"zp\"" : "of = \"radius\"",
-        std::string("of = \"length\"") + (k.of_zp ? " or \"zp\"" : "") + (k.of_radius ? " or \"radius\"" : ""));
-  if (!axis.allFinite() || (!axis.isZero(0.0) && k.kind != LimitKind::angle))
+  const bool open_low = row.kind == LimitKind::sign ? std::isinf(low) : low <= 0.0;
+  if (row.sides == LimitSides::only_high && !open_low) throw InvalidArgument(name, text, "only a greatest value (max)");
+  if (row.sides == LimitSides::only_low && high < infinity)
+    throw InvalidArgument(name, text, "only a least value (min)");
+  if (of != Unit::length && of != row.of)
+    throw InvalidArgument(name, std::string("of = \"") + to_string(of) + "\"",
+                          std::string("of = \"length\"") +
+                              (row.of == Unit::length ? "" : std::string(" or \"") + to_string(row.of) + "\""));
+  if (!axis.allFinite() || (!axis.isZero(0.0) && row.kind != LimitKind::angle))
     throw InvalidArgument(name, "an axis",
-                          k.kind == LimitKind::angle ? "three finite numbers" : "none: only cones have one");
-  if (steps < 1 || steps > 1000) throw InvalidArgument(name, std::to_string(steps) + " steps", "1 to 1000");
+                          row.kind == LimitKind::angle ? "three finite numbers" : "none: only cones have one");
+  if (steps < 1 || steps > most_steps)
+    throw InvalidArgument(name, std::to_string(steps) + " steps", "1 to " + std::to_string(most_steps));
+}
+
+std::vector<ConstraintInfo> constraint_table() {
+  return rows_where([](const ConstraintRow& row) { return row.make != nullptr; });
+}
+
+std::vector<ConstraintInfo> criterion_table() {
+  return rows_where([](const ConstraintRow& row) { return row.info.items != WorkspaceItems::none; });
 }
 
 std::vector<std::string> constraint_names() {
   std::vector<std::string> names;
-  for (const Known& k : known) names.emplace_back(k.name);
+  for (const ConstraintInfo& row : constraint_table()) names.emplace_back(row.name);
   return names;
 }
 
 LimitKind constraint_kind(const std::string& name) {
-  return find(name).kind;
+  return find(name).info.kind;
 }
 
 const char* to_string(LimitKind kind) {
@@ -88,10 +81,18 @@ const char* to_string(LimitKind kind) {
   return "";
 }
 
+const char* to_string(Unit unit) {
+  switch (unit) {
+    case Unit::length: return "length";
+    case Unit::zp: return "zp";
+    case Unit::radius: return "radius";
+  }
+  return "";
+}
+
 Unit unit_from(const std::string& word) {
-  if (word == "length") return Unit::length;
-  if (word == "zp") return Unit::zp;
-  if (word == "radius") return Unit::radius;
+  for (const Unit unit : {Unit::length, Unit::zp, Unit::radius})
+    if (word == to_string(unit)) return unit;
   throw InvalidArgument("of", "\"" + word + "\"", "\"length\", \"zp\" or \"radius\"");
 }
 

@@ -1,93 +1,82 @@
-/// singularity_free: the determinants of unit rows behind det B, det C and det M (theory of the direct kinematics: the three
-/// ways to lose the platform or O) keep their neutral sign, and at least a given size, at every pose looked at and at a few
-/// places on the way to it.
-/// Declared in design/constraints/constraint.hpp.
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+/// singularity_free: det B, det C and det N of singularity.hpp keep their sign of the neutral configuration and at
+/// least a given size. They are tested at every pose looked at and at a few places on the straight way from the neutral
+/// configuration to it. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
+#include "singularity/unit_rows.hpp"
 
 namespace ninedof {
 namespace {
 
-using Triplet = std::array<Vec3, 3>;
-
-double determinant(const Triplet& rows) {
-  return rows[0].dot(rows[1].cross(rows[2]));
-}
-
 class SingularityFree : public Constraint {
  public:
-  /// The neutral configuration, the poses and what lies between.
   SingularityFree(const Limit& limit, int poses) : Constraint(limit), places_(1 + poses * limit.steps) {}
 
  private:
   Form form() const override { return Form::plain; }
   int items(Side) const override { return 3 * places_; }
 
-  enum Which { det_b, det_c, det_m };
+  enum Which { det_b, det_c, det_n };
 
-  /// Unit rows, and for M their lengths before.
-  static Triplet rows(const PoseState& p, Which which, Vec3& length) {
-    Triplet out;
+  /// From O to joint `point`; zero without direction.
+  static Vec3 from_o(const PoseState& p, int point) { return p.at[static_cast<std::size_t>(point)] - p.at[point_s]; }
+  static Vec3 direction(const Vec3& v) {
+    const double length = v.norm();
+    return length > 0.0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+  }
+
+  static Triple rows(const PoseState& p, Which which) {
+    UnitVectors v;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (which != det_m) {
-        out[i] = p.legs.direction[i + (which == det_b ? 6 : 3)];
-        continue;
+      const int k = static_cast<int>(i);
+      if (which == det_n) {
+        v.d[i] = direction(from_o(p, point_r + k));
+        v.w[i] = direction(from_o(p, point_u + k));
       }
-      const Vec3 turning = (p.at[point_u + i] - p.at[point_s]).cross(p.legs.direction[i]);
-      length[static_cast<Eigen::Index>(i)] = turning.norm();
-      out[i] = length[static_cast<Eigen::Index>(i)] > 0.0 ? Vec3(turning / turning.norm()) : Vec3(Vec3::Zero());
+      v.e_tilde[i] = p.legs.direction[i + 3];
+      v.e_hat[i] = p.legs.direction[i + 6];
     }
-    return out;
+    const UnitRows all = unit_rows(v);
+    return which == det_n ? all.n : which == det_b ? all.b : all.c;
   }
 
   static double neutral_sign(const DesignState& v, Which which) {
-    Vec3 length;
-    return determinant(rows(v.pose(0), which, length)) < 0.0 ? -1.0 : 1.0;
+    return determinant(rows(v.pose(0), which)) < 0.0 ? -1.0 : 1.0;
   }
 
   double value(const DesignState& v, Side, int item) const override {
     const auto which = static_cast<Which>(item % 3);
-    Vec3 length;
-    return neutral_sign(v, which) * determinant(rows(v.pose(item / 3), which, length));
+    return neutral_sign(v, which) * determinant(rows(v.pose(item / 3), which));
   }
 
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const auto which = static_cast<Which>(item % 3);
     const int pose = item / 3;
-    const PoseState& p = v.pose(pose);
-    Vec3 length;
-    const Triplet r = rows(p, which, length);
+    const Triple r = rows(v.pose(pose), which);
     const double sign = scale * neutral_sign(v, which);
     for (std::size_t i = 0; i < 3; ++i) {
+      const int k = static_cast<int>(i);
       const Vec3 g = sign * r[(i + 1) % 3].cross(r[(i + 2) % 3]);
-      const Vec3 across = g - g.dot(r[i]) * r[i];  // a unit row only turns
-      if (which == det_m) {
-        add_turning_row(v, pose, static_cast<int>(i), across, length[static_cast<Eigen::Index>(i)], out);
-        continue;
+      if (which == det_n) {
+        const Vec3 d = from_o(v.pose(pose), point_r + k), w = from_o(v.pose(pose), point_u + k);
+        add_direction(v, pose, point_s, point_r + k, direction(w).cross(g), out);
+        add_direction(v, pose, point_s, point_u + k, g.cross(direction(d)), out);
+      } else {
+        const LegEnds ends = leg_ends(k + (which == det_b ? 6 : 3));
+        add_direction(v, pose, ends.from, ends.to, g, out);
       }
-      const int leg = static_cast<int>(i) + (which == det_b ? 6 : 3);
-      if (!(p.legs.length[leg] > 0.0)) continue;
-      v.add_point(pose, leg_ends(leg).to, across / p.legs.length[leg], out);
-      v.add_point(pose, leg_ends(leg).from, -across / p.legs.length[leg], out);
     }
   }
 
-  /// Row i of M before it is made a unit vector is w x e: w from O to the platform joint, e along the external leg.
-  static void add_turning_row(const DesignState& v, int pose, int i, const Vec3& across, double length, Row out) {
-    const PoseState& p = v.pose(pose);
-    const auto k = static_cast<std::size_t>(i);
-    if (!(length > 0.0) || !(p.legs.length[i] > 0.0)) return;
-    const Vec3 g = across / length;
-    const Vec3& e = p.legs.direction[k];
-    const Vec3 w = p.at[point_u + k] - p.at[point_s];
-    const Vec3 by_w = e.cross(g), by_e = g.cross(w);
-    const Vec3 turn = (by_e - by_e.dot(e) * e) / p.legs.length[i];
-    v.add_point(pose, point_u + i, by_w + turn, out);
-    v.add_point(pose, point_s, -by_w, out);
-    v.add_point(pose, point_r + i, -turn, out);
+  /// Adds the derivatives of g . direction(to - from).
+  static void add_direction(const DesignState& v, int pose, int from, int to, const Vec3& g, Row out) {
+    const Points& at = v.pose(pose).at;
+    const Vec3 along = at[static_cast<std::size_t>(to)] - at[static_cast<std::size_t>(from)];
+    const double length = along.norm();
+    if (!(length > 0.0)) return;
+    const Vec3 e = along / length, across = (g - g.dot(e) * e) / length;  // a unit vector can only turn
+    v.add_point(pose, to, across, out);
+    v.add_point(pose, from, -across, out);
   }
 
   int places_;

@@ -23,7 +23,7 @@ int Spread::each() const {
 }
 
 int Spread::items(Side side) const {
-  // A least spread holds as soon as the longest and the shortest keep it.
+  // At least: only the longest and the shortest leg count.
   return side == Side::high ? groups_ * each() : groups_;
 }
 
@@ -57,7 +57,7 @@ void Spread::add_phi(const DesignState& v, const LegExtreme& l, double scale, Ro
 }
 
 double Spread::auxiliary_value(const DesignState& v, int group) const {
-  // In the middle of the room there is, or of what is missing.
+  // In the middle between the bounds of h, whether they leave room or not.
   return 0.5 * (phi(v, shortest(v, group)) + phi(v, longest(v, group)) - room());
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-/// How far the lengths of a group of legs may lie apart: the longest at most so many times, or so much longer than, the
-/// shortest.
+/// Limits on the spread of the lengths of a group of legs: the quotient or the difference of the longest and the shortest.
 ///
-/// With phi the logarithm of a length, or its quotient by the limit, a limit says  phi(longest) - phi(shortest) <= room. Which
-/// legs those are changes from design to design. A few legs take every ordered pair as a margin; for many, one helping
-/// variable h for each group makes all margins smooth:  phi(b) - h >= 0  for every b,  room + h - phi(a) >= 0  for every a.
+/// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <= room.
+/// Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many legs, one
+/// auxiliary variable h for each group makes all margins smooth:
+///   phi(b) - h >= 0  for every b,    room + h - phi(a) >= 0  for every a.
 
 #include "design/constraints/constraint.hpp"
 
@@ -23,7 +23,7 @@ class Spread : public Constraint {
   double auxiliary_value(const DesignState& v, int group) const override;
 
  protected:
-  /// Leg `k` of a group, and which rule it now.
+  /// Leg `k` of a group, and its longest and shortest leg.
   virtual LegExtreme leg(const DesignState& v, int group, int k) const = 0;
   virtual LegExtreme longest(const DesignState& v, int group) const = 0;
   virtual LegExtreme shortest(const DesignState& v, int group) const = 0;

@@ -1,5 +1,5 @@
 /// stroke: longest less shortest length of each leg over the poses looked at. stroke_ratio: longest over shortest.
-/// Declared in design/constraints/constraint.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/spread.hpp"
 

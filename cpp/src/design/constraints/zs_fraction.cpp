@@ -1,5 +1,5 @@
 /// zs_fraction: height of the internal point at the neutral configuration, as a fraction of the platform's.
-/// Declared in design/constraints/constraint.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

@@ -83,6 +83,12 @@ bool lost(const ScaledPose& pose, Descent& d) {
       d.leg = k;
       return true;
     }
+  // det N has no limit there: its value depends on the direction in which O comes.
+  for (int k = 0; k < 6; ++k)
+    if ((d.x - pose.external_joint(k)).norm() < next_to_joint) {
+      d.ending = Ending::in_joint;
+      return true;
+    }
   return false;
 }
 

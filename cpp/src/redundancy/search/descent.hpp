@@ -20,7 +20,7 @@ enum class Ending {
   minimum,   ///< the last decrement is small in epsilons, and no direction curves down
   stuck,     ///< one of the two conditions fails
   away,      ///< O is farther than far_away
-  in_joint,  ///< an internal leg has length zero: its direction, and the function, are undefined
+  in_joint,  ///< O has reached a joint, where a direction and with it a determinant is undefined
 };
 
 struct Descent {
@@ -29,7 +29,7 @@ struct Descent {
   Jet at;                          ///< the function at x
   double decrement = 0.0;          ///< twice the decrease that a Newton step from x predicts
   Ending ending = Ending::stuck;
-  int leg = -1;                    ///< the internal leg of length zero
+  int leg = -1;                    ///< the internal leg of that joint; -1 for a joint of an external leg
 };
 
 /// The Newton step with the absolute values of the Hessian's eigenvalues: always a descent direction.

@@ -13,7 +13,7 @@ struct LocalMinimum {
   Vec3 x;
   double value;  ///< of the criterion without smoothing
   Ending ending;
-  int leg = -1;  ///< the internal leg of length zero, for Ending::in_joint
+  int leg = -1;  ///< as in Descent, for Ending::in_joint
 };
 
 /// The end of a descent, extrapolated to zero smoothing where that is better.

@@ -13,7 +13,7 @@ namespace {
 constexpr double on_singularity = 1e-12;  // |det| below which its sign is rounding
 constexpr double contact = 1e-7;  // distance from a limit that counts as touching
 constexpr double broken_alike = 1e-6;  // violations closer than this count as equal
-constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det M = 0
+constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det N = 0
 
 /// The criterion as reported to the caller.
 double criterion_value(const PoseObjective& objective, const Vec3& x) {
@@ -31,7 +31,8 @@ double criterion_value(const PoseObjective& objective, const Vec3& x) {
 InternalPoint unbounded(const LocalMinimum& local) {
   InternalPoint out;
   out.status = InternalPointStatus::unbounded;
-  if (local.ending == Ending::in_joint) out.active.add(ActiveBounds::low(3 + local.leg));
+  if (local.ending == Ending::in_joint)
+    out.active.add(local.leg >= 0 ? ActiveBounds::low(3 + local.leg) : ActiveBounds::clearance(2));
   for (int k = 3; k < 9 && local.ending == Ending::away; ++k) out.active.add(ActiveBounds::high(k));
   return out;
 }

@@ -17,7 +17,7 @@ ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, con
 /// Whether x is off every singularity, so that it lies in a chamber.
 bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x);
 
-/// One point in each chamber to search; none if the start is singular. The default start may happen to lie on det M =
+/// One point in each chamber to search; none if the start is singular. The default start may happen to lie on det N =
 /// 0, between two chambers: both are then searched.
 std::vector<Vec3> chamber_starts(const ScaledPose& pose, const InternalPointProblem& problem,
                                  const std::optional<Vec3>& start);

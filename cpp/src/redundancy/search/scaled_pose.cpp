@@ -26,22 +26,6 @@ void subtract_log_distance(const Vec3& x, const Vec3& a, Jet& out) {
   out.hessian -= (Mat3::Identity() - (2.0 / squared) * (v * v.transpose())) / squared;
 }
 
-/// Half the sum of the squared distances of x from the ends of external leg i. The area behind a row of M divided by it
-/// is at most 1, and 0 only where O is on the line of that leg: at its very ends too, unlike the sine of the angle
-/// under which O sees it.
-double leg_square(const Vec3& x, const Vec3& r, const Vec3& u) {
-  return 0.5 * ((r - x).squaredNorm() + (u - x).squaredNorm());
-}
-
-/// Subtracts its logarithm.
-void subtract_log_square(const Vec3& x, const Vec3& r, const Vec3& u, Jet& out) {
-  const Vec3 v = x - 0.5 * (r + u);
-  const double square = leg_square(x, r, u);
-  out.value -= std::log(square);
-  out.gradient -= (2.0 / square) * v;
-  out.hessian -= (2.0 / square) * (Mat3::Identity() - (2.0 / square) * (v * v.transpose()));
-}
-
 /// Logarithm of the size of a volume that is not zero.
 Jet log_volume(double volume, const Vec3& gradient, const Mat3& hessian) {
   Jet out;
@@ -92,7 +76,7 @@ Vec3 ScaledPose::determinants(const Vec3& x) const {
   for (int i = 0; i < 3; ++i) {
     rows[0] *= (x - at_[at_index(point_r_hat + i)]).norm();
     rows[1] *= (x - at_[at_index(point_u_tilde + i)]).norm();
-    rows[2] *= leg_square(x, at_[at_index(point_r + i)], at_[at_index(point_u + i)]);
+    rows[2] *= (x - at_[at_index(point_r + i)]).norm() * (x - at_[at_index(point_u + i)]).norm();
   }
   const Vec3 v = volumes(x);
   Vec3 out;
@@ -117,7 +101,8 @@ std::array<Jet, 3> ScaledPose::log_determinants(const Vec3& x) const {
   for (int i = 0; i < 3; ++i) {
     subtract_log_distance(x, at_[at_index(point_r_hat + i)], out[0]);
     subtract_log_distance(x, at_[at_index(point_u_tilde + i)], out[1]);
-    subtract_log_square(x, at_[at_index(point_r + i)], at_[at_index(point_u + i)], out[2]);
+    subtract_log_distance(x, at_[at_index(point_r + i)], out[2]);
+    subtract_log_distance(x, at_[at_index(point_u + i)], out[2]);
   }
   return out;
 }

@@ -37,13 +37,19 @@ class ScaledPose {
     return at_[static_cast<std::size_t>(k < 3 ? point_u_tilde + k : point_r_hat + k - 3)];
   }
 
+  /// Joint k of r1 r2 r3 u1 u2 u3.
+  const Vec3& external_joint(int k) const {
+    return at_[static_cast<std::size_t>(k < 3 ? point_r + k : point_u + k - 3)];
+  }
+
   /// All points with O at x.
   Points points(const Vec3& x) const;
 
-  /// The three determinants before normalization: polynomials in x of first, first and third degree.
+  /// det B, det C and det N of singularity.hpp times the lengths of the vectors that their rows are made of: of first,
+  /// first and third degree in x.
   Vec3 volumes(const Vec3& x) const;
 
-  /// The three determinants, normalized.
+  /// The three determinants, each in [-1, 1]; 0 where x is a joint.
   Vec3 determinants(const Vec3& x) const;
 
   /// Logarithms of the three |det|, with derivatives.
@@ -54,7 +60,7 @@ class ScaledPose {
   double step_to_singularity(const Vec3& x, const Vec3& d, double most) const;
 
  private:
-  /// Row i of the matrix behind det M: (r_i - x) x (u_i - x), of first degree in x.
+  /// Row i of the third volume: d_i x w_i = (r_i - x) x (u_i - x), of first degree in x.
   Vec3 turning_row(int i, const Vec3& x) const {
     return moment_[static_cast<std::size_t>(i)] + span_[static_cast<std::size_t>(i)].cross(x);
   }

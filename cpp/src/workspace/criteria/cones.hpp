@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "ninedof/robot/points.hpp"
 #include "ninedof/workspace/workspace.hpp"
 
 namespace ninedof {
@@ -10,15 +11,16 @@ namespace ninedof {
 /// The six legs at the base or at the platform and the axes of their joints.
 class Cones {
  public:
-  Cones(const Geometry& g, const ConeLimit& limit, bool platform, const Configuration& home);
+  /// `home` and `rotation` give the axes where the limit has none.
+  Cones(const ConeLimit& limit, bool platform, const Points& home, const Mat3& rotation);
 
   /// The limit less each angle, radians: l1 l2 l3 and the body's internal legs.
-  std::array<double, 6> margins(const Configuration& c) const;
+  std::array<double, 6> margins(const Points& at, const Mat3& rotation) const;
 
  private:
-  std::array<Vec3, 6> directions(const Configuration& c) const;  // away from the joint, in the body's frame
+  /// From the joint, in the body's frame.
+  std::array<Vec3, 6> directions(const Points& at, const Mat3& rotation) const;
 
-  const Geometry& g_;
   double angle_;
   bool platform_;
   std::array<Vec3, 6> axis_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where O is at a pose: the rule of a workspace.
+/// The rule of a workspace for the position of O.
 
 #include <span>
 #include <stop_token>
@@ -19,14 +19,14 @@ class Placement {
 
   /// The best point of the chamber between the plates, and its condition number. NaN where there is none.
   InternalPoint best(const PlatformPose& pose) const;
-  /// The same, by going on from what is known nearby; by a search where that comes to nothing.
+  /// The same, continued from known points nearby, or by a search where that fails.
   InternalPoint best(const PlatformPose& pose, std::span<const Guess> guesses) const;
   /// The same at all poses of a grid.
   InternalPointMap best(const PoseGrid& grid, int threads, const std::stop_token& stop) const;
-  /// What there is to say of a point that was found before; s may be NaN.
+  /// The result for a point that was found before; s may be NaN.
   InternalPoint found_before(const PlatformPose& pose, const Vec3& s) const;
 
-  /// How fast O, and O seen from the platform's point u~, move at most: by unit of translation, or by radian.
+  /// Bounds on the speed of O, and of O relative to the joint u~, per unit of translation or per radian.
   double speed_translating() const;
   double speed_turning() const;
   double relative_translating() const;

@@ -6,7 +6,6 @@
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/singularity/singularity.hpp"
-#include "workspace/limits.hpp"
 
 namespace ninedof {
 namespace {
@@ -31,7 +30,7 @@ void keep_least(double margin, int limit, double& least, std::uint8_t& which) {
 
 }  // namespace
 
-/// Poses of one block in the layout of batch.hpp, and what the kernels say about them.
+/// Poses of one block in the layout of batch.hpp, and the results of the kernels.
 struct Margins::Block {
   explicit Block(long count)
       : p(size(3 * count)),
@@ -43,7 +42,7 @@ struct Margins::Block {
         found(size(count), 1) {}
   static std::size_t size(long n) { return static_cast<std::size_t>(n); }
   std::vector<double> p, q, s, length, kappa, det;
-  std::vector<char> found;  // whether O has a place
+  std::vector<char> found;  // whether there is an admissible O
   bool one_rotation = true;
 
   Configuration at(long k) const {
@@ -74,10 +73,11 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
     }
   }
   home_at_ = chart_.positional() ? home_.position : chart_.coordinates(home_.rotation);
-  if (criteria.base_cone) base_.emplace(g_, *criteria.base_cone, false, home_);
-  if (criteria.platform_cone) platform_.emplace(g_, *criteria.platform_cone, true, home_);
+  const Points home_points = points(g_, home_);
+  if (criteria.base_cone) base_.emplace(*criteria.base_cone, false, home_points, home_.rotation);
+  if (criteria.platform_cone) platform_.emplace(*criteria.platform_cone, true, home_points, home_.rotation);
   const PerMechanism at_home = singularity_margins(g, home_);
-  signs_ = {at_home.m < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
+  signs_ = {at_home.n < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
 
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
   const auto groups = [&](int count, double scale) {
@@ -154,17 +154,19 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
     put(std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
     m.proof = std::min({m.proof, above, below});
   }
-  // O has a place or has none: no measure of how nearly. Where an external leg is out of its limits, none was sought.
+  // Only whether there is an admissible O is known. It was not searched for where an external leg breaks its limits.
   if (placement_.searched())
     put(b.found[Block::size(k)] || m.proof < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
   const Configuration c = b.at(k);
+  Points at;
+  if (base_ || platform_ || criteria_.leg_clearance) at = points(g_, c);
   const auto put_cones = [&](const Cones& cones, int first) {
-    for (const double margin : cones.margins(c)) put(margin, first++);
+    for (const double margin : cones.margins(at, c.rotation)) put(margin, first++);
   };
   if (base_) put_cones(*base_, limit::base_cone);
   if (platform_) put_cones(*platform_, limit::platform_cone);
   if (criteria_.leg_clearance) {
-    const Closest closest = closest_legs(g_, c, share_joint_);
+    const Closest closest = closest_legs(at, share_joint_);
     put(std::min(closest.distance, 10.0 * scale_[next]) - *criteria_.leg_clearance,
         limit::clearance + std::max(closest.pair, 0));
   }
@@ -172,14 +174,14 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
   if (criteria_.condition_number) {
     const double margin = *criteria_.condition_number / m.condition_number - 1.0;
-    // Without a place for O there is none; that is the limit then, and not this.
+    // Without an admissible O there is no condition number; that is the limit then, and not this.
     const double none = placement_.searched() ? 1.0 : -1.0;
     put(std::isnan(margin) ? none : margin, limit::condition_number);
   }
   if (criteria_.singularity_free)
     for (int d = 0; d < 3; ++d) {
       const double margin = signs_[static_cast<std::size_t>(d)] * b.det[Block::size(3 * k + d)];
-      put(margin == 0.0 ? barely_outside : margin, limit::det_m + d);
+      put(margin == 0.0 ? barely_outside : margin, limit::determinants + d);
     }
   return m;
 }
@@ -206,7 +208,8 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
     judge(b, count, out);
     return;
   }
-  // Of a set, the margins of one rotation stand for all: of the one with the greatest or the least of its own least margins.
+  // For a set of rotations, the margins of one rotation stand for all: the one whose least margin is greatest
+  // (reachable) or least (inclusive).
   const bool some = domain_.archetype == Archetype::reachable;
   std::vector<PointMargins> now(static_cast<std::size_t>(count));
   for (std::size_t r = 0; r < domain_.rotations.size(); ++r) {

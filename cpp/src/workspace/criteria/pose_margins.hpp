@@ -1,5 +1,5 @@
 #pragma once
-/// Margins of many points of a chart: what every method of a workspace asks for.
+/// Margins of many points of a chart, for every method of a workspace.
 
 #include <array>
 #include <functional>
@@ -8,18 +8,20 @@
 
 #include "workspace/chart.hpp"
 #include "workspace/criteria/cones.hpp"
+#include "workspace/criteria/limits.hpp"
 #include "workspace/criteria/pairs.hpp"
 #include "workspace/criteria/placement.hpp"
 
 namespace ninedof {
 
-constexpr int most_groups = 9 + 6 + 6 + 1 + 1 + 3 + 1;  // legs, cones, clearance, condition, singularities, region
+/// Those of all criteria and of the region. The search for O has one where six of the legs have none.
+constexpr int most_groups = limit::sum_before(limit::margins_of) + 1;
 
-/// What is known of one point. Allowed means that every margin is at least zero.
+/// The margins of one point. It is allowed if every margin is at least zero.
 struct PointMargins {
   std::array<double, most_groups> margin{};
-  std::array<std::uint8_t, most_groups> limit{};  ///< which of limit_names() each margin is that of
-  double proof = 0.0;            ///< least margin of the legs whose lengths cannot change faster than leg_speed()
+  std::array<std::uint8_t, most_groups> limit{};  ///< index of each margin in limit_names()
+  double proof = 0.0;            ///< least margin of the legs; it cannot change faster than leg_speed()
   double condition_number = 0.0;
 
   bool allowed(int groups) const {
@@ -29,7 +31,7 @@ struct PointMargins {
   }
 };
 
-/// The best O at the k-th of some points, with the r-th rotation of the domain.
+/// The best O at point k of a block with rotation r of the domain.
 using BestAt = std::function<InternalPoint(long k, std::size_t r, const PlatformPose& pose)>;
 
 class Margins {
@@ -44,12 +46,12 @@ class Margins {
   /// The poses of a point: one for each rotation of a set.
   std::size_t poses() const { return set_ ? domain_.rotations.size() : 1; }
   PlatformPose pose(const Vec3& x, std::size_t r) const;
-  /// The size of the robot: lengths are compared with it.
+  /// The size of the robot, the scale of margins of lengths.
   double size() const { return size_; }
   int groups() const { return groups_; }
-  /// Lengths per unit of the coordinates, at most.
+  /// Bound on the change of a leg length per unit of the coordinates.
   double leg_speed() const;
-  /// Whether `proof` says all there is to say.
+  /// Whether leg lengths are the only criterion, so that `proof` decides.
   bool legs_alone() const { return legs_alone_; }
   /// The home pose in the chart.
   const Vec3& home() const { return home_at_; }
@@ -57,17 +59,17 @@ class Margins {
     return (x.array() >= chart_.low().array()).all() && (x.array() <= chart_.high().array()).all();
   }
 
-  /// Points that are best evaluated together: enough for the batch kernels, few enough to stop between two.
+  /// Number of points to evaluate together: enough for the batch kernels, few enough to stop between two blocks.
   long block() const { return placement_.searched() ? 8 : set_ ? 32 : 512; }
 
-  /// Whether a few thousand poses more do not matter.
+  /// Whether a few thousand more poses cost little.
   bool cheap() const { return !placement_.searched(); }
 
-  /// Throws Stopped. `best` says where O is, if it is sought; without it each pose is searched.
+  /// Throws Stopped. `best` gives O where the rule searches for it; without it each pose is searched.
   void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
                 const BestAt& best = {}) const;
 
-  /// What forbids a point, by margins made comparable; -1 for nothing.
+  /// Index in limit_names() of the worst negative margin, relative to its scale; -1 for an allowed point.
   int violated(const PointMargins& m) const;
 
  private:

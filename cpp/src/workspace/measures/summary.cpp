@@ -6,7 +6,7 @@
 
 #include "math/numbers.hpp"
 #include "workspace/cells/tetrahedra.hpp"
-#include "workspace/limits.hpp"
+#include "workspace/criteria/limits.hpp"
 
 namespace ninedof {
 namespace {

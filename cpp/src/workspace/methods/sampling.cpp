@@ -8,7 +8,7 @@
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "workspace/cells/best_points.hpp"
-#include "workspace/limits.hpp"
+#include "workspace/criteria/limits.hpp"
 #include "workspace/measures/inscribed.hpp"
 #include "workspace/measures/pieces.hpp"
 #include "workspace/sequence.hpp"

@@ -1,0 +1,35 @@
+#pragma once
+/// The legs at the joints of a body, and the angle of each from the axis of its joint's cone.
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "ninedof/robot/points.hpp"
+
+namespace ninedof {
+
+/// Number of legs at each body: the external ones, then the internal ones that end on it.
+constexpr int legs_at_body = 6;
+
+/// Leg k of a body in the order of leg_ends.
+constexpr int leg_at(bool platform, int k) {
+  return k < 3 || platform ? k : k + 3;
+}
+
+/// 1 if the leg points away from its joint on the body, else -1: external legs point from the base to the platform.
+constexpr double sense_at(bool platform, int k) {
+  return platform && k < 3 ? -1.0 : 1.0;
+}
+
+/// Leg k of a body as a vector from its joint, base frame.
+inline Vec3 leg_from_joint(const Points& at, bool platform, int k) {
+  const LegEnds ends = leg_ends(leg_at(platform, k));
+  return sense_at(platform, k) * (at[static_cast<std::size_t>(ends.to)] - at[static_cast<std::size_t>(ends.from)]);
+}
+
+/// Angle between a leg and an axis, 0 to pi; both in one frame, of any length.
+inline double cone_angle(const Vec3& leg, const Vec3& axis) {
+  return std::atan2(leg.cross(axis).norm(), leg.dot(axis));
+}
+
+}  // namespace ninedof
