@@ -1,10 +1,10 @@
 /// Declared in optimize/polish/active_set.hpp.
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "math/linear/least_squares.hpp"
 #include "optimize/polish/active_set.hpp"
 
 namespace ninedof {
@@ -18,7 +18,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
   const auto unconstrained = [&] {
     Eigen::MatrixXd sub(a.rows(), static_cast<Eigen::Index>(passive.size()));
     for (std::size_t k = 0; k < passive.size(); ++k) sub.col(static_cast<Eigen::Index>(k)) = a.col(passive[k]);
-    return Eigen::VectorXd(sub.colPivHouseholderQr().solve(b));
+    return least_squares(sub, b);
   };
   for (Eigen::Index outer = 0; outer < 3 * n + 10; ++outer) {
     // Cosines between the residual and the columns: scale-free, so that the smallest residual is still worked on.

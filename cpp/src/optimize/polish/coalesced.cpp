@@ -1,6 +1,6 @@
 #include "optimize/polish/coalesced.hpp"
 
-#include <Eigen/SVD>
+#include "math/linear/decompositions.hpp"
 
 namespace ninedof {
 
@@ -19,9 +19,7 @@ Eigen::MatrixXd Coalesced::vectors(const Look& l) const {
 Coalesced::Entries Coalesced::at(const Look& l) const {
   const PoseSpectrum& s = l.spectra[static_cast<std::size_t>(pose_)];
   // The reference basis carried into the subspace of now: the orthogonal matrix nearest to the overlap.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> overlap(vectors(l).transpose() * basis_,
-                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::MatrixXd turn = overlap.matrixU() * overlap.matrixV().transpose();
+  const Eigen::MatrixXd turn = nearest_orthogonal(vectors(l).transpose() * basis_);
   const std::vector<Eigen::RowVectorXd> block = cluster_block(l, pose_, members_);
   const int n = size(), entries = n * (n + 1) / 2;
   Entries out{Eigen::VectorXd::Zero(entries), Rows::Zero(entries, l.view.columns())};
