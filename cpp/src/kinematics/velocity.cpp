@@ -2,13 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "kinematics/closure.hpp"
 #include "kinematics/jacobian_blocks.hpp"
+#include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
@@ -98,7 +98,7 @@ Vec3 internal_velocity(const Geometry& g, const Configuration& c, const Vec3& om
     wanted[row] = upper ? rows.row(row).dot(pdot + omega.cross(k.u_tilde[i])) : 0.0;
   }
   if (!rows.allFinite() || !wanted.allFinite()) return Vec3::Constant(not_a_number);
-  return rows.completeOrthogonalDecomposition().solve(wanted);
+  return least_norm(rows, wanted);
 }
 
 }  // namespace ninedof

@@ -1,11 +1,11 @@
 #include "position/null_space_rotations.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 #include <optional>
 
+#include "math/linear/decompositions.hpp"
 #include "math/linear/householder.hpp"
 #include "position/quaternion_monomials.hpp"
 
@@ -129,16 +129,16 @@ void add(const Vec4& z, RotationCandidates& out) {
 /// For each eigenvector x of the multiplication matrix, n x holds the values of all monomials at a solution, up to a
 /// factor. Returns false if the eigenvalues did not converge.
 bool add_real_solutions(const NullSpace& n, const Mat8& multiplied, RotationCandidates& out) {
-  const Eigen::EigenSolver<Mat8> eigen(multiplied);
-  if (eigen.info() != Eigen::Success) return false;
+  const RealEigen8 eigen = real_eigen(multiplied);
+  if (!eigen.converged) return false;
   Eigen::Matrix<double, 16, 8> rows;  // of z_k^3 z_j
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j)
       rows.row(4 * k + j) = n.row(quadratic_by_quadratic[linear_by_linear[k][k]][linear_by_linear[k][j]]);
   // A real eigenvalue has one column here. A conjugate pair has two, the real and the imaginary part of an eigenvector.
-  const Eigen::Matrix<double, 16, 8> values = rows * eigen.pseudoEigenvectors();
+  const Eigen::Matrix<double, 16, 8> values = rows * eigen.vectors;
   for (Eigen::Index j = 0; j < 8; ++j) {
-    const bool pair = eigen.eigenvalues()[j].imag() != 0.0;
+    const bool pair = eigen.values[j].imag() != 0.0;
     Eigen::Matrix<std::complex<double>, 16, 1> v = values.col(j).cast<std::complex<double>>();
     if (pair) v.imag() = values.col(++j);
     const Eigen::Vector4cd z = quaternion(v);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/linear/decompositions.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
@@ -132,13 +133,13 @@ std::vector<Vec9> uncontrolled_motions(const Geometry& g, const Configuration& c
     h.block<3, 3>(row + 3, 6) = upper;
     h.block<3, 3>(row + 6, 6) = lower;
   }
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 27, 9>> svd(h, Eigen::ComputeFullV);
+  const auto [sigma, v] = right_svd(h);
   std::vector<Vec9> out;
-  for (Eigen::Index n = 8; n >= 0 && svd.singularValues()[n] <= tolerance; --n) {
-    const Vec9 x = svd.matrixV().col(n);
-    const Velocity v = motion_from(x.head<3>() / reach, x.segment<3>(3), x.tail<3>(), reach, c);
+  for (Eigen::Index n = 8; n >= 0 && sigma[n] <= tolerance; --n) {
+    const Vec9 x = v.col(n);
+    const Velocity rates = motion_from(x.head<3>() / reach, x.segment<3>(3), x.tail<3>(), reach, c);
     Vec9 motion;
-    motion << v.omega, v.pdot, v.sdot;
+    motion << rates.omega, rates.pdot, rates.sdot;
     out.push_back(motion);
   }
   return out;

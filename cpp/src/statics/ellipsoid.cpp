@@ -1,13 +1,13 @@
 #include "ninedof/statics/ellipsoid.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "kinematics/rate_matrix.hpp"
-#include "math/linear/eliminate.hpp"
+#include "math/linear/decompositions.hpp"
+#include "math/linear/least_squares.hpp"
 #include "math/linear/negligible.hpp"
-#include "math/numbers.hpp"
 #include "math/linear/svd6.hpp"
+#include "math/numbers.hpp"
 
 namespace ninedof {
 namespace {
@@ -20,7 +20,7 @@ using Mat93 = Eigen::Matrix<double, 9, 3>;
 Mat96 least_rates(const Geometry& g, const Configuration& c, double characteristic_length) {
   const Mat9 h = rate_matrix(g, c, characteristic_length);
   if (!h.allFinite()) return Mat96::Constant(not_a_number);
-  return eliminate<9, 6>(h.rightCols<3>(), h.leftCols<6>());
+  return eliminate(h.rightCols<3>(), Mat96(h.leftCols<6>()));
 }
 
 /// {y : |X y| <= 1} from the singular values of X, descending, and its right singular vectors. Singular values below
@@ -55,8 +55,7 @@ Ellipsoid<N> polar(const Ellipsoid<N>& e) {
 Ellipsoid<6> velocity_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {
   const Mat96 x = least_rates(g, c, characteristic_length);
   if (x.hasNaN()) return no_ellipsoid<6>();
-  const Mat6 r = x.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>();
-  const RightSvd svd = right_svd_6x6(r);
+  const RightSvd svd = right_svd_6x6(triangular_factor(x));
   return unit_ball_of<6>(svd.sigma, svd.v, negligible * svd.sigma[0]);
 }
 
@@ -68,8 +67,8 @@ Ellipsoid<3> velocity_ellipsoid(const Geometry& g, const Configuration& c, Twist
   const Mat93 part_columns = rotation ? x.leftCols<3>() : x.rightCols<3>();
   const Mat93 other = rotation ? x.rightCols<3>() : x.leftCols<3>();
   // The other part takes the value that minimizes the leg rates.
-  const Eigen::JacobiSVD<Mat93> svd(eliminate<9, 3>(other, part_columns), Eigen::ComputeFullV);
-  return unit_ball_of<3>(svd.singularValues(), svd.matrixV(), negligible * part_columns.norm());
+  const TallSvd<3> svd = right_svd(eliminate(other, part_columns));
+  return unit_ball_of<3>(svd.sigma, svd.v, negligible * part_columns.norm());
 }
 
 Ellipsoid<6> force_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {

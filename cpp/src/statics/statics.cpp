@@ -1,11 +1,10 @@
 #include "ninedof/statics/statics.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 
 #include "kinematics/rate_matrix.hpp"
-#include "math/linear/eliminate.hpp"
+#include "math/linear/least_squares.hpp"
 #include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/characteristic_length.hpp"
@@ -63,8 +62,7 @@ LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load
     return {nothing, load_from(nothing, 1.0)};
   }
   const Mat9 transposed = h.transpose();
-  const Eigen::ColPivHouseholderQR<Mat9> qr(transposed);
-  if (std::abs(qr.matrixQR()(8, 8)) > surely_regular * qr.maxPivot()) return {qr.solve(wanted), {}};
+  if (const auto forces = solve_regular(transposed, wanted, surely_regular)) return {*forces, {}};
 
   const auto [svd, rank] = RankedSvd(transposed);
   Vec9 along = svd.matrixU().transpose() * wanted;  // components of the load along the motions
@@ -103,7 +101,8 @@ Mat6 stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffn
   require_stiffness(leg_stiffness);
   const Mat9 x = leg_stiffness.cwiseSqrt().asDiagonal() * rate_matrix(g, c);
   if (!x.allFinite()) return Mat6::Constant(not_a_number);
-  const Eigen::Matrix<double, 9, 6> platform = eliminate<9, 6>(x.rightCols<3>(), x.leftCols<6>());
+  const Eigen::Matrix<double, 9, 6> platform =
+      eliminate(x.rightCols<3>(), Eigen::Matrix<double, 9, 6>(x.leftCols<6>()));
   return platform.transpose().lazyProduct(platform);
 }
 

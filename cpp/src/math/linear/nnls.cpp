@@ -1,9 +1,10 @@
 #include "math/linear/nnls.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include "math/linear/least_squares.hpp"
 
 namespace ninedof {
 
@@ -16,7 +17,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
   const auto unconstrained = [&] {
     Eigen::MatrixXd sub(a.rows(), static_cast<Eigen::Index>(passive.size()));
     for (std::size_t k = 0; k < passive.size(); ++k) sub.col(static_cast<Eigen::Index>(k)) = a.col(passive[k]);
-    return Eigen::VectorXd(sub.colPivHouseholderQr().solve(b));
+    return least_squares(sub, b);
   };
   for (Eigen::Index outer = 0; outer < 3 * n + 10; ++outer) {
     // Cosines between the residual and the columns: scale-free, so that the smallest residual is still worked on.

@@ -1,6 +1,6 @@
 #include "optimize/polish/cluster.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "math/linear/decompositions.hpp"
 
 namespace ninedof {
 
@@ -42,7 +42,7 @@ Eigen::VectorXd Cluster::extreme(const Block& b, const Eigen::VectorXd& along, d
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = i; j < n; ++j) slope(i, j) = slope(j, i) = sign * b.entries[k++].dot(along);
-  const Eigen::VectorXd w = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(slope).eigenvectors().col(0);
+  const Eigen::VectorXd w = least_eigenvector(slope);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(along.size());
   k = 0;
   for (Eigen::Index i = 0; i < n; ++i)

@@ -1,6 +1,6 @@
 #include "optimize/polish/coalesced.hpp"
 
-#include <Eigen/SVD>
+#include "math/linear/decompositions.hpp"
 
 namespace ninedof {
 
@@ -19,9 +19,7 @@ Eigen::MatrixXd Coalesced::vectors(const DesignEvaluation& design) const {
 Coalesced::Entries Coalesced::at(const DesignEvaluation& design) const {
   const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose_)];
   // Transport of the reference basis into the present subspace: the orthogonal matrix nearest to the overlap.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> overlap(vectors(design).transpose() * basis_,
-                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::MatrixXd turn = overlap.matrixU() * overlap.matrixV().transpose();
+  const Eigen::MatrixXd turn = nearest_orthogonal(vectors(design).transpose() * basis_);
   const std::vector<Eigen::RowVectorXd> block = cluster_block(design, pose_, members_);
   const int n = size(), entries = n * (n + 1) / 2;
   Entries out{Eigen::VectorXd::Zero(entries), Rows::Zero(entries, design.state.columns())};

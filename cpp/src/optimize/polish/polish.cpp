@@ -1,7 +1,6 @@
 #include "optimize/polish/polish.hpp"
 
-#include <Eigen/QR>
-
+#include "math/linear/least_squares.hpp"
 #include "optimize/polish/equations.hpp"
 
 namespace ninedof {
@@ -71,7 +70,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(unknowns), slopes;
     p.objective(t, &slopes);
     slope.tail(levels) = slopes;
-    const Eigen::VectorXd multipliers = jacobian.transpose().completeOrthogonalDecomposition().solve(-slope);
+    const Eigen::VectorXd multipliers = least_norm_transposed(jacobian, -slope);
 
     Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(unknowns + rows, unknowns + rows);
     for (Eigen::Index k = 0; k < m; ++k) {
@@ -88,7 +87,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
     Eigen::VectorXd right(unknowns + rows);
     right << -(slope + jacobian.transpose() * multipliers), -miss;
     if (!kkt.allFinite() || !right.allFinite()) break;
-    const Eigen::VectorXd move = kkt.completeOrthogonalDecomposition().solve(right).head(unknowns);
+    const Eigen::VectorXd move = least_norm(kkt, right).head(unknowns);
     if (!move.allFinite() || move.head(m).norm() > 0.1) break;  // not near an optimum after all
     for (Eigen::Index k = 0; k < m; ++k) y[moving[static_cast<std::size_t>(k)]] += move[k];
     y = y.cwiseMax(p.coordinates.low()).cwiseMin(p.coordinates.high());

@@ -1,0 +1,32 @@
+#pragma once
+/// Least-squares problems of the sizes used here. Eigen's QR is compiled once, in least_squares.cpp.
+
+#include <optional>
+
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+/// X with |X y| = min over z of |kept y + free z| for every y: the part of `kept` that the columns of `free` cannot
+/// reach, in an orthonormal basis. X^T X is the Schur complement of the normal equations, and stays right where `free`
+/// has lost rank.
+Eigen::Matrix<double, 9, 6> eliminate(const Mat93& free, const Eigen::Matrix<double, 9, 6>& kept);
+Mat93 eliminate(const Mat93& free, const Mat93& kept);
+
+/// The triangular factor R of X = Q R.
+Mat6 triangular_factor(const Eigen::Matrix<double, 9, 6>& x);
+
+/// The solution of a x = b; nothing if a pivot is at most `least_pivot` times the largest.
+std::optional<Vec9> solve_regular(const Mat9& a, const Vec9& b, double least_pivot);
+
+/// A least-squares solution of a x = b; entries that the rank leaves open are zero.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+/// The least-squares solution of a x = b of least norm.
+Eigen::VectorXd least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+Vec3 least_norm(const Eigen::Matrix<double, 6, 3>& a, const Vec6& b);
+
+/// The least-squares solution of a^T x = b of least norm.
+Eigen::VectorXd least_norm_transposed(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+}  // namespace ninedof
