@@ -76,7 +76,8 @@ class Constraint {
   int auxiliary_variable_ = -1, auxiliary_coordinate_ = -1;
 };
 
-/// Use of the rows: `solve` needs smooth rows; `evaluate`, the evaluation of one design, needs the smallest margin only.
+/// Use of the rows: `solve` needs smooth rows; `evaluate`, the evaluation of one design, needs the smallest margin
+/// only.
 enum class Purpose { solve, evaluate };
 
 /// The constraint of a limit, for `poses` displaced poses (0: the neutral one alone). Valid limits only.

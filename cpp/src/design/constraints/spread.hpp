@@ -1,9 +1,10 @@
 #pragma once
-/// Limits on the spread of the lengths of a group of legs: the quotient or the difference of the longest and the shortest.
+/// Limits on the spread of the lengths of a group of legs: the quotient or the difference of the longest and the
+/// shortest.
 ///
-/// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <= room.
-/// Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many legs, one
-/// auxiliary variable h for each group makes all margins smooth:
+/// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
+/// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many
+/// legs, one auxiliary variable h for each group makes all margins smooth:
 ///   phi(b) - h >= 0  for every b,    room + h - phi(a) >= 0  for every a.
 
 #include "design/constraints/constraint.hpp"
