@@ -1,5 +1,4 @@
 #include "ninedof/optimize/trace.hpp"
-
 #include "support/baseline.hpp"
 #include "support/data.hpp"
 #include "support/figure.hpp"

@@ -5,10 +5,10 @@
 
 #include "conditioning/null_space.hpp"
 #include "math/linear/negligible.hpp"
+#include "math/linear/svd6.hpp"
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
-#include "math/linear/svd6.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 
 #include "conditioning/null_space.hpp"
-#include "ninedof/math/error.hpp"
 #include "math/linear/svd6.hpp"
+#include "ninedof/math/error.hpp"
 
 namespace ninedof {
 namespace {

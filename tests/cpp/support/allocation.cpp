@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "math/linear/svd6.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/conditioning/hexapod.hpp"
 #include "ninedof/conditioning/sensitivity.hpp"
@@ -15,7 +16,6 @@
 #include "ninedof/design/design.hpp"
 #include "ninedof/kinematics/acceleration.hpp"
 #include "ninedof/kinematics/velocity.hpp"
-#include "math/linear/svd6.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
