@@ -1,3 +1,5 @@
+/// Symmetry checks. The closed form itself is a template in ninedof/conditioning/symmetric.hpp.
+
 #include "ninedof/conditioning/symmetric.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Declared in ninedof/singularity/singularity.hpp.
+///
 /// distance_to_singularity: the first zero of each determinant along p + t pdot, exp(t omega) Q, s + t sdot. Only the
 /// numerators are used, which stay smooth where a leg or a direction vanishes:
 ///   B  height of O over the plane of the lower joints, linear in t;

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,8 +32,8 @@ def pose_bar(screen: Screen, title: str) -> Iterator[Any]:
     with started_by_first_report(Progress(*columns, console=screen.progress_console)) as shown:
         task = shown.add_task(title, total=None, volume="")
 
-        def progress(done: int, expected: int, volume: float) -> None:
-            words = "" if math.isnan(volume) else f", volume {volume:.4g}"
+        def progress(done: int, expected: int, volume: float | None) -> None:
+            words = "" if volume is None else f", volume {volume:.4g}"
             shown.start()
             shown.update(task, completed=done, total=expected, volume=words)
 

@@ -2,19 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <cstdlib>
-
-namespace Eigen {
-
-/// Found by Eigen in place of its own function, which applies reflections in blocks where there are 48 or more. Matrices
-/// of the sizes below have at most 9: never called, and not worth the seconds that Eigen's own takes to compile.
-template <class Dense, class Vectors, class Coefficients>
-  requires(Dense::ColsAtCompileTime != Dynamic && Dense::ColsAtCompileTime < 48)
-void apply_block_householder_on_the_left(Block<Dense, Dynamic, Dynamic>&, const Vectors&, const Coefficients&, bool) {
-  std::abort();
-}
-
-}  // namespace Eigen
 
 namespace ninedof {
 
