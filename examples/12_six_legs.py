@@ -1,4 +1,4 @@
-"""Six legs or nine on the same plates: the yardstick of the paper's closing remark.
+"""Six legs or nine on the same plates: the reference of the paper's closing remark.
 
 The six-legged platform has legs r_i-u_i and r^_i-u~_i and no point O; its 6 x 6 matrix is made of the same leg rows.
 """

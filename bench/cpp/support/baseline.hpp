@@ -1,7 +1,7 @@
 #pragma once
-/// What a careful person would write with plain Eigen, straight from the paper: assemble eqs. (30)-(35), invert F, take the
-/// singular values of the 6x9 matrix J'. Fixed sizes, no allocation. Shares nothing with the library but its input structs.
-/// Velocities and accelerations are in baseline_motion.hpp.
+/// What a careful person would write with plain Eigen, straight from the paper: assemble eqs. (30)-(35), invert F, take
+/// the singular values of the 6x9 matrix J'. Fixed sizes, no allocation. Shares nothing with the library but its input
+/// structs. Velocities and accelerations are in baseline_motion.hpp.
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// Velocities and accelerations as a careful person would write them with plain Eigen, straight from the paper: F and B
-/// assembled and solved with partial pivoting, or all nine equations as one system. Fixed sizes, no allocation; nothing shared
-/// with the library but its structs.
+/// assembled and solved with partial pivoting, or all nine equations as one system. Fixed sizes, no allocation; nothing
+/// shared with the library but its structs.
 
 #include <Eigen/Dense>
 

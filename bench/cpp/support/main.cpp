@@ -1,7 +1,7 @@
 /// Every figure beside its baseline: first the checks, then Google Benchmark's table, then the table of ratios.
 ///
-/// --rounds=N sets how often the summary repeats each pair (0: no summary); the other options are Google Benchmark's own.
-/// A wrong result aborts with status 1. A missed target does not: it may be the machine.
+/// --rounds=N sets how often the summary repeats each pair (0: no summary); the other options are Google Benchmark's
+/// own. A wrong result aborts with status 1. A missed target does not: it may be the machine.
 
 #include <benchmark/benchmark.h>
 

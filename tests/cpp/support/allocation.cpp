@@ -1,6 +1,7 @@
-/// Hot calls do not allocate. Counted where all of it passes: in malloc, which this file replaces in the test executable
-/// (operator new and Eigen's aligned arrays end there). Under a sanitizer malloc is the sanitizer's own, to be replaced by
-/// nobody, and off glibc there is no other allocator to hand on to: there these tests are skipped and say so.
+/// Hot calls do not allocate. Counted where all of it passes: in malloc, which this file replaces in the test
+/// executable (operator new and Eigen's aligned arrays end there). Under a sanitizer malloc is the sanitizer's own, to
+/// be replaced by nobody, and off glibc there is no other allocator to hand on to: there these tests are skipped and
+/// say so.
 
 #include <doctest/doctest.h>
 

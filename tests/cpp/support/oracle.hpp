@@ -1,10 +1,10 @@
 #pragma once
-/// A second way from a robot to its Jacobian, sharing nothing with src/legs.cpp, velocity.cpp, conditioning.cpp and svd6.cpp
-/// but the stored joints: leg lengths as distances, differentiated by a complex step in extended precision, the 9x9 matrix
-/// of rates inverted by pivoted elimination, singular values by Eigen's two-sided Jacobi method.
+/// A second way from a robot to its Jacobian, sharing nothing with src/legs.cpp, velocity.cpp, conditioning.cpp and
+/// svd6.cpp but the stored joints: leg lengths as distances, differentiated by a complex step in extended precision,
+/// the 9x9 matrix of rates inverted by pivoted elimination, singular values by Eigen's two-sided Jacobi method.
 ///
-/// With 64 bits of mantissa it has about 1e-19 times the conditioning of error. Where long double is double it is as good
-/// as the code under test and no better, and tests built on it ask too much.
+/// With 64 bits of mantissa it has about 1e-19 times the conditioning of error. Where long double is double it is as
+/// good as the code under test and no better, and tests built on it ask too much.
 
 #include <Eigen/Core>
 

@@ -34,8 +34,8 @@ inline double apart(const Mat3& a, const Mat3& b) {
   return (a - b).norm() / std::sqrt(2.0);
 }
 
-/// A third platform direction with which the problem of Q has det J = 0: w_3 in the plane of d_3 and the normal of the other
-/// two rows of J. `axis` is what J maps to zero.
+/// A third platform direction with which the problem of Q has det J = 0: w_3 in the plane of d_3 and the normal of the
+/// other two rows of J. `axis` is what J maps to zero.
 inline Triple with_double_root(Random& random, const Mat3& q, const Triple& d, Triple w, Vec3& axis) {
   axis = (q * w[0]).cross(d[0]).cross((q * w[1]).cross(d[1])).normalized();
   w[2] = q.transpose() * (random.normal() * d[2] + random.normal() * axis).normalized();

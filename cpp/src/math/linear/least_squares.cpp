@@ -9,8 +9,8 @@
 namespace ninedof {
 namespace {
 
-/// b := Q^T b with the first `count` reflections of a QR factorization. The same steps as householderQ() of Eigen, which
-/// also instantiates a blocked form for 48 columns or more, at seconds of compile time each.
+/// b := Q^T b with the first `count` reflections of a QR factorization. The same steps as householderQ() of Eigen,
+/// which also instantiates a blocked form for 48 columns or more, at seconds of compile time each.
 template <class Factors, class Coefficients, class B>
 void apply_transposed_q(const Factors& qr, const Coefficients& h, Eigen::Index count, B& b) {
   Eigen::Matrix<double, 1, B::ColsAtCompileTime> workspace(b.cols());
