@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats, as_number
@@ -19,8 +19,7 @@ CRITERIA = ("condition_number", "singularity", "leg_centring")
 
 def poses_of(geometry: Geometry, position: ArrayLike, rotation: Any) -> tuple[tuple[int, ...], Floats, Floats]:
     """Check a stack of poses as a configuration would; return its shape and flat arrays."""
-    if not isinstance(geometry, Geometry):
-        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    require_geometry(geometry)
     c = Configuration(position, rotation, np.zeros(3))
     return c.shape, c.position.reshape(-1, 3), c.rotation.reshape(-1, 3, 3)
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import as_number, thread_argument
@@ -152,8 +152,7 @@ def workspace(
     (<WorkspaceStatus.CONVERGED: 'converged'>, 8.7, True)
 
     """
-    if not isinstance(geometry, Geometry):
-        raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
+    require_geometry(geometry)
     progress_argument(progress)
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
