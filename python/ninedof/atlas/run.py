@@ -19,8 +19,6 @@ from ninedof.support.progress import Progress
 from ninedof.support.versions import versions
 from ninedof.sweep.result import SweepResult
 
-__all__ = ["atlas"]
-
 CHUNK = 2**19  # designs: some 30 ms of work; signals are checked between chunks
 BLOCK = 2**14  # designs evaluated together: they fit into the caches
 MOST = 2**48

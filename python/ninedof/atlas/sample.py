@@ -13,8 +13,6 @@ from ninedof import _core
 from ninedof.support.arguments import finite, known_keys, pair
 from ninedof.support.arrays import Floats
 
-__all__ = ["BOUNDS", "VARIABLES", "Sample", "bounds_of", "closed_form", "squared_radius_ratio"]
-
 VARIABLES = ("a1", "a2", "b1", "b2", "zp", "zs")
 BOUNDS: dict[str, tuple[float, float]] = {
     **dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 10.0)),

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from ninedof.chunks import Arrays
 from ninedof.support.arrays import Floats
 
-__all__ = ["Tally", "condition_edges", "ratio_edges"]
-
 OCTAVES, PER_OCTAVE = 4, 16  # base / platform from 1/16 to 16; 2, the paper's limit, is an edge
 DECADES, PER_DECADE = 4, 40  # condition numbers from 1 to 10^4
 ROWS = 2 * OCTAVES * PER_OCTAVE + 2

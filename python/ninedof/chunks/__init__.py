@@ -5,6 +5,7 @@
 
 from ninedof.chunks.run import run
 from ninedof.chunks.store import Store
-from ninedof.chunks.work import Arrays, Work, chunk_argument
+from ninedof.chunks.work import Work, chunk_argument
+from ninedof.support.files import Arrays
 
 __all__ = ["Arrays", "Store", "Work", "chunk_argument", "run"]

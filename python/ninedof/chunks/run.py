@@ -13,11 +13,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ninedof.chunks.store import Store
-from ninedof.chunks.work import Arrays, Task, Work, as_arrays, bounds, chunks_of
+from ninedof.chunks.work import Task, Work, as_arrays, bounds, chunks_of
 from ninedof.support.arguments import executor_argument, shown
+from ninedof.support.files import Arrays
 from ninedof.support.progress import Progress, progress_argument
-
-__all__ = ["run"]
 
 IN_FLIGHT = 4  # chunks per worker that wait at the executor: enough to keep it busy, few to be lost or pickled early
 FEWEST, UNKNOWN = 8, 128

@@ -14,13 +14,10 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from ninedof.chunks.work import Arrays
 from ninedof.support.arguments import shown
-from ninedof.support.files import PART, npz_bytes, write_whole
+from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
 from ninedof.support.json import decode, encode, plain
 from ninedof.support.versions import versions
-
-__all__ = ["Store"]
 
 FORMAT = "ninedof-chunks-1"
 MANIFEST = "manifest.json"

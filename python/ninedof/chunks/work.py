@@ -9,8 +9,6 @@ import numpy as np
 from ninedof.support.arguments import whole
 from ninedof.support.files import Arrays
 
-__all__ = ["Arrays", "Task", "Work", "chunk_argument"]
-
 MOST_CHUNK = 2**24  # points
 
 

@@ -18,8 +18,6 @@ from ninedof.sweep.cluster import dask_executor
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["compute", "run_folder", "write"]
-
 CHUNKS = "chunks"
 
 

@@ -10,8 +10,6 @@ from rich.table import Table
 
 from ninedof.sweep import SweepResult
 
-__all__ = ["describe", "json_data", "summary_table"]
-
 MOST_PRINTED = 10_000  # numbers that JSON repeats; the file has them all
 
 

@@ -14,8 +14,6 @@ from rich.table import Table
 from ninedof.cli.screen import Screen, started_by_first_report
 from ninedof.workspace import WorkspaceMap
 
-__all__ = ["draw", "pose_bar", "sentences", "workspace_table"]
-
 SHOWN = 8  # limits in the table
 
 

@@ -13,8 +13,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats
 
-__all__ = ["characteristic_length"]
-
 KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
 
 

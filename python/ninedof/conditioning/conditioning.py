@@ -15,16 +15,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument, without_infinity
 
-__all__ = [
-    "axis_singular_values",
-    "condition_number",
-    "hexagonal_condition_number",
-    "isotropy_residual",
-    "manipulability",
-    "reciprocal_condition_number",
-    "singular_values",
-]
-
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
 
 

@@ -15,8 +15,6 @@ from ninedof.robot.geometry import Geometry
 if TYPE_CHECKING:
     from ninedof import _core
 
-__all__ = ["DesignPoint", "design_point"]
-
 LARGEST = 1e200  # of an objective; beyond, the core has replaced a vanishing singular value by 1e-300
 
 

@@ -25,8 +25,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import singularity_margins
 
-__all__ = ["INDICES", "Index", "computed", "objectives"]
-
 LEGS = tuple(f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3))
 MECHANISMS = ("det_n", "det_b", "det_c")
 

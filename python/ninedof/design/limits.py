@@ -13,8 +13,6 @@ from ninedof import _core
 from ninedof.support.angles import exact_degrees
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 
-__all__ = ["CONSTRAINTS", "Limit", "Row", "for_core", "names_with_max", "parse", "to_table"]
-
 Limit = tuple[float | None, float | None] | Mapping[str, Any]
 """(low, high), None for an open side; with options a mapping of min, max and the options."""
 

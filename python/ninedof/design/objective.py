@@ -12,8 +12,6 @@ from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
 from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
 
-__all__ = ["Objective", "Pose"]
-
 Made = TypeVar("Made")
 
 AGGREGATES = {

@@ -9,8 +9,6 @@ from typing import Any
 from ninedof.support.angles import rotation_entry, vector_argument
 from ninedof.support.arguments import Vector, choice, known_keys, shown, vector
 
-__all__ = ["Pose"]
-
 ZERO: Vector = (0.0, 0.0, 0.0)
 UNITS = ("length", "zp")
 INTERNAL_POINTS = ("stay", "best")

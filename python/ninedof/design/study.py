@@ -19,8 +19,6 @@ from ninedof.design.study_file import read_toml, study_arguments, study_tables, 
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
 
-__all__ = ["Study"]
-
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 

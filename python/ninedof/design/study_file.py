@@ -13,8 +13,6 @@ from ninedof.design.objective import Objective
 from ninedof.support.arguments import known_keys, table
 from ninedof.support.files import write_whole
 
-__all__ = ["read_toml", "study_arguments", "study_tables", "write_toml"]
-
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Read a TOML file, with or without a byte order mark.

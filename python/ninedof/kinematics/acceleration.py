@@ -11,8 +11,6 @@ from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats
 
-__all__ = ["forward_acceleration", "inverse_acceleration", "jacobian_rate"]
-
 
 def forward_acceleration(
     geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike, leg_accelerations: ArrayLike

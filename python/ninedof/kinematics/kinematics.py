@@ -13,13 +13,6 @@ from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, checked_out, thread_argument
 
-__all__ = [
-    "VelocityMatrices",
-    "jacobian",
-    "leg_lengths",
-    "velocity_matrices",
-]
-
 
 class VelocityMatrices(NamedTuple):
     """The matrices of eqs. (30)-(35); leading dimensions are those of the configuration."""

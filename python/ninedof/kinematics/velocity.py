@@ -10,8 +10,6 @@ from ninedof.robot.configuration import Configuration, operands, operands_with
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats
 
-__all__ = ["forward_velocity", "internal_velocity", "inverse_velocity", "null_motion"]
-
 
 def forward_velocity(
     geometry: Geometry, configuration: Configuration, leg_rates: ArrayLike

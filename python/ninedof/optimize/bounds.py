@@ -17,15 +17,6 @@ from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 
-__all__ = [
-    "HEXAGONAL_LIMIT",
-    "HEXAGONAL_TWIST_LIMIT",
-    "LowerBound",
-    "applicable_bounds",
-    "kappa_star",
-    "planar_leg_ratio_bound",
-]
-
 HEXAGONAL_LIMIT = 2.5358420229115416
 """Infimum over the plates of eqs. (37)-(38) with 0 < zs < zp and no twist: the base grows without end."""
 

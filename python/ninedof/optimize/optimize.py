@@ -13,8 +13,6 @@ from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
-__all__ = ["Trace", "optimize", "trace"]
-
 
 def optimize(
     study: Study,

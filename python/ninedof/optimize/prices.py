@@ -6,8 +6,6 @@ from collections.abc import Mapping
 
 from ninedof.design.study import LENGTH, Study
 
-__all__ = ["price_words"]
-
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices are left out
 
 

@@ -15,8 +15,6 @@ from ninedof.robot.geometry import Geometry
 if TYPE_CHECKING:
     from ninedof import _core
 
-__all__ = ["Candidate", "Result", "Status", "candidate_from", "result_from"]
-
 
 class Status(StrEnum):
     """How an optimization ended."""

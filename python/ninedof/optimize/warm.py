@@ -12,8 +12,6 @@ from ninedof.optimize.result import Candidate, Result
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 
-__all__ = ["Warm", "warm_starts"]
-
 Warm = Result | Candidate | Mapping[str, float]
 """A start: a result stands for its best candidates."""
 

@@ -25,8 +25,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.progress import Progress
 
-__all__ = ["Comparison", "Row", "compare"]
-
 
 @dataclass(frozen=True)
 class Row:

@@ -20,8 +20,6 @@ from ninedof.paper.published import (
 )
 from ninedof.robot.configuration import Configuration
 
-__all__ = ["Verdict", "verdicts"]
-
 
 @dataclass(frozen=True)
 class Verdict:

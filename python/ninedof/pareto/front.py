@@ -10,8 +10,6 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 
-__all__ = ["Front", "objective_of"]
-
 SAME = 1e-9  # relative: an objective that is no better than this is no better
 
 

@@ -12,8 +12,6 @@ from ninedof.design.limits import names_with_max
 from ninedof.design.study import Study
 from ninedof.support.arguments import did_you_mean, shown
 
-__all__ = ["CONDITION_LIMIT", "floor_of", "limited", "own_value", "resolve", "value_at"]
-
 CONDITION_LIMIT = "condition_limit"
 MOST_STEPS = 100  # of Newton's method; it takes about ten
 SMALL = 1e-8  # margin from which one more step is exact

@@ -13,8 +13,6 @@ from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limited import limited
 from ninedof.support.progress import Progress
 
-__all__ = ["Interrupted", "Sweep"]
-
 
 class Interrupted(Exception):  # a way out, not an error
     """Ctrl-C was pressed while a limit was being solved."""

@@ -11,8 +11,6 @@ from ninedof.pareto.front import objective_of
 from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, own_value, value_at
 from ninedof.pareto.solving import Interrupted, Sweep
 
-__all__ = ["span"]
-
 MOST_OBJECTIVE = 3.0  # times the best objective; worse designs are not of interest
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
 STEPS_DOWN = 12  # halvings

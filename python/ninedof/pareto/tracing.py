@@ -18,8 +18,6 @@ from ninedof.support.arguments import finite, items, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
-__all__ = ["pareto"]
-
 MOST_POINTS = 1000
 FIRST = 0.6  # share of the points that is spread evenly; the rest goes where the front is steep
 

@@ -14,8 +14,6 @@ from ninedof.plot import style
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
 
-__all__ = ["atlas"]
-
 MAP = "cividis"
 SHARE = 1e-3  # of all designs: sizes of the base that fewer have are left out at the ends
 TOP = 300.0  # condition numbers shown

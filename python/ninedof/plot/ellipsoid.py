@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof.plot import scene, style
 
-__all__ = ["EllipsoidPanel", "ellipsoids"]
-
 Floats = NDArray[np.float64]
 
 ELEVATION, AZIMUTH = 22.0, -58.0  # degrees: x, y and z all show their length

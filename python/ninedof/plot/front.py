@@ -16,8 +16,6 @@ from ninedof.plot import style
 from ninedof.plot.plates import outlines
 from ninedof.robot.geometry import Geometry
 
-__all__ = ["Sketch", "front"]
-
 Floats = NDArray[np.float64]
 
 

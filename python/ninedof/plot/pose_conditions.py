@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ninedof.plot import style
 
-__all__ = ["PoseConditions", "poses"]
-
 Floats = NDArray[np.float64]
 
 MOST_NAMED = 40  # poses; more have numbers, and not every one

@@ -17,8 +17,6 @@ from ninedof.plot import style
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
 
-__all__ = ["figure_6", "figure_7", "sweep"]
-
 Floats = NDArray[np.float64]
 
 PANELS = 6  # slices shown of a sweep over three coordinates

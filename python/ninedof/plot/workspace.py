@@ -17,8 +17,6 @@ from ninedof.plot import style
 if TYPE_CHECKING:
     from ninedof.workspace import WorkspaceSlice
 
-__all__ = ["Section", "workspace"]
-
 MOST_SECTIONS = 3
 
 KINDS = {  # the limits by kind, in the order of the legend: beginning of the name, words, colour

@@ -13,8 +13,6 @@ from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, thread_argument
 
-__all__ = ["AssemblyModes", "PositionStatus", "forward_position"]
-
 CHUNK = 4096  # rows per call of the core: Ctrl-C is checked between chunks, and the modes of a chunk fit into memory
 
 OBSTACLES = {

@@ -13,8 +13,6 @@ from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument
 
-__all__ = ["TrackStatus", "Tracked", "track"]
-
 
 class TrackStatus(StrEnum):
     """How a step ended."""

@@ -15,8 +15,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
 
-__all__ = ["InternalPoint", "InternalPointStatus", "best_internal_path", "best_internal_point"]
-
 
 class InternalPointStatus(StrEnum):
     """How the search for an internal point ended."""

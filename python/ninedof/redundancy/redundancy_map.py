@@ -15,8 +15,6 @@ from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
-__all__ = ["InternalPointMap", "MapAudit", "best_internal_map"]
-
 
 @dataclass(frozen=True)
 class MapAudit:

@@ -12,8 +12,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats, as_floats, as_number
 
-__all__ = ["leg_limits", "poses_of", "problem_of", "starts_of"]
-
 CRITERIA = ("condition_number", "singularity", "leg_centring")
 
 

@@ -11,8 +11,6 @@ from ninedof import _core
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen, without_infinity
 
-__all__ = ["Configuration"]
-
 
 class Configuration:
     """Nine coordinates: platform position p, platform rotation Q and internal point s, all in the base frame.

@@ -14,8 +14,6 @@ from ninedof.paper.comparison import Comparison, Row
 from ninedof.pareto import Front
 from ninedof.pareto.limited import limited
 
-__all__ = ["describe_comparison", "describe_front", "front_from"]
-
 
 def describe_front(front: Front) -> dict[str, Any]:
     """Return a front as plain values, with all its results."""

@@ -19,8 +19,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import load_record
 from ninedof.support.arguments import is_number, known_keys, number, table
 
-__all__ = ["Design", "indices", "load_design"]
-
 
 class Design(NamedTuple):
     """A geometry, a configuration and the characteristic length to judge them by."""

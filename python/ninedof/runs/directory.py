@@ -11,8 +11,6 @@ from pathlib import Path
 
 from ninedof.chunks.store import MANIFEST
 
-__all__ = ["new_directory", "run_directory"]
-
 RUNS = Path("runs")
 
 

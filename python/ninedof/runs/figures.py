@@ -19,8 +19,6 @@ from ninedof.robot.geometry import Geometry
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
 
-__all__ = ["figures_of"]
-
 Say = Callable[[str], object]
 """Called with a few words about what is being drawn."""
 

@@ -24,8 +24,6 @@ from ninedof.support.versions import versions
 from ninedof.sweep import SweepResult
 from ninedof.workspace import WorkspaceMap
 
-__all__ = ["Record", "load", "load_record", "write_record", "write_run"]
-
 FORMAT = "ninedof-record-2"
 STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"  # of earlier releases
 FILE = "record.json"

@@ -13,17 +13,6 @@ from ninedof.robot.configuration import Configuration, operands, operands_with, 
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, as_number, checked_out, thread_argument
 
-__all__ = [
-    "Mechanism",
-    "Singularity",
-    "SingularityDistance",
-    "SingularityMargins",
-    "distance_to_singularity",
-    "singularity",
-    "singularity_margins",
-    "uncontrolled_motions",
-]
-
 
 class Mechanism(StrEnum):
     """A way in which nine locked legs can fail to hold the robot."""

@@ -13,8 +13,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
 
-__all__ = ["ErrorBounds", "error_bounds", "error_map", "error_samples"]
-
 CHUNK = 20_000  # samples per call of the core, some hundredths of a second: Ctrl-C is checked between chunks
 
 

@@ -15,8 +15,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats
 
-__all__ = ["Ellipsoid", "force_ellipsoid", "velocity_ellipsoid"]
-
 _VELOCITY = {
     "translation": _core.velocity_ellipsoid_translation,
     "rotation": _core.velocity_ellipsoid_rotation,

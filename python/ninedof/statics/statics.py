@@ -12,8 +12,6 @@ from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, one_or_each
 
-__all__ = ["LegForces", "leg_forces", "self_stress", "stiffness"]
-
 
 class LegForces(NamedTuple):
     """Leg forces for a load; leading dimensions are those of the configuration and the load."""

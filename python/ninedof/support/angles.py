@@ -7,8 +7,6 @@ from typing import Any
 
 from ninedof.support.arguments import Vector, vector
 
-__all__ = ["exact_degrees", "rotation_entry", "vector_argument"]
-
 DIGITS = 9  # decimals of degrees: more than a person types
 
 

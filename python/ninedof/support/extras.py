@@ -5,8 +5,6 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-__all__ = ["MissingExtra", "optional"]
-
 
 class MissingExtra(ImportError):
     """An optional package is not installed."""

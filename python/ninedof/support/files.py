@@ -15,8 +15,6 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["PART", "Arrays", "read_npz", "write_npz", "write_whole"]
-
 Arrays = dict[str, NDArray[Any]]
 
 PART = ".part-"  # begins the name of a file that is being written

@@ -7,8 +7,6 @@ from typing import cast
 
 from ninedof.support.arguments import shown
 
-__all__ = ["Progress", "progress_argument"]
-
 Progress = Callable[[int, int, float | None], object]
 """Called as progress(done, total, value): the work done, the work in all as far as it is known, and the best objective
 or the volume so far; None where there is no such figure."""

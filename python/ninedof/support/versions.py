@@ -8,8 +8,6 @@ import numpy as np
 
 from ninedof import _core
 
-__all__ = ["versions"]
-
 
 def versions() -> dict[str, str]:
     """Return the versions of the package, of Python, of numpy and of what the core was built with."""

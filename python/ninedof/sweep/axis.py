@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from ninedof.support.arguments import choice, finite, is_number, shown, whole
 from ninedof.support.arrays import Floats, as_floats
 
-__all__ = ["Axis", "Grid", "Values", "axes_of"]
-
 Values = ArrayLike | tuple[float, float, int]
 """Values along an axis, or (low, high, count) for evenly spaced ones."""
 

@@ -11,8 +11,6 @@ from contextlib import contextmanager
 from ninedof.support.arguments import shown
 from ninedof.support.extras import optional
 
-__all__ = ["dask_executor"]
-
 TIMEOUT = 15  # seconds for a scheduler to answer
 ADDRESS = re.compile(r"(?:(tcp|tls|ucx|ws|wss)://)?(?:\[([^\[\]\s]+)\]|([^\[\]\s:/]+)):([0-9]{1,5})")
 

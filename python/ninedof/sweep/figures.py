@@ -25,8 +25,6 @@ from ninedof.sweep.poses import COORDINATES, TRIPLES
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.work import GridWork
 
-__all__ = ["sweep_figure"]
-
 FIGURES = ("6", "7")
 SHOWN = ("x_p", "y_p", "z_p", "theta_x", "theta_y", "theta_z", "x_s", "y_s", "z_s")
 REACH = 1.0  # l_c or rad, either way from the neutral pose

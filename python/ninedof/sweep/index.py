@@ -14,8 +14,6 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import Floats
 
-__all__ = ["OwnIndex", "identity", "indices_of"]
-
 OwnIndex = Callable[[Geometry, Configuration, Any], Any]
 """A caller's function of a geometry, a stack of n configurations and the characteristic length: returns n numbers."""
 

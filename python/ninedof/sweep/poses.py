@@ -15,8 +15,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 
-__all__ = ["COORDINATES", "RULES", "Poses", "best_block"]
-
 ROTATION, POSITION, INTERNAL = (
     ("theta_x", "theta_y", "theta_z"),
     ("x_p", "y_p", "z_p"),

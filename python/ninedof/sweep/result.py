@@ -15,8 +15,6 @@ from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, read_npz, write_npz
 from ninedof.support.json import decode, encode
 
-__all__ = ["SweepResult"]
-
 FORMAT = "ninedof-sweep-1"
 HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
 

@@ -24,8 +24,6 @@ from ninedof.sweep.result import SweepResult
 from ninedof.sweep.variants import Variants
 from ninedof.sweep.work import GridWork
 
-__all__ = ["sweep", "sweep_designs"]
-
 # A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024
 

@@ -15,8 +15,6 @@ from ninedof.chunks import Arrays
 from ninedof.design.indices import Index
 from ninedof.support.files import PART
 
-__all__ = ["Sink"]
-
 IN_MEMORY = 2**28  # bytes of all arrays; more go to files, if there is a folder
 
 

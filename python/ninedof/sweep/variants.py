@@ -15,8 +15,6 @@ from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 
-__all__ = ["Variants"]
-
 HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 
 

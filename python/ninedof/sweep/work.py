@@ -17,8 +17,6 @@ from ninedof.sweep.index import identity
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sink import Sink
 
-__all__ = ["GridTask", "GridWork", "Subject"]
-
 
 class Subject(Protocol):
     """The robots at the points of a grid."""

@@ -17,8 +17,6 @@ from ninedof.verify.robot import Robot
 if TYPE_CHECKING:
     from ninedof.design.study import Study
 
-__all__ = ["Aim", "Slopes"]
-
 
 @dataclass(frozen=True)
 class Aim:

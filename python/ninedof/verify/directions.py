@@ -10,8 +10,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.verify.robot import Robot
 
-__all__ = ["cone", "determinants", "rotation_vector"]
-
 
 def cone(robot: Robot, body: str, axis: Sequence[float]) -> Floats:
     """Return the angle between the six legs at a body and their axis, at every pose of the objective.

@@ -14,8 +14,6 @@ import numpy as np
 
 from ninedof.support.arrays import Floats
 
-__all__ = ["Ends", "differences", "ends_of"]
-
 TIE = 1e-6  # of a logarithm: values nearer than that count as equal
 STEP = 1e-4  # of the size of a variable; the fourth-order differences err by about its fourth power
 

@@ -13,8 +13,6 @@ from ninedof.verify.robot import Indices, Places
 from ninedof.verify.rules import Limit, margins
 from ninedof.verify.stationarity import active_limits
 
-__all__ = ["Perturbations", "perturb"]
-
 SCALES = tuple(10.0**-k for k in range(1, 7))
 
 

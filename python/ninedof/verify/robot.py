@@ -17,8 +17,6 @@ from ninedof.support.arrays import Floats
 if TYPE_CHECKING:
     from ninedof.design.study import Study
 
-__all__ = ["Indices", "Places", "Robot"]
-
 Indices = NDArray[np.intp]
 
 

@@ -24,8 +24,6 @@ from ninedof.verify.robot import Robot
 if TYPE_CHECKING:
     from ninedof.design.study import Study
 
-__all__ = ["Limit", "limit_of", "limits_of", "margins", "measured"]
-
 MOST_PAIRED = 60  # poses; all pairs of lengths of more would fill the memory, and ties among so many matter less
 
 

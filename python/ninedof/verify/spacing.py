@@ -9,8 +9,6 @@ import numpy as np
 from ninedof.support.arrays import Floats
 from ninedof.verify.robot import Robot
 
-__all__ = ["between_legs", "between_points", "between_segments"]
-
 
 def between_points(points: Floats) -> Floats:
     """Return the distance of every two of n points, shape (n (n - 1) / 2,)."""

@@ -17,8 +17,6 @@ from ninedof.verify.nonsmooth import differences
 from ninedof.verify.robot import Indices, Places
 from ninedof.verify.rules import Limit, margins
 
-__all__ = ["Stationarity", "active_limits", "least_combination", "nonnegative_least_squares", "stationarity"]
-
 ACTIVE = 1e-6  # a limit or bound nearer than this part of it holds
 ROUNDS = 300
 

@@ -19,8 +19,6 @@ from ninedof.verify.robot import Places
 from ninedof.verify.rules import Limit, limits_of, margins
 from ninedof.verify.stationarity import stationarity
 
-__all__ = ["Check", "Finding", "check"]
-
 EQUAL = 1e-9  # relative: two ways to one number
 FEASIBLE = 1e-8  # by how much a margin may be negative
 STATIONARY = 1e-6

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from ninedof import _core
 from ninedof.support.arrays import Floats
 
-__all__ = ["LIMITS", "WorkspaceCells", "WorkspaceSlice", "group_of", "slice_of"]
-
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
 GROUPS = ("base_cone", "platform_cone", "leg_clearance")
 

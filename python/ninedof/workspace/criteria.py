@@ -13,8 +13,6 @@ from ninedof.redundancy.search_arguments import leg_limits
 from ninedof.support.arguments import known_keys, shown, vector
 from ninedof.support.arrays import Floats, as_floats, as_number
 
-__all__ = ["CRITERIA", "criteria_of"]
-
 ROWS = {row.name: row for row in (Row(*values) for values in _core.criterion_table)}
 CRITERIA = tuple(ROWS)
 

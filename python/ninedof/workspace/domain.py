@@ -13,8 +13,6 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import choice, known_keys, pair, shown, whole
 from ninedof.support.arrays import Floats, as_floats, as_number
 
-__all__ = ["ARCHETYPES", "domain_of", "spread_rotations"]
-
 ARCHETYPES = ("constant_orientation", "orientation", "reachable", "inclusive", "dexterous")
 SPREAD = 60  # rotations of a set that is not given
 MOST_ROTATIONS = 100_000

@@ -17,8 +17,6 @@ from ninedof.support.files import Arrays, read_npz, write_npz
 from ninedof.support.json import decode, encode
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
 
-__all__ = ["WorkspaceMap", "WorkspaceStatus"]
-
 FORMAT = "ninedof-workspace-2"
 
 

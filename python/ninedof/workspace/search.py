@@ -21,8 +21,6 @@ from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 
-__all__ = ["workspace"]
-
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
 POINTS_SEARCHED = 1024  # if the best O is sought at each

@@ -22,8 +22,6 @@ from ninedof.support.arrays import thread_argument
 if TYPE_CHECKING:
     from ninedof.plot.front import Sketch
 
-__all__ = ["front_table", "pareto"]
-
 SKETCHED = 4  # designs drawn from above
 
 
