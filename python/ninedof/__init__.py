@@ -13,12 +13,12 @@ from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.conditioning.conditioning import (
     axis_singular_values,
     condition_number,
-    hexagonal_condition_number,
     isotropy_residual,
     manipulability,
     reciprocal_condition_number,
     singular_values,
 )
+from ninedof.conditioning.hexagonal import hexagonal_condition_number
 from ninedof.design import poses as poses
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.objective import Objective
@@ -40,13 +40,12 @@ from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
-    SingularityDistance,
     SingularityMargins,
-    distance_to_singularity,
     singularity,
     singularity_margins,
     uncontrolled_motions,
 )
+from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice
+from ninedof.support.arguments import choice, finite, shown
 from ninedof.support.arrays import Floats, as_floats
 
 KINDS = ("optimal", "natural", "mean_leg", "platform_radius")
@@ -57,3 +57,20 @@ def resolve_length(geometry: Geometry, configuration: Configuration, length: Arr
         raise ValueError(
             f"characteristic_length: got shape {value.shape}, expected one that broadcasts to {configuration.shape}"
         ) from None
+
+
+def operands_and_length(
+    geometry: Geometry, configuration: Configuration, length: ArrayLike | str
+) -> tuple[Geometry, Floats, Floats, Floats, Floats]:
+    """Return the operands of the core with the characteristic length as `resolve_length` gives it."""
+    return *operands(geometry, configuration), resolve_length(geometry, configuration, length)
+
+
+def length_argument(length: Any) -> float | str:
+    """Return one characteristic length: a finite number above 0, or the name of a kind."""
+    if isinstance(length, str):
+        return choice("characteristic_length", length, KINDS)
+    value = finite("characteristic_length", length)
+    if not value > 0.0:
+        raise ValueError(f"characteristic_length: got {shown(length)}, expected a number above 0")
+    return value

@@ -10,8 +10,8 @@ from types import MappingProxyType
 from typing import Any
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import KINDS
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design import limits
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.objective import Objective
@@ -223,14 +223,9 @@ def _bound(name: str, value: Any) -> Bound:
 
 
 def _length(value: Any) -> float | str | tuple[float, float]:
-    if isinstance(value, str):
-        return choice(LENGTH, value, KINDS)
-    if not is_number(value):
-        low, high = (finite(LENGTH, x) for x in pair(LENGTH, value, "a number, a kind, or (low, high)"))
-        if not 0.0 < low <= high:
-            raise ValueError(f"{LENGTH}: got {shown(value)}, expected 0 < low <= high")
-        return low if low == high else (low, high)
-    length = finite(LENGTH, value)
-    if not length > 0.0:
-        raise ValueError(f"{LENGTH}: got {shown(value)}, expected a number above 0")
-    return length
+    if isinstance(value, str) or is_number(value):
+        return length_argument(value)
+    low, high = (finite(LENGTH, x) for x in pair(LENGTH, value, "a number, a kind, or (low, high)"))
+    if not 0.0 < low <= high:
+        raise ValueError(f"{LENGTH}: got {shown(value)}, expected 0 < low <= high")
+    return low if low == high else (low, high)

@@ -7,9 +7,10 @@ from numpy.typing import ArrayLike
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import resolve_length
+from ninedof.kinematics.velocity import three_vectors
 from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.arrays import Floats
 
 
 def forward_acceleration(
@@ -52,13 +53,10 @@ def forward_acceleration(
     (array([0.    , 0.    , 0.2168]), array([ 0.    ,  0.    , -0.3526]))
 
     """
-    given = {
-        "leg_rates": as_floats("leg_rates", leg_rates, (9,)),
-        "leg_accelerations": as_floats("leg_accelerations", leg_accelerations, (9,)),
-    }
-    shape, flat, (rates, accelerations) = operands_with(geometry, configuration, given)
-    out = _core.forward_acceleration(*flat, rates, accelerations, 0).reshape(*shape, 3, 3)
-    return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
+    shape, flat, (rates, accelerations) = operands_with(
+        geometry, configuration, leg_rates=(leg_rates, 9), leg_accelerations=(leg_accelerations, 9)
+    )
+    return three_vectors(_core.forward_acceleration(*flat, rates, accelerations, 0), shape)
 
 
 def inverse_acceleration(
@@ -102,8 +100,7 @@ def inverse_acceleration(
 
     """
     motion = {"omega": omega, "pdot": pdot, "sdot": sdot, "alpha": alpha, "pddot": pddot, "sddot": sddot}
-    given = {name: as_floats(name, value, (3,)) for name, value in motion.items()}
-    shape, flat, parts = operands_with(geometry, configuration, given)
+    shape, flat, parts = operands_with(geometry, configuration, **{name: (v, 3) for name, v in motion.items()})
     velocity, acceleration = np.concatenate(parts[:3], axis=1), np.concatenate(parts[3:], axis=1)
     return _core.inverse_acceleration(*flat, velocity, acceleration, 0).reshape(*shape, 9)
 
@@ -155,8 +152,7 @@ def jacobian_rate(
     True
 
     """
-    given = {name: as_floats(name, v, (3,)) for name, v in {"omega": omega, "pdot": pdot, "sdot": sdot}.items()}
-    shape, flat, velocity = operands_with(geometry, configuration, given)
+    shape, flat, velocity = operands_with(geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), sdot=(sdot, 3))
     lc = resolve_length(geometry, configuration, characteristic_length)
     if lc.size != 1:  # one per configuration, broadcast to the velocities
         lc = np.ascontiguousarray(np.broadcast_to(lc.reshape(configuration.shape), shape)).reshape(-1)

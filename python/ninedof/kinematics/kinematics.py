@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import resolve_length
+from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, checked_out, thread_argument
+from ninedof.support.arrays import Floats, filled, thread_argument
 
 
 class VelocityMatrices(NamedTuple):
@@ -61,10 +61,9 @@ def leg_lengths(
     array([4.9304, 2.2772, 4.151 ])
 
     """
-    operands_of = operands(geometry, configuration)
-    shape = (*configuration.shape, 9)
-    flat = _core.leg_lengths(*operands_of, thread_argument(threads), checked_out(out, shape))
-    return out if out is not None else flat.reshape(shape)
+    given, count = operands(geometry, configuration), thread_argument(threads)
+    found: Floats = filled(out, (*configuration.shape, 9), lambda array: _core.leg_lengths(*given, count, array))
+    return found
 
 
 def velocity_matrices(
@@ -88,8 +87,7 @@ def velocity_matrices(
         If the characteristic length is not finite and positive.
 
     """
-    lc = resolve_length(geometry, configuration, characteristic_length)
-    flat = _core.velocity_matrices(*operands(geometry, configuration), lc, 0)
+    flat = _core.velocity_matrices(*operands_and_length(geometry, configuration, characteristic_length), 0)
     sizes = {"A": (3, 6), "B": (3, 3), "C": (3, 3), "D": (3, 3), "E": (3, 6), "F": (6, 6), "G": (6, 9)}
     parts = np.split(flat, np.cumsum([rows * columns for rows, columns in sizes.values()])[:-1], axis=1)
     shaped = (
@@ -117,6 +115,5 @@ def jacobian(geometry: Geometry, configuration: Configuration, characteristic_le
         where F or B is exactly singular, since J' does not exist there; `condition_number` is infinite.
 
     """
-    lc = resolve_length(geometry, configuration, characteristic_length)
-    flat = _core.jacobian(*operands(geometry, configuration), lc, 0)
+    flat = _core.jacobian(*operands_and_length(geometry, configuration, characteristic_length), 0)
     return flat.reshape(*configuration.shape, 6, 9)

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands, operands_with
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.arrays import Floats
 
 
 def forward_velocity(
@@ -35,10 +35,8 @@ def forward_velocity(
         At a singular configuration the components that the leg rates do not determine are NaN.
 
     """
-    rates = as_floats("leg_rates", leg_rates, (9,))
-    shape, flat, (rates,) = operands_with(geometry, configuration, {"leg_rates": rates})
-    out = _core.forward_velocity(*flat, rates, 0).reshape(*shape, 3, 3)
-    return out[..., 0, :].copy(), out[..., 1, :].copy(), out[..., 2, :].copy()
+    shape, flat, (rates,) = operands_with(geometry, configuration, leg_rates=(leg_rates, 9))
+    return three_vectors(_core.forward_velocity(*flat, rates, 0), shape)
 
 
 def inverse_velocity(
@@ -95,7 +93,7 @@ def inverse_velocity(
         )
     if sdot is None:
         sdot = internal_velocity(geometry, configuration, omega, pdot, weights)
-    shape, flat, velocity = operands_with(geometry, configuration, _vectors(omega=omega, pdot=pdot, sdot=sdot))
+    shape, flat, velocity = operands_with(geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), sdot=(sdot, 3))
     return _core.inverse_velocity(*flat, np.concatenate(velocity, axis=1), 0).reshape(*shape, 9)
 
 
@@ -144,9 +142,10 @@ def internal_velocity(
     array([0.    , 0.    , 0.5689])
 
     """
-    vectors = _vectors(omega=omega, pdot=pdot)
-    vectors["weights"] = np.ones(9) if weights is None else as_floats("weights", weights, (9,))
-    shape, flat, (*twist, weight) = operands_with(geometry, configuration, vectors)
+    given = np.ones(9) if weights is None else weights
+    shape, flat, (*twist, weight) = operands_with(
+        geometry, configuration, omega=(omega, 3), pdot=(pdot, 3), weights=(given, 9)
+    )
     return _core.internal_velocity(*flat, np.concatenate(twist, axis=1), weight, 0).reshape(*shape, 3)
 
 
@@ -184,5 +183,7 @@ def null_motion(geometry: Geometry, configuration: Configuration) -> Floats:
     return flat.reshape(*configuration.shape, 9, 3)
 
 
-def _vectors(**named: ArrayLike) -> dict[str, Floats]:
-    return {name: as_floats(name, value, (3,)) for name, value in named.items()}
+def three_vectors(flat: Floats, shape: tuple[int, ...]) -> tuple[Floats, Floats, Floats]:
+    """Return three arrays (..., 3) from rows of nine numbers: rates of the rotation, of p and of O."""
+    rotation, p, s = np.moveaxis(flat.reshape(*shape, 3, 3), -2, 0)
+    return rotation.copy(), p.copy(), s.copy()

@@ -197,22 +197,14 @@ def _modes(
     side[places] = sides
     full = (*shape, most)
     single = shape == ()
-    return _restored(
-        (
-            padded[:, :3].reshape(*full, 3),
-            padded[:, 3:12].reshape(*full, 3, 3),
-            padded[:, 12:].reshape(*full, 3),
-        ),
-        (
-            side[:, 0].reshape(full),
-            bool(certain[0]) if single else certain.astype(bool).reshape(shape),
-            int(counts[0]) if single else counts.astype(np.int64).reshape(shape),
-            side[:, 1].reshape(full),
-            reason[0] if single else np.array(reason, dtype=object).reshape(shape),
-            spread.reshape(full),
-            status[0] if single else np.array(status, dtype=object).reshape(shape),
-        ),
-    )
+    modes = AssemblyModes._shaped(full, padded[:, :3], padded[:, 3:12], padded[:, 12:])
+    modes._base_side, modes._platform_side = side[:, 0].reshape(full), side[:, 1].reshape(full)
+    modes._separation = spread.reshape(full)
+    modes._certain = bool(certain[0]) if single else certain.astype(bool).reshape(shape)
+    modes._count = int(counts[0]) if single else counts.astype(np.int64).reshape(shape)
+    modes._reason = reason[0] if single else np.array(reason, dtype=object).reshape(shape)
+    modes._status = status[0] if single else np.array(status, dtype=object).reshape(shape)
+    return modes
 
 
 def _positions_in_row(counts: NDArray[np.intc]) -> NDArray[np.int64]:

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.configuration import Configuration, broadcast_flat, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, broadcast_leading, thread_argument
+from ninedof.support.arrays import Floats, as_floats, thread_argument
 
 
 class TrackStatus(StrEnum):
@@ -129,31 +129,12 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     """
     operands(geometry, start)
     lengths = as_floats("leg_lengths", leg_lengths, (9,))
-    named = {
-        "position": (start.position, 1),
-        "rotation": (start.rotation, 2),
-        "internal_point": (start.internal_point, 1),
-    }
     is_path = lengths.ndim - 1 > len(start.shape)
     path = lengths.shape[-2] if is_path else 1
-    shape, (p, q, s, rows) = broadcast_leading(named | {"leg_lengths": (lengths, 2 if is_path else 1)})
-    flat, status = _core.track(
-        geometry,
-        rows.reshape(-1, 9),
-        path,
-        p.reshape(-1, 3),
-        q.reshape(-1, 3, 3),
-        s.reshape(-1, 3),
-        thread_argument(threads),
-    )
+    shape, home, (rows,) = broadcast_flat(start, leg_lengths=(lengths, 2 if is_path else 1))
+    flat, status = _core.track(geometry, rows.reshape(-1, 9), path, *home, thread_argument(threads))
     full = (*shape, path) if is_path else shape
     words = np.array([TrackStatus(word) for word in _core.track_statuses], dtype=object)[status]
-    return _restored(
-        (
-            flat[:, :3].reshape(*full, 3),
-            flat[:, 3:12].reshape(*full, 3, 3),
-            flat[:, 12:15].reshape(*full, 3),
-        ),
-        flat[:, 15:].reshape(*full, 5),
-        words.reshape(full)[()],
-    )
+    found = Tracked._shaped(full, flat[:, :3], flat[:, 3:12], flat[:, 12:15])
+    found._numbers, found._status = flat[:, 15:].reshape(*full, 5), words.reshape(full)[()]
+    return found

@@ -201,9 +201,8 @@ def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, found: dict[str, 
     keys, inverse = np.unique(found["active"], return_inverse=True)
     names = np.empty(len(keys), dtype=object)
     names[:] = [found["active_names"][int(key)] for key in keys]
-    s = found["internal_point"]
     return {
-        "configuration": Configuration._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3)),
+        "configuration": Configuration._shaped(shape, p, q, found["internal_point"]),
         "value": found["value"].reshape(shape)[()],
         "status": STATUSES[found["status"]].reshape(shape)[()],
         "active": names[inverse.reshape(-1)].reshape(shape)[()],

@@ -11,6 +11,8 @@ from ninedof import _core
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, broadcast_leading, frozen, without_infinity
 
+Operands = tuple[Geometry, Floats, Floats, Floats]
+
 
 class Configuration:
     """Nine coordinates: platform position p, platform rotation Q and internal point s, all in the base frame.
@@ -53,10 +55,8 @@ class Configuration:
         p = as_floats("position", position, (3,))
         q = as_floats("rotation", rotation, (3, 3))
         s = as_floats("internal_point", internal_point, (3,))
-        shape, (p, q, s) = broadcast_leading(
-            {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)},
-        )
-        _core.check_configurations(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3), bool(shape))
+        shape, (p, q, s) = broadcast_leading({"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)})
+        _core.check_configurations(*_flat(p, q, s), bool(shape))
         self._position, self._rotation, self._internal_point = frozen(p), frozen(q), frozen(s)
 
     @classmethod
@@ -72,16 +72,10 @@ class Configuration:
             bring no gain is not correct.
 
         """
-        shape, arrays = broadcast_leading(
-            {
-                "zp": (as_floats("zp", zp, ()), 0),
-                "zs": (as_floats("zs", zs, ()), 0),
-                "theta_z": (as_floats("theta_z", theta_z, ()), 0),
-            }
-        )
+        given = {"zp": zp, "zs": zs, "theta_z": theta_z}
+        shape, arrays = broadcast_leading({name: (as_floats(name, value, ()), 0) for name, value in given.items()})
         flat_zp, flat_zs, flat_theta_z = (a.reshape(-1) for a in arrays)
-        p, q, s = _core.neutral(flat_zp, flat_zs, flat_theta_z, bool(shape))
-        return cls._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
+        return cls._shaped(shape, *_core.neutral(flat_zp, flat_zs, flat_theta_z, bool(shape)))
 
     @classmethod
     def _of(cls, position: Floats, rotation: Floats, internal_point: Floats) -> Self:
@@ -89,6 +83,11 @@ class Configuration:
         new = cls.__new__(cls)
         new._position, new._rotation, new._internal_point = map(frozen, (position, rotation, internal_point))
         return new
+
+    @classmethod
+    def _shaped(cls, shape: tuple[int, ...], p: Floats, q: Floats, s: Floats) -> Self:
+        """Build a stack of the given shape from checked arrays in any shape, as the core returns them."""
+        return cls._of(p.reshape(*shape, 3), q.reshape(*shape, 3, 3), s.reshape(*shape, 3))
 
     def moved(self, tangent: ArrayLike) -> Configuration:
         """Return the configuration displaced along a tangent, Q becoming exp(omega) Q.
@@ -100,13 +99,8 @@ class Configuration:
             against the configuration.
 
         """
-        t = as_floats("tangent", tangent, (9,))
-        p, q, s = self._arrays()
-        shape, (p, q, s, t) = broadcast_leading(
-            {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1), "tangent": (t, 1)}
-        )
-        moved = _core.moved(p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3), t.reshape(-1, 9))
-        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in moved))
+        shape, flat, t = broadcast_flat(self, tangent=(as_floats("tangent", tangent, (9,)), 1))
+        return Configuration(*(a.reshape(shape + a.shape[1:]) for a in _core.moved(*flat, t[0].reshape(-1, 9))))
 
     @property
     def position(self) -> Floats:
@@ -170,36 +164,57 @@ class Configuration:
         return self._position, self._rotation, self._internal_point
 
 
+def _flat(p: Floats, q: Floats, s: Floats) -> tuple[Floats, Floats, Floats]:
+    return p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+
+
+def broadcast_flat(
+    configuration: Configuration, **others: tuple[Floats, int]
+) -> tuple[tuple[int, ...], tuple[Floats, Floats, Floats], list[Floats]]:
+    """Broadcast a configuration against arrays, each given with its number of trailing dimensions.
+
+    Return the leading shape, the flat arrays of the configuration, and the other arrays.
+    """
+    p, q, s = configuration._arrays()
+    own = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
+    shape, (p, q, s, *rest) = broadcast_leading(own | others)
+    return shape, _flat(p, q, s), rest
+
+
 def require_geometry(geometry: Any) -> None:
     """Raise ValueError unless it is a Geometry."""
     if not isinstance(geometry, Geometry):
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
 
 
-def operands(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+def operands(geometry: Geometry, configuration: Configuration) -> Operands:
     """Return the operands of the core: the geometry, and arrays (n, 3), (n, 3, 3), (n, 3)."""
     require_geometry(geometry)
     if not isinstance(configuration, Configuration):
         raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
-    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
-    return geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
+    return geometry, *_flat(*configuration._arrays())
 
 
 def operands_with(
-    geometry: Geometry, configuration: Configuration, others: dict[str, Floats]
-) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], list[Floats]]:
-    """Broadcast a configuration against (..., k) arrays; return the shape, the core's operands, and (n, k) arrays."""
+    geometry: Geometry, configuration: Configuration, **others: tuple[ArrayLike, int]
+) -> tuple[tuple[int, ...], Operands, list[Floats]]:
+    """Broadcast a configuration against arrays of shape (..., k), each given with its k.
+
+    Return the leading shape, the operands of the core, and the other arrays as (n, k).
+
+    Raises
+    ------
+    ValueError
+        Naming the argument that has another shape or an infinite number.
+
+    """
     operands(geometry, configuration)
-    for name, values in others.items():
-        without_infinity(name, values)
-    p, q, s = configuration.position, configuration.rotation, configuration.internal_point
-    named = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
-    shape, (p, q, s, *rest) = broadcast_leading(named | {name: (a, 1) for name, a in others.items()})
-    flat = geometry, p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
-    return shape, flat, [a.reshape(-1, a.shape[-1]) for a in rest]
+    arrays = {name: (without_infinity(name, as_floats(name, values, (k,))), 1) for name, (values, k) in others.items()}
+    shape, flat, rest = broadcast_flat(configuration, **arrays)
+    return shape, (geometry, *flat), [a.reshape(-1, a.shape[-1]) for a in rest]
 
 
-def single(geometry: Geometry, configuration: Configuration) -> tuple[Geometry, Floats, Floats, Floats]:
+def single(geometry: Geometry, configuration: Configuration) -> Operands:
     """Return the operands of the core for a single configuration; a stack raises ValueError."""
     flat = operands(geometry, configuration)
     if configuration.shape:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.robot.configuration import Configuration, operands, operands_with, single
+from ninedof.robot.configuration import Configuration, Operands, operands, operands_with, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
@@ -175,11 +175,7 @@ def error_samples(
 
 def _with_tolerances(
     g: Geometry, c: Configuration, leg_errors: ArrayLike, joint_errors: ArrayLike
-) -> tuple[tuple[int, ...], tuple[Geometry, Floats, Floats, Floats], Floats]:
-    parts = {
-        "leg_errors": one_or_each("leg_errors", leg_errors, 9),
-        "joint_errors": one_or_each("joint_errors", joint_errors, 12),
-    }
-    shape, flat, (legs, joints) = operands_with(g, c, parts)
-    stacked = np.concatenate([legs.reshape(-1, 9), joints.reshape(-1, 12)], axis=1)
-    return shape, flat, np.ascontiguousarray(stacked)
+) -> tuple[tuple[int, ...], Operands, Floats]:
+    legs, joints = one_or_each("leg_errors", leg_errors, 9), one_or_each("joint_errors", joint_errors, 12)
+    shape, flat, tolerances = operands_with(g, c, leg_errors=(legs, 9), joint_errors=(joints, 12))
+    return shape, flat, np.concatenate(tolerances, axis=1)

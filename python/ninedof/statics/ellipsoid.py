@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.conditioning.characteristic_length import resolve_length
-from ninedof.robot.configuration import Configuration, operands
+from ninedof.conditioning.characteristic_length import operands_and_length
+from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats
@@ -120,8 +120,7 @@ def _ellipsoid(
     parts: Mapping[str, Callable[..., Floats]], g: Geometry, c: Configuration, part: str, length: ArrayLike | str
 ) -> Ellipsoid:
     core = parts[choice("part", part, parts)]
-    lc = resolve_length(g, c, length)
-    out = core(*operands(g, c), lc, 0)
+    out = core(*operands_and_length(g, c, length), 0)
     n = 6 if part == "twist" else 3
     directions, semi_axes = np.split(out, [n * n], axis=1)
     return Ellipsoid(directions.reshape(*c.shape, n, n).copy(), semi_axes.reshape(*c.shape, n).copy())

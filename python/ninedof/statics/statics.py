@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arrays import Floats, as_floats, one_or_each
+from ninedof.support.arrays import Floats, one_or_each
 
 
 class LegForces(NamedTuple):
@@ -63,14 +63,10 @@ def leg_forces(
     array([0.   , 4.837, 5.556])
 
     """
-    parts = {
-        "moment": as_floats("moment", moment, (3,)),
-        "force": as_floats("force", force, (3,)),
-        "force_at_o": as_floats("force_at_o", force_at_o, (3,)),
-    }
-    shape, flat, load = operands_with(geometry, configuration, parts)
-    stacked = np.ascontiguousarray(np.concatenate([part.reshape(-1, 3) for part in load], axis=1))
-    out = _core.leg_forces(*flat, stacked, 0).reshape(*shape, 2, 9)
+    shape, flat, load = operands_with(
+        geometry, configuration, moment=(moment, 3), force=(force, 3), force_at_o=(force_at_o, 3)
+    )
+    out = _core.leg_forces(*flat, np.concatenate(load, axis=1), 0).reshape(*shape, 2, 9)
     return LegForces(out[..., 0, :].copy(), out[..., 1, :].copy())
 
 
@@ -154,6 +150,6 @@ def stiffness(
 
     """
     k = one_or_each("leg_stiffness", leg_stiffness, 9)
-    shape, flat, (k,) = operands_with(geometry, configuration, {"leg_stiffness": k})
+    shape, flat, (k,) = operands_with(geometry, configuration, leg_stiffness=(k, 9))
     core, size = (_core.stiffness_with_o, 9) if internal else (_core.stiffness, 6)
-    return core(*flat, k.reshape(-1, 9), 0).reshape(*shape, size, size)
+    return core(*flat, k, 0).reshape(*shape, size, size)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -94,6 +95,12 @@ def checked_out(out: Any, shape: tuple[int, ...]) -> Floats | None:
     else:
         return out
     raise ValueError(f"out: got {got}, expected a writeable aligned C-contiguous float64 array of shape {shape}")
+
+
+def filled(out: Any, shape: tuple[int, ...], compute: Callable[[Floats | None], Floats]) -> Any:
+    """Return `out`, filled by `compute`, or without `out` a new result of the given shape; a number for shape ()."""
+    found = compute(checked_out(out, shape))
+    return found.reshape(shape)[()] if out is None else out
 
 
 def _shape_text(trailing: tuple[int, ...]) -> str:

@@ -7,11 +7,10 @@ import os
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import replace
-from typing import Any
 
 from ninedof import _core
 from ninedof.chunks import chunk_argument
-from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, known_keys
@@ -110,7 +109,7 @@ def sweep(
     single(geometry, home)
     grid = axes_of(over, COORDINATES)
     rule = choice("internal_point", internal_point, RULES)
-    length = _length(characteristic_length)
+    length = length_argument(characteristic_length)
     swept = {axis.name for axis in grid.axes}
     if swept & set(INTERNAL) and (rule == "best" or (rule == "carried" and not relative)):
         where = "displaced from home" if rule == "best" else "displacements"
@@ -184,7 +183,9 @@ def sweep_designs(
     if both := [axis.name for axis in grid.axes if axis.name in design]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
     variants = Variants(
-        family, {name: finite(f"design[{name!r}]", v) for name, v in design.items()}, _length(characteristic_length)
+        family,
+        {name: finite(f"design[{name!r}]", v) for name, v in design.items()},
+        length_argument(characteristic_length),
     )
     study = variants.study()
     study.vector({axis.name: float(axis.values()[0]) for axis in grid.axes})  # names what is missing
@@ -193,12 +194,3 @@ def sweep_designs(
     fast = all(variants.has_closed_form(i, [axis.name for axis in grid.axes]) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
     return work.result(units, executor=executor, out=out, progress=progress)
-
-
-def _length(value: Any) -> float | str:
-    if isinstance(value, str):
-        return choice("characteristic_length", value, KINDS)
-    length = finite("characteristic_length", value)
-    if not length > 0.0:
-        raise ValueError(f"characteristic_length: got {length!r}, expected a number above 0")
-    return length

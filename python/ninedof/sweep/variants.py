@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.chunks import Arrays
-from ninedof.conditioning.conditioning import hexagonal_condition_number
+from ninedof.conditioning.hexagonal import hexagonal_condition_number
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration

@@ -1,0 +1,78 @@
+"""The condition number of many hexagonal designs, by the closed form on the symmetry axis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof import _core
+from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument, without_infinity
+
+GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
+
+
+def hexagonal_condition_number(
+    a1: ArrayLike,
+    a2: ArrayLike,
+    b1: ArrayLike,
+    b2: ArrayLike,
+    zp: ArrayLike,
+    zs: ArrayLike,
+    threads: int | None = None,
+    out: Floats | None = None,
+) -> Any:
+    """Return the condition number of many hexagonal designs, each at its neutral configuration (eqs. 6, 37, 38).
+
+    By the closed form on the symmetry axis, about 6 ns per design on one processor and as much again to gather six
+    arrays: for maps and atlases of millions of designs. All lengths in units of the characteristic length; theta_z = 0.
+    The designs need not satisfy any constraint, not even zs < zp (eq. 9b).
+
+    Parameters
+    ----------
+    a1, a2, b1, b2, zp, zs : array_like
+        Sides of base and platform, heights of platform and O, divided by the characteristic length. They broadcast.
+    threads : int, optional
+        Number of threads; one per processor by default. The result does not depend on it.
+    out : numpy.ndarray, optional
+        Array for the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to.
+
+    Returns
+    -------
+    float or numpy.ndarray
+        Infinite where singular, NaN where an argument has NaN.
+
+    Raises
+    ------
+    ValueError
+        If shapes do not broadcast, a number is infinite, or `out` does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> nd.hexagonal_condition_number(0.0, 5.8124, 2.9062, 0.0, 3.9828, [2.3745, 2.4435, 2.5110]).round(4)
+    array([3.911 , 3.9071, 3.911 ])
+
+    """
+    given = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    columns = {name: without_infinity(name, _column(name, value)) for name, value in given.items()}
+    shape = leading_shape({name: (values, 0) for name, values in columns.items()})
+    checked_out(out, shape)
+    found = np.empty(shape) if out is None else out
+    each = [v.reshape(-1) if v.size == 1 else np.broadcast_to(v, shape).reshape(-1) for v in columns.values()]
+    flat, count = found.reshape(-1), thread_argument(threads)
+    designs = np.empty((min(GATHERED, flat.size), len(each)))
+    for first in range(0, flat.size, GATHERED):
+        part = flat[first : first + GATHERED]
+        rows = designs[: part.size]
+        for k, values in enumerate(each):
+            rows[:, k] = values if values.size == 1 else values[first : first + GATHERED]
+        _core.hexagonal_condition_numbers(rows, count, part)
+    return found if out is not None else found[()]
+
+
+def _column(name: str, value: ArrayLike) -> Floats:
+    """Return an array for reading: the argument itself if it has the right type."""
+    own = type(value) is np.ndarray and value.dtype == np.float64
+    return value if own else as_floats(name, value, ())  # type: ignore[return-value]  # the condition says so
