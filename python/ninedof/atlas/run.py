@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from ninedof.atlas import sample
-from ninedof.atlas.sample import VARIABLES, Sample, bounds_of, squared_radius_ratio
+from ninedof.atlas.sample import Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
 from ninedof.chunks import Arrays, chunk_argument, run
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import whole
 from ninedof.support.progress import Progress
 from ninedof.support.versions import versions
@@ -124,7 +125,7 @@ class AtlasWork:
 
 def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
     rows = total.number >= 0
-    design = np.full((len(rows), len(VARIABLES)), np.nan)
+    design = np.full((len(rows), len(HEXAGONAL)), np.nan)
     design[rows] = work.sample.at(total.number[rows].astype(np.uint64))
     ratio = ("radius_ratio",)
     return SweepResult(
@@ -133,7 +134,7 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
             "histogram": (*ratio, "condition_number"),
             **{"best": ratio, "number": ratio, "design": (*ratio, "variable")},
         },
-        coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(VARIABLES)},
+        coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
         units=dict.fromkeys(("histogram", "best", "number", "radius_ratio", "condition_number"), "1")
         | {"design": "l_c"},
         attributes={**work.question(), **versions()},

@@ -13,7 +13,6 @@ from ninedof import _core
 from ninedof.support.arguments import finite, known_keys, pair
 from ninedof.support.arrays import Floats
 
-VARIABLES = ("a1", "a2", "b1", "b2", "zp", "zs")
 BOUNDS: dict[str, tuple[float, float]] = {
     **dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, 10.0)),
     "zp": (0.05, 10.0),

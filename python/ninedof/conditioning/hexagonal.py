@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.support.arrays import Floats, as_floats, checked_out, leading_shape, thread_argument, without_infinity
 
+HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 GATHERED = 2**16  # designs passed to the core at once, so that they stay in the caches
 
 
@@ -55,7 +56,7 @@ def hexagonal_condition_number(
     array([3.911 , 3.9071, 3.911 ])
 
     """
-    given = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    given = dict(zip(HEXAGONAL, (a1, a2, b1, b2, zp, zs), strict=True))
     columns = {name: without_infinity(name, _column(name, value)) for name, value in given.items()}
     shape = leading_shape({name: (values, 0) for name, values in columns.items()})
     checked_out(out, shape)

@@ -168,6 +168,11 @@ def _flat(p: Floats, q: Floats, s: Floats) -> tuple[Floats, Floats, Floats]:
     return p.reshape(-1, 3), q.reshape(-1, 3, 3), s.reshape(-1, 3)
 
 
+def arrays_of(configuration: Configuration) -> dict[str, Floats]:
+    """Return the arrays of a configuration by name."""
+    return dict(zip(("position", "rotation", "internal_point"), configuration._arrays(), strict=True))
+
+
 def broadcast_flat(
     configuration: Configuration, **others: tuple[Floats, int]
 ) -> tuple[tuple[int, ...], tuple[Floats, Floats, Floats], list[Floats]]:
@@ -175,8 +180,7 @@ def broadcast_flat(
 
     Return the leading shape, the flat arrays of the configuration, and the other arrays.
     """
-    p, q, s = configuration._arrays()
-    own = {"position": (p, 1), "rotation": (q, 2), "internal_point": (s, 1)}
+    own = {name: (array, array.ndim - len(configuration.shape)) for name, array in arrays_of(configuration).items()}
     shape, (p, q, s, *rest) = broadcast_leading(own | others)
     return shape, _flat(p, q, s), rest
 

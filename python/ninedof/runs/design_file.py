@@ -15,7 +15,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.indices import computed
 from ninedof.design.study_file import read_toml
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.runs.folder import load_record
 from ninedof.support.arguments import is_number, known_keys, number, table
 
@@ -29,7 +29,6 @@ class Design(NamedTuple):
 
 
 HEXAGON = ("a1", "a2", "b1", "b2")
-TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 
 
 def hexagonal_design(values: Mapping[str, float], length: float | str = 1.0) -> Design:

@@ -1,4 +1,4 @@
-"""Files written whole or not at all, and named arrays in one of them."""
+"""Files written whole or not at all, and results saved as one file of named arrays."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ import os
 import secrets
 import struct
 import zlib
-from collections.abc import Callable, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, Self
 from zipfile import BadZipFile
 
 import numpy as np
@@ -24,8 +25,6 @@ DAMAGE = (
     *(ValueError, KeyError, TypeError, IndexError, AttributeError, EOFError, OverflowError, MemoryError),
     *(NotImplementedError, RuntimeError, BadZipFile, zlib.error, struct.error),
 )
-
-T = TypeVar("T")
 
 
 def write_whole(path: Path, data: bytes) -> Path:
@@ -49,27 +48,54 @@ def npz_bytes(arrays: Mapping[str, Any], *, compressed: bool = False) -> bytes:
     return buffer.getvalue()
 
 
-def write_npz(path: str | os.PathLike[str], arrays: Mapping[str, Any], *, compressed: bool = False) -> Path:
-    """Write named arrays and return the path: the suffix .npz is added if it is missing."""
-    file = Path(path)
-    file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
-    return write_whole(file, npz_bytes(arrays, compressed=compressed))
+class Saved(ABC):
+    """A result that one .npz file holds."""
 
+    FORMAT: ClassVar[str]
+    COMPRESSED: ClassVar[bool] = False
 
-def read_npz(path: str | os.PathLike[str], what: str, made: Callable[[Arrays], T]) -> T:
-    """Return what `made` makes of the arrays of a file.
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write everything to one .npz file, whole or not at all, and return its path.
 
-    Raises
-    ------
-    ValueError
-        Naming the file, if it cannot be read, is damaged, or `made` raises because it holds something else.
+        Parameters
+        ----------
+        path : path
+            The suffix .npz is added if it is missing.
 
-    """
-    try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
-            contents = dict(found)
-        return made(contents)
-    except OSError as error:
-        raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None
-    except DAMAGE:
-        raise ValueError(f"{os.fspath(path)}: got no {what} file, expected a whole one that `save` wrote") from None
+        """
+        file = Path(path)
+        file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
+        return write_whole(file, npz_bytes(self._contents(), compressed=self.COMPRESSED))
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote.
+
+        Parameters
+        ----------
+        path : path
+
+        Raises
+        ------
+        ValueError
+            Naming the file, if it cannot be read, is damaged, or has another format.
+
+        """
+        try:
+            with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
+                contents = dict(found)
+            return cls._made(contents)
+        except OSError as error:
+            raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None
+        except DAMAGE:
+            expected = f"got no {cls.FORMAT!r} file, expected a whole one that `save` wrote"
+            raise ValueError(f"{os.fspath(path)}: {expected}") from None
+
+    @abstractmethod
+    def _contents(self) -> dict[str, Any]:
+        """Return the arrays of the file."""
+
+    @classmethod
+    @abstractmethod
+    def _made(cls, contents: Arrays) -> Self:
+        """Return the result that has these arrays; raise an error of DAMAGE for those of another format."""

@@ -10,18 +10,19 @@ from typing import Any
 import numpy as np
 
 from ninedof.chunks import Arrays
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Status
 from ninedof.paper import published
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.progress import Progress
 from ninedof.sweep.axis import Axis, Grid
-from ninedof.sweep.poses import COORDINATES, TRIPLES
+from ninedof.sweep.poses import COORDINATES
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.work import GridWork
 
@@ -31,7 +32,6 @@ REACH = 1.0  # l_c or rad, either way from the neutral pose
 OCTAVES = 4  # ratios from 1/16 to 16
 MOST_POINTS = 100_000
 SIDES = ("a", "b")
-VARIABLES = ("a1", "a2", "b1", "b2", "zp", "zs")
 STARTS = 32
 
 
@@ -46,14 +46,14 @@ def sweep_figure(
     """Return the numbers behind a figure of the paper.
 
     "6" is the condition number of the published design against displacement in each of the nine coordinates, one at a
-    time, the others held: the platform moves and O stays, or O moves and the platform stays. zs,
-    which the paper does not print, has its best value.
+    time, with the others fixed: the platform moves and O stays, or O moves and the platform stays. zs, which the paper
+    does not print, has its best value.
 
     "7" is the least condition number of the hexagonal family for each ratio a1/a2, and for each b1/b2, all other
     variables re-optimized with the base at most twice the platform, as in section 5. A ratio and its inverse belong to
-    mirrored robots of the same condition number; it falls as a ratio grows, as the paper says, above 1 only.
-    Each point is a study of its own: sides 1 and 1/ratio (or ratio and 1), the characteristic length free. To scale a
-    robot with its characteristic length changes nothing, so that this is the study with the ratio held and l_c = 1.
+    mirrored robots of the same condition number. It falls as a ratio grows, as the paper says, but only above 1. Each
+    point is an optimization with sides 1 and 1/ratio (or ratio and 1) and a free characteristic length. The condition
+    number depends only on lengths over l_c, so this is the study with a fixed ratio and l_c = 1.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def sweep_figure(
     -------
     SweepResult
         "6": condition_number over (coordinate, displacement). "7": condition_number over (sides, ratio), and design,
-        the variables of the best design in units of l_c, over (sides, ratio, variable). NaN where no design was proved.
+        the variables of the best design in units of l_c, over (sides, ratio, variable). NaN where no optimum was found.
 
     Raises
     ------
@@ -118,7 +118,7 @@ class _Displaced:
     def question(self) -> dict[str, Any]:
         return {
             "kind": "Fig. 6",
-            "geometry": {name: getattr(self.geometry, name) for name in TRIPLES},
+            "geometry": triples(self.geometry),
             "home": {"position": self.home.position, "internal_point": self.home.internal_point},
             "internal_point": "held",
         }
@@ -129,7 +129,7 @@ def _figure_7(points: int) -> GridWork:
     axes = (Axis("sides", len(SIDES), 0.0, len(SIDES) - 1.0), Axis("ratio", points, explicit=ratios))
     indices = (
         INDICES["condition_number"],
-        Index("design", None, dimension="variable", components=VARIABLES, unit="l_c"),
+        Index("design", None, dimension="variable", components=HEXAGONAL, unit="l_c"),
     )
     return GridWork(_Ratios(), Grid(axes), indices, 1)
 
@@ -139,7 +139,7 @@ class _Ratios:
     """The best design with a ratio of two sides."""
 
     def values(self, at: dict[str, Floats], count: int, indices: tuple[Index, ...], threads: int | None) -> Arrays:
-        kappa, design = np.full(count, np.nan), np.full((count, len(VARIABLES)), np.nan)
+        kappa, design = np.full(count, np.nan), np.full((count, len(HEXAGONAL)), np.nan)
         for k, (side, ratio) in enumerate(zip(at["sides"].round().astype(int), at["ratio"].tolist(), strict=True)):
             result = optimize(ratio_study(SIDES[side], ratio))
             if result.interrupted:
@@ -147,7 +147,7 @@ class _Ratios:
             if result.status == Status.OPTIMAL and result.best is not None:
                 found = result.best
                 kappa[k] = found.condition_number
-                design[k] = [found.variables[name] / found.characteristic_length for name in VARIABLES]
+                design[k] = [found.variables[name] / found.characteristic_length for name in HEXAGONAL]
         return {"condition_number": kappa, "design": design}
 
     def question(self) -> dict[str, Any]:

@@ -11,24 +11,18 @@ import numpy as np
 from ninedof.chunks import Arrays
 from ninedof.design.indices import Index
 from ninedof.redundancy.redundancy_map import best_internal_map
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arrays import Floats
 
-ROTATION, POSITION, INTERNAL = (
-    ("theta_x", "theta_y", "theta_z"),
-    ("x_p", "y_p", "z_p"),
-    ("x_s", "y_s", "z_s"),
-)
+ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p", "z_p"), ("x_s", "y_s", "z_s")
 COORDINATES = (*ROTATION, *POSITION, *INTERNAL)
 """In the order of `Configuration.moved`."""
 RULES = ("held", "carried", "best")
 """Where O is while the platform moves."""
 
 BLOCK = 2048
-"""About as many points are placed together, in a tenth of a second: O at each continues from its neighbours."""
-
-TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
+"""Approximate number of points whose O is searched together, in a tenth of a second: each continues its neighbours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +44,15 @@ class Poses:
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
-        own = {"block": list(self.block)} if self.rule == "best" else {}
+        block = {"block": list(self.block)} if self.rule == "best" else {}
         return {
             "kind": "sweep",
-            "geometry": {name: getattr(self.geometry, name) for name in TRIPLES},
-            "home": {name: getattr(self.home, name) for name in ("position", "rotation", "internal_point")},
+            "geometry": triples(self.geometry),
+            "home": arrays_of(self.home),
             "relative": self.relative,
             "internal_point": self.rule,
             "characteristic_length": self.length,
-            **own,
+            **block,
         }
 
     def configurations(self, values: dict[str, Floats], count: int, threads: int | None = None) -> Configuration:
@@ -106,7 +100,7 @@ class Poses:
         return out
 
     def _carried(self, p: Floats, q: Floats) -> Floats:
-        """Return where O would be if it were fixed to the platform."""
+        """Return the positions of O when it is fixed to the platform."""
         x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
         # Written out: BLAS may round differently in a chunk of another size.
         out: Floats = p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.extras import optional
-from ninedof.support.files import Arrays, read_npz, write_npz
+from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
 
-FORMAT = "ninedof-sweep-1"
 HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
 
 
 @dataclass(frozen=True, eq=False)
-class SweepResult:
+class SweepResult(Saved):
     """Named arrays over named dimensions, with the values along each dimension and their units."""
+
+    FORMAT = "ninedof-sweep-1"
 
     arrays: Mapping[str, NDArray[Any]]
     """Name of an index to its values."""
@@ -32,7 +31,7 @@ class SweepResult:
     units: Mapping[str, str] = field(default_factory=dict)
     """Name of an index or a dimension to its unit: "rad", "length" for the caller's own, "1" for none."""
     attributes: Mapping[str, Any] = field(default_factory=dict)
-    """What was asked and with which versions, as plain JSON values."""
+    """Arguments of the call and versions, as plain JSON values."""
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return the array of an index, or the values along a dimension."""
@@ -83,7 +82,7 @@ class SweepResult:
         """
         array = self.arrays[name]
         if np.isnan(array).all():
-            raise ValueError(f"{name}: got NaN everywhere, expected a value to be least")
+            raise ValueError(f"{name}: got NaN everywhere, expected at least one number")
         position = np.unravel_index(int(np.nanargmin(array)), array.shape)
         return float(array[position]), self.at(name, position)
 
@@ -106,42 +105,16 @@ class SweepResult:
             {name: _attribute(value) for name, value in self.attributes.items()},
         )
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write everything as one .npz file, whole or not at all, and return its path.
-
-        Parameters
-        ----------
-        path : path
-            numpy's own suffix .npz is added if it is missing.
-
-        """
-        head = {"format": FORMAT, "dims": self.dims, "units": self.units, "attributes": self.attributes}
+    def _contents(self) -> dict[str, Any]:
+        head = {"format": self.FORMAT, "dims": self.dims, "units": self.units, "attributes": self.attributes}
         contents: dict[str, Any] = {HEAD: np.array(encode(head, indent=None))}
         contents |= {COORDINATE + name: values for name, values in self.coords.items()}
-        contents |= {ARRAY + name: values for name, values in self.arrays.items()}
-        return write_npz(path, contents)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> SweepResult:
-        """Read what `save` wrote.
-
-        Parameters
-        ----------
-        path : path
-
-        Raises
-        ------
-        ValueError
-            If there is no such file, or it is not one of ours; the message names it.
-
-        """
-        return read_npz(path, repr(FORMAT), cls._made)
+        return contents | {ARRAY + name: values for name, values in self.arrays.items()}
 
     @classmethod
     def _made(cls, contents: Arrays) -> SweepResult:
-        """Return the result from the arrays of a file; raise if they are those of another kind of file."""
         head = decode(str(contents[HEAD]))
-        if head["format"] != FORMAT:
+        if head["format"] != cls.FORMAT:
             raise ValueError
         dims = {name: tuple(of) for name, of in head["dims"].items()}
         return cls(

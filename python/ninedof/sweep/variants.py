@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 
 from ninedof.chunks import Arrays
-from ninedof.conditioning.hexagonal import hexagonal_condition_number
+from ninedof.conditioning.hexagonal import HEXAGONAL, hexagonal_condition_number
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
-
-HEXAGONAL = ("a1", "a2", "b1", "b2", "zp", "zs")
 
 
 @dataclass(frozen=True)

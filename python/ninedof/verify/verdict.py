@@ -12,6 +12,7 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result
+from ninedof.robot.geometry import TRIPLES
 from ninedof.support.arrays import Floats
 from ninedof.verify.aim import Aim
 from ninedof.verify.perturbation import SCALES, perturb
@@ -164,17 +165,14 @@ def _design(places: Places, best: Any) -> Finding:
     figure = max(float(outside.max()), 0.0)
     robot = places.robot(places.x)
     g, h = robot.geometry, best.geometry
-    apart = max(float(np.abs(getattr(g, name) - getattr(h, name)).max()) for name in _TRIPLES)
-    same = apart <= EQUAL * float(max(np.abs(getattr(g, name)).max() for name in _TRIPLES))
+    apart = max(float(np.abs(getattr(g, name) - getattr(h, name)).max()) for name in TRIPLES)
+    same = apart <= EQUAL * float(max(np.abs(getattr(g, name)).max() for name in TRIPLES))
     same &= np.allclose(robot.neutral.position, best.configuration.position, rtol=EQUAL, atol=0.0)
     same &= np.allclose(robot.neutral.internal_point, best.configuration.internal_point, rtol=EQUAL, atol=0.0)
     same &= np.allclose(robot.neutral.rotation, best.configuration.rotation, rtol=0.0, atol=EQUAL)
     words = "describe the joints returned" if same else "do NOT describe the joints returned"
     sentence = f"{len(places.names)} variables within their bounds to {figure:.1e}, {words}"
     return Finding("design", bool(same) and figure <= FEASIBLE, figure, sentence)
-
-
-_TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 
 
 def _numbers(places: Places, aim: Aim, best: Any) -> Iterator[Finding]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import asdict, dataclass, fields
 from enum import StrEnum
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,11 +11,9 @@ import numpy as np
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, read_npz, write_npz
+from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
-
-FORMAT = "ninedof-workspace-2"
 
 
 class WorkspaceStatus(StrEnum):
@@ -34,8 +30,11 @@ class WorkspaceStatus(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class WorkspaceMap:
+class WorkspaceMap(Saved):
     """A workspace, its volume, its boundary and what limits it."""
+
+    FORMAT = "ninedof-workspace-2"
+    COMPRESSED = True
 
     status: WorkspaceStatus
     volume: float
@@ -172,21 +171,9 @@ class WorkspaceMap:
         out["share"] = self.share
         return out
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the map to a file of numpy arrays (.npz), whole or not at all.
-
-        Parameters
-        ----------
-        path : path
-            numpy's own suffix .npz is added if it is missing.
-
-        Returns
-        -------
-        pathlib.Path
-
-        """
+    def _contents(self) -> dict[str, Any]:
         arrays = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
-        words: dict[str, Any] = {"format": FORMAT, "limit_names": list(LIMITS)}
+        words: dict[str, Any] = {"format": self.FORMAT, "limit_names": list(LIMITS)}
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, np.ndarray):
@@ -195,30 +182,13 @@ class WorkspaceMap:
                 words[field.name] = asdict(value)
             elif field.name != "cells":
                 words[field.name] = value
-        return write_npz(path, {"words": np.array(encode(words, indent=None)), **arrays}, compressed=True)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> WorkspaceMap:
-        """Read a map written by `save`.
-
-        Parameters
-        ----------
-        path : path
-
-        Raises
-        ------
-        ValueError
-            If there is no such file or it holds no map; the message names it.
-
-        """
-        return read_npz(path, repr(FORMAT), cls._made)
+        return {"words": np.array(encode(words, indent=None)), **arrays}
 
     @classmethod
     def _made(cls, contents: Arrays) -> WorkspaceMap:
-        """Return the map stored as these arrays; raise for arrays of another file."""
         data: dict[str, Any] = dict(contents)
         words = decode(str(data.pop("words")))
-        if words.pop("format") != FORMAT or tuple(words.pop("limit_names")) != LIMITS:
+        if words.pop("format") != cls.FORMAT or tuple(words.pop("limit_names")) != LIMITS:
             raise ValueError
         cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
         words["status"] = WorkspaceStatus(words["status"])

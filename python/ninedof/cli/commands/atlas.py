@@ -11,10 +11,11 @@ import typer
 from rich.table import Table
 
 from ninedof.atlas import atlas as survey
-from ninedof.atlas.sample import VARIABLES, squared_radius_ratio
+from ninedof.atlas.sample import squared_radius_ratio
 from ninedof.cli.long_run import compute, run_folder, write
 from ninedof.cli.options import Figures, Json, Out, Resume, Scheduler
 from ninedof.cli.screen import INTERRUPTED, Screen
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.sweep import SweepResult
@@ -64,7 +65,7 @@ def atlas(
 
         best = optimize(Study.paper()).best
         assert best is not None, "the paper's study has an optimum"
-        sides = np.array([[best.variables[name] for name in VARIABLES]])
+        sides = np.array([[best.variables[name] for name in HEXAGONAL]])
         return plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
 
     write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]

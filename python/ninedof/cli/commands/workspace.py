@@ -18,6 +18,8 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_summary import draw, pose_bar, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.paper.published import published_variables
+from ninedof.robot.configuration import arrays_of
+from ninedof.robot.geometry import triples
 from ninedof.runs.design_file import Design, hexagonal_design, load_design
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
@@ -194,10 +196,4 @@ def _rule(text: str) -> str | float:
 
 
 def _describe(given: Design, asked: Mapping[str, Any]) -> dict[str, Any]:
-    g, c = given.geometry, given.configuration
-    triples = ("base_external", "base_internal", "platform_external", "platform_internal")
-    return {
-        "geometry": {name: getattr(g, name) for name in triples},
-        "home": {"position": c.position, "rotation": c.rotation, "internal_point": c.internal_point},
-        **asked,
-    }
+    return {"geometry": triples(given.geometry), "home": arrays_of(given.configuration), **asked}
