@@ -42,7 +42,7 @@ def _version(value: bool) -> None:
 @app.callback()
 def _root(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
     pass
@@ -52,17 +52,17 @@ _register()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line; bad input ends in one line on standard error and status 2."""
+    """Run the command line; bad input prints one line on standard error, and the exit status is 2."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    asks_about_itself = bool(given) and given[0] in ("-h", "--help", "--version")
-    if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not asks_about_itself):
+    own_option = bool(given) and given[0] in ("-h", "--help", "--version")
+    if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")
     try:
         app(given, prog_name="ninedof")
     except ValueError as error:
         typer.echo(f"ninedof: {error}", err=True)
         raise SystemExit(2) from None
-    except BrokenPipeError:  # the reader went away, `ninedof paper | head`
+    except BrokenPipeError:  # the reader closed the pipe, as `head` does
         sys.stderr.close()
         raise SystemExit(0) from None
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The design that options name: a file, or sides and heights; and its characteristic length."""
+"""The design given by options, as a file or as sides and heights, and its characteristic length."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ninedof.runs.design_file import Design, hexagonal_design, load_design
 
 
 def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
-    """Return the design of a file, or of sides and heights."""
+    """Return the design of a file, or of the sides and heights of the hexagonal family."""
     named = {name: value for name, value in sides.items() if value is not None}
     if design is not None:
         if named or theta_z_deg is not None:
@@ -23,8 +23,13 @@ def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_
     return hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)})
 
 
+def with_length(design: Design, lc: str | None) -> Design:
+    """Return the design with the characteristic length given by --lc, if any."""
+    return design if lc is None else design._replace(characteristic_length=length_option(lc))
+
+
 def length_option(text: str) -> float | str:
-    """Return a characteristic length as --lc gives it."""
+    """Return the characteristic length given by --lc."""
     try:
         return float(text)
     except ValueError:

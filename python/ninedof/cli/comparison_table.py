@@ -1,9 +1,8 @@
-"""The published optimum and ours side by side."""
+"""The table of the published optimum beside ours."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from rich.table import Table
 
@@ -13,7 +12,7 @@ from ninedof.paper.comparison import Comparison
 
 
 def comparison_table(c: Comparison) -> Table:
-    """Lay the published optimum and ours side by side: one design a column."""
+    """Return the table of the published optimum beside ours, one design per column."""
     table = Table(title="The paper's design problem, lengths in units of l_c", title_justify="left", title_style="bold")
     table.add_column("", overflow="fold")
     table.add_column("published\nas printed", justify="right", overflow="fold")
@@ -26,20 +25,19 @@ def comparison_table(c: Comparison) -> Table:
     for title, _ in rows:
         table.add_column(title, justify="right", overflow="fold")
 
-    def line(label: str, printed: str, *values: str, **style: Any) -> None:
-        table.add_row(label, printed, *values, **style)
-
     base, platform = ("a1", "a2"), ("b1", "b2")
     for label, names, printed in (("base a1, a2", base, "0, -"), ("platform b1, b2", platform, "5.8124, -")):
-        line(label, printed, *(", ".join(short(r.variables[n]) for n in names) for _, r in rows))
-    line("base / platform", "-", *(f"{r.radius_ratio:.4f}" for _, r in rows))
-    line("height zp", f"{published.ZP:.4f}", *(f"{r.variables['zp']:.4f}" for _, r in rows))
-    line("height of O, zs", "-", *(f"{r.variables['zs']:.4f}" for _, r in rows), end_section=True)
+        table.add_row(label, printed, *(", ".join(short(r.variables[n]) for n in names) for _, r in rows))
+    table.add_row("base / platform", "-", *(f"{r.radius_ratio:.4f}" for _, r in rows))
+    table.add_row("height zp", f"{published.ZP:.4f}", *(f"{r.variables['zp']:.4f}" for _, r in rows))
+    table.add_row("height of O, zs", "-", *(f"{r.variables['zs']:.4f}" for _, r in rows), end_section=True)
     for k, label in enumerate(("external legs l", "upper internal q", "lower internal r")):
-        line(label, "-", *(f"{r.legs[k]:.4f}" for _, r in rows), end_section=k == 2)
-    line("condition number", f"{published.KAPPA:.4f}", *(f"{r.condition_number:.6f}" for _, r in rows), style="bold")
-    line("below 3.9110 by", "-", *("-" if abs(r.gain) < 0.005 else f"{r.gain:.2f} %" for _, r in rows))
-    line("limits reached", "-", *("\n".join(_binding(r.variables, r.active)) for _, r in rows))
+        table.add_row(label, "-", *(f"{r.legs[k]:.4f}" for _, r in rows), end_section=k == 2)
+    table.add_row(
+        "condition number", f"{published.KAPPA:.4f}", *(f"{r.condition_number:.6f}" for _, r in rows), style="bold"
+    )
+    table.add_row("below 3.9110 by", "-", *("-" if abs(r.gain) < 0.005 else f"{r.gain:.2f} %" for _, r in rows))
+    table.add_row("limits reached", "-", *("\n".join(_binding(r.variables, r.active)) for _, r in rows))
     return table
 
 
@@ -48,7 +46,7 @@ def _binding(variables: Mapping[str, float], active: tuple[str, ...]) -> list[st
 
 
 def comparison_words(c: Comparison) -> str:
-    """Say what the table does not."""
+    """Return the remarks below the table."""
     below, above = c.crossings
     return (
         f"Read with a as the base, as eqs. (37)-(38) have it, eq. (39) allows no condition number under "

@@ -1,4 +1,4 @@
-"""Run folders of long work: chunks as they are finished, the result at the end, and what to say in between."""
+"""Run folders of sweeps and atlases: finished chunks, the result and its figure, messages."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHUNKS = "chunks"
 
 @contextmanager
 def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
-    """Give a new run folder, or that of an interrupted run."""
+    """Yield a new run folder, or that of an interrupted run."""
     if not resume:
         with run_directory(out) as directory:
             yield directory
@@ -38,14 +38,14 @@ def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
 def compute(
     asked: Callable[..., SweepResult], title: str, directory: Path, scheduler: str | None, screen: Screen
 ) -> SweepResult | None:
-    """Compute with a bar, keeping chunks in the run folder; None where Ctrl-C ended it."""
+    """Compute with a progress bar and keep chunks in the run folder; return None if Ctrl-C ends the run."""
     try:
         with _executor(scheduler) as executor, screen.points(title) as bar:
             return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
     except KeyboardInterrupt:
         screen.print(
             f"[bold]interrupted[/bold]: finished chunks are kept in {directory}; the same command with "
-            f"--out {directory} --resume goes on from there"
+            f"--out {directory} --resume continues the run"
         )
         screen.data({"interrupted": True, "run": str(directory)})
         return None
@@ -54,7 +54,7 @@ def compute(
 def write(
     result: SweepResult, directory: Path, stem: str, draw: Callable[[], Figure] | None, screen: Screen, data: Any
 ) -> None:
-    """Write the result, its record and its figure, and say where they are."""
+    """Write the result, its record and its figure; print their names."""
 
     def drawn(folder: Path) -> list[Path]:
         screen.say("drawing")

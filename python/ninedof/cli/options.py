@@ -8,18 +8,18 @@ from typing import Annotated
 import typer
 
 Json = Annotated[
-    bool, typer.Option("--json", help="Print the result as JSON on standard output, words on standard error.")
+    bool, typer.Option("--json", help="Print the result as JSON on standard output, text on standard error.")
 ]
 Threads = Annotated[
-    int | None, typer.Option(help="Threads; one a processor by default. The result does not depend on it.")
+    int | None, typer.Option(help="Threads; one per processor by default. The result does not depend on it.")
 ]
 StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
 Out = Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")]
 Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
 Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
-Resume = Annotated[bool, typer.Option("--resume", help="Go on with the interrupted run in --out.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Continue the interrupted run in --out.")]
 Scheduler = Annotated[
-    str | None, typer.Option(help="Address of a Dask scheduler whose workers compute, as tcp://host:8786.")
+    str | None, typer.Option(help="Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
 ]
 
 BaseSide1 = Annotated[float | None, typer.Option(help="Base side (eq. 37).")]

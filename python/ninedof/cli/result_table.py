@@ -1,4 +1,4 @@
-"""The candidates of a study, laid out for a person."""
+"""The table of the candidates of a study, and its shadow prices."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
 def short(value: float) -> str:
-    """Return four decimals, zero as such."""
+    """Return a number with four decimals, and zero as "0"."""
     return "0" if value == 0.0 else f"{value:.4f}"
 
 
 def result_table(result: Result) -> Table:
-    """Lay the candidates of a study side by side, best first."""
+    """Return the table of the best candidates, one per column, best first."""
     shown = result.candidates[:SHOWN]
     table = Table(title=f"{_count(len(result.candidates))}, {result.starts_done} starts", title_justify="left")
     table.add_column("", overflow="fold")
@@ -42,19 +42,18 @@ def result_table(result: Result) -> Table:
 
 
 def price_text(result: Result) -> list[str]:
-    """Return what the table does not say: which limits cost what at the best candidate, and how many starts agree."""
+    """Return the shadow prices of the best candidate, and the share of starts that reached it."""
     if result.best is None:
         return []
     which = "starts followed to their end" if result.runs_abandoned else "starts"
     sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
-    hopeless = (
-        f"; {result.runs_abandoned} of {result.starts_done} were given up as hopeless" if result.runs_abandoned else ""
-    )
-    return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure + hopeless])]
+    if result.runs_abandoned:
+        sure += f"; {result.runs_abandoned} of {result.starts_done} were abandoned early"
+    return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure])]
 
 
 def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:
-    """Add the objective and, where it is something else, the neutral condition number and those over the poses."""
+    """Add the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
     objective = result.study.objective
     plain = objective.index == "condition_number" and not objective.poses
     table.add_row(objective.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)

@@ -1,29 +1,36 @@
-"""Where words, bars and machine-readable results go, and what the shell is told."""
+"""Output of the commands: text, progress bars, JSON, and the exit status."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 from ninedof.optimize.result import Result, Status
 from ninedof.support.json import encode
 
-DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, bad input, is the command line's
+DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, for bad input, is set by `app`
 
 
 def exit_status(result: Result) -> int:
-    """Return what the shell is told."""
+    """Return the exit status of a command that optimizes."""
     if result.interrupted:
         return INTERRUPTED
     return DONE if result.status == Status.OPTIMAL else NO_RESULT
 
 
 class Screen:
-    """Where words go: standard output, or standard error where standard output is for JSON."""
+    """Text goes to standard output, or to standard error if standard output is for JSON."""
 
     def __init__(self, json: bool) -> None:
         """Choose the consoles."""
@@ -32,79 +39,63 @@ class Screen:
         self.words = Console(stderr=True) if json else Console(highlight=False)
 
     def print(self, *parts: Any) -> None:
-        """Print words or a table for a person."""
+        """Print text or a table."""
         self.words.print(*parts)
 
     def data(self, value: Any) -> None:
-        """Print the machine-readable result, if it was asked for."""
+        """Print the result as JSON with --json."""
         if self.json:
             print(encode(value))
 
     def say(self, doing: str) -> None:
-        """Say what is being done besides solving."""
+        """Print the current step, such as drawing."""
         self.progress_console.print(f"  {doing}", style="dim", highlight=False)
 
-    @contextmanager
-    def progress(self, title: str) -> Iterator[Bar]:
-        """Show a bar of starts while solving, then what else is done."""
-        columns = (
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=24),
-            MofNCompleteColumn(),
-            TextColumn("{task.fields[best]}"),
-            TimeElapsedColumn(),
-        )
-        with Progress(*columns, console=self.progress_console) as shown:
-            yield Bar(shown, title)
+    def progress(self, title: str) -> AbstractContextManager[Bar]:
+        """Show a bar of starts with the best objective so far."""
+        columns = (BarColumn(bar_width=24), MofNCompleteColumn(), "{task.fields[value]}", TimeElapsedColumn())
+        return self._bar(title, columns, lambda best: "no design" if best is None else f"best {best:.6f}", at_once=True)
+
+    def points(self, title: str) -> AbstractContextManager[Bar]:
+        """Show a bar of points with the remaining time."""
+        percent = "{task.percentage:>3.0f} %"
+        columns = (BarColumn(bar_width=24), percent, TimeRemainingColumn(), "to go", TimeElapsedColumn())
+        return self._bar(title, columns, lambda _: "")
+
+    def poses(self, title: str) -> AbstractContextManager[Bar]:
+        """Show a bar of poses with the volume so far and the remaining time, estimated from the levels so far."""
+        count = "{task.completed:,.0f} poses{task.fields[value]}"
+        columns = (BarColumn(bar_width=12), count, TimeRemainingColumn(), "to go")
+        return self._bar(title, columns, lambda volume: "" if volume is None else f", volume {volume:.4g}")
 
     @contextmanager
-    def points(self, title: str) -> Iterator[PointBar]:
-        """Show a bar of points with the time to go."""
-        columns = (
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=24),
-            TextColumn("{task.percentage:>3.0f} %"),
-            TimeRemainingColumn(),
-            TextColumn("to go"),
-            TimeElapsedColumn(),
-        )
-        with started_by_first_report(Progress(*columns, console=self.progress_console)) as shown:
-            yield PointBar(shown, title)
-
-
-@contextmanager
-def started_by_first_report(shown: Progress) -> Iterator[Progress]:
-    """Let the first report start the bar: input that is refused before that shows none."""
-    try:
-        yield shown
-    finally:
-        if shown.live.is_started:
-            shown.stop()
-
-
-class PointBar:
-    """A bar of points."""
-
-    def __init__(self, shown: Progress, title: str) -> None:
-        """Begin at nothing."""
-        self._shown = shown
-        self._task = shown.add_task(title, total=None)
-
-    def show(self, done: int, total: int, _: float | None) -> None:
-        """Show the progress of a sweep."""
-        self._shown.start()
-        self._shown.update(self._task, completed=done, total=total)
+    def _bar(
+        self,
+        title: str,
+        columns: tuple[ProgressColumn | str, ...],
+        words: Callable[[float | None], str],
+        at_once: bool = False,
+    ) -> Iterator[Bar]:
+        """Show a bar from the first report on, or at once. Bad input raises before the first report: no bar then."""
+        shown = Progress("{task.description}", *columns, console=self.progress_console)
+        if at_once:
+            shown.start()
+        try:
+            yield Bar(shown, title, words)
+        finally:
+            if shown.live.is_started:
+                shown.stop()
 
 
 class Bar:
-    """A bar of starts."""
+    """A progress bar, updated by `show`."""
 
-    def __init__(self, shown: Progress, title: str) -> None:
-        """Begin at nothing."""
-        self._shown = shown
-        self._task = shown.add_task(title, total=None, best="")
+    def __init__(self, shown: Progress, title: str, words: Callable[[float | None], str]) -> None:
+        """Add a bar without a length; `words` formats the value of a report."""
+        self._shown, self._words = shown, words
+        self._task = shown.add_task(title, total=None, value="")
 
-    def starts(self, done: int, total: int, best: float | None) -> None:
-        """Take the progress of an optimization."""
-        words = "no design" if best is None else f"best {best:.6f}"
-        self._shown.update(self._task, completed=done, total=total, best=words)
+    def show(self, done: int, total: int, value: float | None) -> None:
+        """Update the bar: the progress callback of a long call."""
+        self._shown.start()
+        self._shown.update(self._task, completed=done, total=total, value=self._words(value))

@@ -1,4 +1,4 @@
-"""The result of a sweep in a few words: extremes of each index, as a table and as JSON."""
+"""The summary of a sweep: extremes of each index, as a table and as JSON."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from rich.table import Table
 
 from ninedof.sweep import SweepResult
 
-MOST_PRINTED = 10_000  # numbers that JSON repeats; the file has them all
+MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:
-    """Return what is most and least of an index, where, and how many points have none."""
+    """Return the extremes of an index with their coordinates, and the numbers of infinite and missing values."""
     values = result[name]
     finite = np.isfinite(values)
     out: dict[str, Any] = {
@@ -31,7 +31,7 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
 
 
 def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table:
-    """Lay out least and greatest value of each index, and where they are."""
+    """Return the table of the least and the greatest value of each index, with their coordinates."""
     table = Table(title=title, title_justify="left", title_style="bold")
     counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
     for head in ("index", "", "value", "at", *counts):
@@ -50,7 +50,7 @@ def _end(end: Mapping[str, Any] | None) -> tuple[str, str]:
 
 
 def json_data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the machine-readable result; with all values where there are not too many."""
+    """Return the data of --json, with all values of a small result."""
     data: dict[str, Any] = {"sweep": {"dims": dict(result.dims), "indices": summary, "attributes": result.attributes}}
     if sum(a.size for a in (*result.arrays.values(), *result.coords.values())) <= MOST_PRINTED:
         data["sweep"]["coords"] = {name: values.tolist() for name, values in result.coords.items()}

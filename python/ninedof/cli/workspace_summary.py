@@ -1,45 +1,21 @@
-"""A workspace for a person: the bar while it is found, its table, what to say, its figure."""
+"""The summary of a workspace: table, remarks and figure."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ninedof.cli.screen import Screen, started_by_first_report
+from ninedof.cli.screen import Screen
 from ninedof.workspace import WorkspaceMap
 
 SHOWN = 8  # limits in the table
 
 
-@contextmanager
-def pose_bar(screen: Screen, title: str) -> Iterator[Any]:
-    """Show a bar of poses with the time to go, as far as is known from the levels before."""
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=12),
-        TextColumn("{task.completed:,.0f} poses{task.fields[volume]}"),
-        TimeRemainingColumn(),
-        TextColumn("to go"),
-    )
-    with started_by_first_report(Progress(*columns, console=screen.progress_console)) as shown:
-        task = shown.add_task(title, total=None, volume="")
-
-        def progress(done: int, expected: int, volume: float | None) -> None:
-            words = "" if volume is None else f", volume {volume:.4g}"
-            shown.start()
-            shown.update(task, completed=done, total=expected, volume=words)
-
-        yield progress
-
-
 def workspace_table(found: WorkspaceMap) -> Table:
-    """Lay a workspace out for a person."""
+    """Return the table of a workspace."""
     table = Table(title="Workspace", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
     table.add_column(justify="right")
@@ -47,7 +23,7 @@ def workspace_table(found: WorkspaceMap) -> Table:
     table.add_row("  error, estimated", f"{found.error:.2g}")
     table.add_row("  share of the box or region", f"{100.0 * found.share:.3g} %")
     if found.unseen > 0.0:
-        table.add_row("  too thin to be seen, at most (95 %)", f"{found.unseen:.2g}")
+        table.add_row("  missed thin parts, at most (95 %)", f"{found.unseen:.2g}")
     if len(found.pieces) > 1:
         table.add_row("  pieces", str(len(found.pieces)))
     if found.ball_radius > 0.0:
@@ -65,22 +41,22 @@ def workspace_table(found: WorkspaceMap) -> Table:
 
 
 def sentences(found: WorkspaceMap) -> Iterator[str]:
-    """Say what the table does not."""
+    """Yield remarks on the table, one sentence each."""
     words = {
-        "limited": "the number of poses ran out before the error asked for was reached",
+        "limited": "the greatest number of poses was reached before the wanted error",
         "empty": "no allowed pose was found",
-        "stopped": "interrupted: what was known until then is kept",
+        "stopped": "interrupted: the state after the last complete level",
     }
     if found.status in words:
         yield f"[bold]{found.status}[/bold]: {words[found.status]}"
     if not found.home_allowed:
         yield f"the home pose is not allowed: {found.home_limit}"
     if found.box_limits:
-        yield "the workspace runs to the box: in a larger one it would be larger"
+        yield "the workspace reaches the faces of the box: it is larger in a larger box"
 
 
 def draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
-    """Draw two sections through the middle; return the files."""
+    """Draw two sections through the centre of the largest ball, or else the worst pose; return the files."""
     screen.say("drawing the workspace")
     from ninedof import plot
 

@@ -20,6 +20,7 @@ from ninedof.atlas import sample
 from ninedof.atlas.run import AtlasTask
 from ninedof.atlas.sample import STEPS, Sample, bounds_of, squared_radius_ratio
 from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
+from ninedof.conditioning.hexagonal import HEXAGONAL
 
 RATIO_EDGES, CONDITION_EDGES = ratio_edges(), condition_edges()
 OPTIMUM = 3.762659  # of the paper's study, proved in the theory notes
@@ -27,7 +28,7 @@ OPTIMUM = 3.762659  # of the paper's study, proved in the theory notes
 
 def oracle(x):
     """Condition numbers by LAPACK, joints and J' assembled from their equations."""
-    v = dict(zip(sample.VARIABLES, np.asarray(x).T, strict=True))
+    v = dict(zip(HEXAGONAL, np.asarray(x).T, strict=True))
     zero = np.zeros(len(x))
     m = model.Robot(
         *designs.joints("hexagonal", v),
@@ -85,7 +86,7 @@ def test_every_design_is_counted_in_its_bin(found, all_designs, kappas):
 def test_the_radius_ratio_is_that_of_the_studies(all_designs):
     study = nd.Study(constraints={"radius_ratio": (None, 2.0)})
     for x, squared in zip(all_designs[:50], squared_radius_ratio(all_designs[:50]), strict=True):
-        point = study.evaluate(dict(zip(sample.VARIABLES, x.tolist(), strict=True)))
+        point = study.evaluate(dict(zip(HEXAGONAL, x.tolist(), strict=True)))
         assert 2.0 * np.exp(-point.margins["radius_ratio"]) == pytest.approx(np.sqrt(squared), rel=1e-12)
         radii = [np.linalg.norm(t[0]) for t in (point.geometry.base_external, point.geometry.platform_external)]
         assert radii[0] / radii[1] == pytest.approx(np.sqrt(squared), rel=1e-12)

@@ -220,12 +220,12 @@ import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
 sys.path[:] = {sys.path}
 import ninedof.cli.app, ninedof.cli.screen
-report = ninedof.cli.screen.Bar.starts
+report = ninedof.cli.screen.Bar.show
 def starts(bar, done, total, best):
     report(bar, done, total, best)
     if done < total:
         sys.stderr.write("working\\n")
-ninedof.cli.screen.Bar.starts = starts
+ninedof.cli.screen.Bar.show = starts
 ninedof.cli.app.main({arguments})
 """
     command = [sys.executable, "-c", script]

@@ -32,7 +32,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 def atlas(
-    designs: Annotated[int, typer.Option(help="How many designs.")] = 1_000_000,
+    designs: Annotated[int, typer.Option(help="Number of designs.")] = 1_000_000,
     seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0,
     out: Out = None,
     resume: Resume = False,
@@ -40,7 +40,7 @@ def atlas(
     figures: Figures = True,
     json: Json = False,
 ) -> None:
-    """Survey the hexagonal family: how its designs are distributed, the best for each size of the base."""
+    """Survey the hexagonal family: the distribution of its designs, and the best for each size of the base."""
     screen = Screen(json)
     asked = partial(survey, designs, seed)
     with run_folder(out, resume) as directory:
@@ -72,7 +72,7 @@ def atlas(
 
 
 def _table(result: SweepResult) -> Table:
-    """Lay out the best designs up to a few sizes of the base."""
+    """Return the table of the best designs up to a few sizes of the base."""
     table = Table(title="best of all designs up to a radius ratio", title_justify="left", title_style="bold")
     for head in ("radius ratio\nbelow", "condition\nnumber", *result["variable"].tolist()):
         table.add_column(head, justify="right")

@@ -10,17 +10,8 @@ import numpy as np
 import typer
 from rich.table import Table
 
-from ninedof.cli.chosen_design import chosen_design, length_option
-from ninedof.cli.options import (
-    BaseSide1,
-    BaseSide2,
-    Height,
-    InternalHeight,
-    Json,
-    PlatformSide1,
-    PlatformSide2,
-    TwistDeg,
-)
+from ninedof.cli import options
+from ninedof.cli.chosen_design import chosen_design, with_length
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import computed
 from ninedof.runs.design_file import indices
@@ -39,27 +30,25 @@ def evaluate(
     design: Annotated[
         Path | None, typer.Argument(help="A design file (TOML), a run folder or its record.json.")
     ] = None,
-    a1: BaseSide1 = None,
-    a2: BaseSide2 = None,
-    b1: PlatformSide1 = None,
-    b2: PlatformSide2 = None,
-    zp: Height = None,
-    zs: InternalHeight = None,
-    theta_z_deg: TwistDeg = None,
+    a1: options.BaseSide1 = None,
+    a2: options.BaseSide2 = None,
+    b1: options.PlatformSide1 = None,
+    b2: options.PlatformSide2 = None,
+    zp: options.Height = None,
+    zs: options.InternalHeight = None,
+    theta_z_deg: options.TwistDeg = None,
     lc: Annotated[
         str | None,
         typer.Option(
             help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; 1 by default."
         ),
     ] = None,
-    json: Json = False,
+    json: options.Json = False,
 ) -> None:
     """Print the indices of one design and configuration."""
     screen = Screen(json)
     sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    given = chosen_design(design, sides, theta_z_deg)
-    if lc is not None:
-        given = given._replace(characteristic_length=length_option(lc))
+    given = with_length(chosen_design(design, sides, theta_z_deg), lc)
     values = indices(given)
     table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
@@ -78,8 +67,8 @@ def evaluate(
             table.add_row(f"at the {kind} length {found['length']:.6f}", f"k = {found['condition_number']:.6f}")
     screen.print(table)
     if values["singular"]:
-        screen.print("This configuration is singular: with all legs locked, the platform or O can still move.")
+        screen.print("This configuration is singular: the platform or O can move with all legs locked.")
     p, o = given.configuration.position[2], given.configuration.internal_point[2]
     if not 0.0 < o < p:
-        screen.print("O is not between base and platform: studies keep 0 < zs < zp.")
+        screen.print("O is not between base and platform: studies require 0 < zs < zp.")
     screen.data(values)

@@ -1,4 +1,4 @@
-"""`ninedof optimize`: solve a study, or the paper's beside the published optimum."""
+"""`ninedof optimize`: solve a study; by default that of the paper, beside the published optimum."""
 
 from __future__ import annotations
 
@@ -40,10 +40,12 @@ def optimize(
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
     figures: Figures = True,
-    check: Annotated[bool, typer.Option("--check", help="Verify the best design by other means, and say how.")] = False,
+    check: Annotated[
+        bool, typer.Option("--check", help="Verify the best design by independent methods and print the report.")
+    ] = False,
     json: Json = False,
 ) -> None:
-    """Find the best design of a study: by default, the one of least condition number."""
+    """Find the best design of a study: by default, the design with the least condition number."""
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
@@ -57,14 +59,14 @@ def _optimize_paper(
     study: Study, directory: Path, threads: int | None, figures: bool, screen: Screen, check: bool
 ) -> int:
     with screen.progress("the paper's problem") as bar:
-        comparison = compare(study.starts, study.seed, threads, bar.starts)
+        comparison = compare(study.starts, study.seed, threads, bar.show)
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
     if comparison.result.interrupted:
         screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
     checked = _checked(comparison.result, check, screen)
     record = write_run(comparison, directory, figures_of(comparison, screen.say) if figures else None)
-    _say_where(screen, record)
+    _print_folder(screen, record)
     screen.data({**describe_comparison(comparison), "record": str(record), **checked})
     return exit_status(comparison.result)
 
@@ -76,7 +78,7 @@ def _optimize_study(
         low, high = study.variables[variable]  # type: ignore[misc]  # a free one
         screen.print(f"{variable} is not given: [{low:g}, {high:g}] assumed")
     with screen.progress(name) as bar:
-        result = solve(study, threads=threads, progress=bar.starts)
+        result = solve(study, threads=threads, progress=bar.show)
     screen.print(f"[bold]{result.status}[/bold]: {result.reason}")
     if result.candidates:
         screen.print(result_table(result))
@@ -85,13 +87,13 @@ def _optimize_study(
             screen.print(bound.sentence)
     checked = _checked(result, check, screen)
     record = write_run(result, directory, figures_of(result, screen.say) if figures else None)
-    _say_where(screen, record)
+    _print_folder(screen, record)
     screen.data({"optimization": result.to_dict(), "record": str(record), **checked})
     return exit_status(result)
 
 
 def _checked(result: Result, wanted: bool, screen: Screen) -> dict[str, Any]:
-    """Check the best design where asked to, say how it went, and return it for the machine-readable result."""
+    """Check the best design with --check, print the report, and return it for --json."""
     if not wanted or result.best is None:
         return {}
     verdict = examine(result)
@@ -99,7 +101,7 @@ def _checked(result: Result, wanted: bool, screen: Screen) -> dict[str, Any]:
     return {"check": {"passed": verdict.passed, "report": verdict.report()}}
 
 
-def _say_where(screen: Screen, record: Path) -> None:
+def _print_folder(screen: Screen, record: Path) -> None:
     figures = sorted({path.stem for path in record.parent.glob("*.png")})
     drawn = f", figures {', '.join(figures)} (PNG and SVG)" if figures else ""
     screen.print(f"run folder {record.parent}: {record.name}{drawn}")

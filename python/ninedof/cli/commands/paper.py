@@ -13,7 +13,7 @@ EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
 
 
 def paper(threads: Threads = None, json: Json = False) -> None:
-    """Print every number of the paper beside ours, with a verdict each."""
+    """Print every number of the paper beside ours, and a verdict on each."""
     screen = Screen(json)
     found = verdicts(threads)
     table = Table(

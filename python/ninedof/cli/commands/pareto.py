@@ -1,4 +1,4 @@
-"""`ninedof pareto`: a trade-off, its table, its run folder."""
+"""`ninedof pareto`: a trade-off, its table and its run folder."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SKETCHED = 4  # designs drawn from above
 PLACE = 2
 EXAMPLES = """[bold]Examples[/bold]
 
-  ninedof pareto --against radius_ratio    how the paper's optimum falls as the base may grow
+  ninedof pareto --against radius_ratio    the paper's optimum for several sizes of the base
 
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4"""
 
@@ -39,26 +39,27 @@ def pareto(
         str, typer.Option(help="The limit that is swept: a constraint, or condition_limit.")
     ] = "radius_ratio",
     value: Annotated[
-        list[float] | None, typer.Option(help="A limit to solve; give it several times. Found by the tool if left out.")
+        list[float] | None,
+        typer.Option(help="A limit to solve; may be repeated. By default the command selects the limits."),
     ] = None,
-    points: Annotated[int, typer.Option(help="How many limits, where the tool finds them.")] = 13,
+    points: Annotated[int, typer.Option(help="Number of limits, if the command selects them.")] = 13,
     out: Out = None,
     starts: Starts = None,
     threads: Threads = None,
     figures: Figures = True,
     json: Json = False,
 ) -> None:
-    """Trade the condition number against a limit: the least of it for each value."""
+    """Compute the least condition number for each value of a limit."""
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
     directory = new_directory(out)
     name = "the paper's problem" if study is None else study.name
     with screen.progress(f"{name}, {against}") as bar:
-        front = trace_front(chosen, against, value or None, points, threads=threads, progress=bar.starts)
+        front = trace_front(chosen, against, value or None, points, threads=threads, progress=bar.show)
     screen.print(front_table(front))
     if front.interrupted:
-        screen.print("[bold]interrupted[/bold]: what was found until then is kept")
+        screen.print("[bold]interrupted[/bold]: the limits solved so far are kept")
     drawn = figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
     record = write_run(front, directory, partial(_draw, front, screen) if drawn else None)
     screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if drawn else ""))
@@ -69,7 +70,7 @@ def pareto(
 
 
 def front_table(front: Front) -> Table:
-    """Lay a front out for a person: one limit a row, the tightest first."""
+    """Return the table of a front: one limit per row, the tightest first."""
     words = front.study.objective.words
     table = Table(title=f"{words} against {front.against.replace('_', ' ')}", title_justify="left", title_style="bold")
     for title in (f"{front.against}\nat most", "objective", "neutral\ncondition number", "price\n% for 1 %"):
@@ -101,7 +102,7 @@ def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
 
 
 def _sketches(front: Front) -> list[Sketch]:
-    """Pick a few designs, the tightest and the loosest among them."""
+    """Select a few designs, from the tightest limit to the loosest."""
     from ninedof.plot.front import Sketch
 
     good = [k for k, value in enumerate(front.objectives) if not math.isnan(value)]

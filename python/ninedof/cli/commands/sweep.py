@@ -1,10 +1,9 @@
-"""`ninedof sweep`: what is asked for, and a few words about what came out."""
+"""`ninedof sweep`: an index over a grid of configurations or designs."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,23 +11,9 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli.chosen_design import chosen_design, length_option
+from ninedof.cli import options
+from ninedof.cli.chosen_design import chosen_design, length_option, with_length
 from ninedof.cli.long_run import compute, run_folder, write
-from ninedof.cli.options import (
-    BaseSide1,
-    BaseSide2,
-    Figures,
-    Height,
-    InternalHeight,
-    Json,
-    Out,
-    PlatformSide1,
-    PlatformSide2,
-    Resume,
-    Scheduler,
-    Threads,
-    TwistDeg,
-)
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
 from ninedof.design.indices import computed
@@ -42,9 +27,6 @@ from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES
 
 FIGURES = ("figure-6", "figure-7")
-HEIGHTS = ("zp", "zs")
-
-
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -57,26 +39,12 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations"""
 
 
-@dataclass(frozen=True)
-class SweepOptions:
-    """What the command line says about the points."""
-
-    over: Sequence[str]
-    index: Sequence[str]
-    absolute: bool
-    internal_point: str | None
-    lc: str | None
-    points: int | None
-    chunk: int | None
-    threads: int | None
-
-
 def sweep(
     what: Annotated[
         str | None,
         typer.Argument(
-            help="figure-6, figure-7, or a design: a file (TOML), a run folder or its record.json. The published "
-            "design at its best zs if none is given."
+            help="figure-6, figure-7, or a design: a file (TOML), a run folder or its record.json. By default the "
+            "published design at its best zs."
         ),
     ] = None,
     over: Annotated[
@@ -89,44 +57,63 @@ def sweep(
     ] = None,
     index: Annotated[
         list[str] | None,
-        typer.Option(
-            help=f"What is computed, condition_number by default; may be repeated. One of {', '.join(computed())}."
-        ),
+        typer.Option(help=f"The index, condition_number by default; may be repeated. One of {', '.join(computed())}."),
     ] = None,
     absolute: Annotated[
         bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
     ] = False,
     internal_point: Annotated[
-        str | None, typer.Option(help="Where O is while the platform moves: held (default), carried or best.")
+        str | None, typer.Option(help="Position of O while the platform moves: held (default), carried or best.")
     ] = None,
-    a1: BaseSide1 = None,
-    a2: BaseSide2 = None,
-    b1: PlatformSide1 = None,
-    b2: PlatformSide2 = None,
-    zp: Height = None,
-    zs: InternalHeight = None,
-    theta_z_deg: TwistDeg = None,
+    a1: options.BaseSide1 = None,
+    a2: options.BaseSide2 = None,
+    b1: options.PlatformSide1 = None,
+    b2: options.PlatformSide2 = None,
+    zp: options.Height = None,
+    zs: options.InternalHeight = None,
+    theta_z_deg: options.TwistDeg = None,
     lc: Annotated[str | None, typer.Option(help="Characteristic length: a number or a kind.")] = None,
     points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None,
-    chunk: Annotated[int | None, typer.Option(help="Points a chunk. The result does not depend on it.")] = None,
-    out: Out = None,
-    resume: Resume = False,
-    scheduler: Scheduler = None,
-    threads: Threads = None,
-    figures: Figures = True,
-    json: Json = False,
+    chunk: Annotated[int | None, typer.Option(help="Points per chunk. The result does not depend on it.")] = None,
+    out: options.Out = None,
+    resume: options.Resume = False,
+    scheduler: options.Scheduler = None,
+    threads: options.Threads = None,
+    figures: options.Figures = True,
+    json: options.Json = False,
 ) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
-    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    options = SweepOptions(over or (), index or (), absolute, internal_point, lc, points, chunk, threads)
     screen = Screen(json)
-    thread_argument(options.threads)
+    thread_argument(threads)
+    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
+    of_poses = {"absolute": absolute, "internal_point": internal_point, "threads": threads}
     if what in FIGURES:
-        _expect_none(f"with {what}", vars(options) | dict(sides) | {"theta_z_deg": theta_z_deg, "points": None})
-        asked: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), options.points)
+        others = {"over": over, "index": index, **of_poses, "lc": lc, "chunk": chunk, "theta_z_deg": theta_z_deg}
+        _expect_none(f"with {what}", others | sides)
+        asked: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), points)
         title = what.replace("figure-", "Fig. ")
     else:
-        asked, title = _asked(what, sides, theta_z_deg, options)
+        grid, indices = _grid(what, over or [], points), index or ("condition_number",)
+        title = f"over {', '.join(grid)}"
+        if all(name in COORDINATES for name in grid):
+            design = with_length(_design(what, sides, theta_z_deg), lc)
+            asked = partial(
+                sweep_poses,
+                design.geometry,
+                design.configuration,
+                grid,
+                indices,
+                relative=not absolute,
+                internal_point=internal_point or "held",
+                characteristic_length=design.characteristic_length,
+                chunk=chunk,
+                threads=threads,
+            )
+        else:
+            _expect_none("in a sweep over designs", of_poses)
+            held = _variables(what, sides, theta_z_deg, grid)
+            length = 1.0 if lc is None else length_option(lc)
+            asked = partial(sweep_designs, held, grid, indices, characteristic_length=length, chunk=chunk)
     with run_folder(out, resume) as directory:
         result = compute(asked, title, directory, scheduler, screen)
     if result is None:
@@ -137,46 +124,23 @@ def sweep(
     write(result, directory, "sweep", draw, screen, json_data(result, summary))
 
 
-def _asked(
-    what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, options: SweepOptions
-) -> tuple[Callable[..., SweepResult], str]:
-    """Return the sweep of the options, and its title."""
+def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str, Values]:
+    """Return the axes given by --over."""
     if what is not None and what.startswith("figure-") and not Path(what).exists():
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
-    if not options.over:
+    if not over:
         raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
-    _expect_none("with --over", {"points": options.points})
-    over = dict(parse_over(text) for text in options.over)
-    if len(over) < len(options.over):
-        raise ValueError(f"--over: got {', '.join(options.over)}, expected different names")
-    index = tuple(options.index) or ("condition_number",)
-    title = f"over {', '.join(over)}"
-    length = None if options.lc is None else length_option(options.lc)
-    if any(name not in COORDINATES for name in over):
-        unheard = {name: getattr(options, name) for name in ("absolute", "internal_point", "threads")}
-        _expect_none("in a sweep over designs", unheard)
-        held = _variables(what, sides, theta_z_deg, over)
-        length = 1.0 if length is None else length
-        return partial(sweep_designs, held, over, index, characteristic_length=length, chunk=options.chunk), title
-    design = _design(what, sides, theta_z_deg)
-    return partial(
-        sweep_poses,
-        design.geometry,
-        design.configuration,
-        over,
-        index,
-        relative=not options.absolute,
-        internal_point=options.internal_point or "held",
-        characteristic_length=design.characteristic_length if length is None else length,
-        chunk=options.chunk,
-        threads=options.threads,
-    ), title
+    _expect_none("with --over", {"points": points})
+    grid = dict(parse_over(text) for text in over)
+    if len(grid) < len(over):
+        raise ValueError(f"--over: got {', '.join(over)}, expected different names")
+    return grid
 
 
 def _expect_none(where: str, given: Mapping[str, Any]) -> None:
-    """Refuse options that nothing would read."""
+    """Raise for options that have no effect here."""
     for name, value in given.items():
-        if value is not None and value is not False and value != ():
+        if value is not None and value is not False:
             text = " ".join(value) if isinstance(value, list) else value
             got = "it" if value is True else text
             raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
@@ -201,7 +165,7 @@ def parse_over(text: str) -> tuple[str, Values]:
 
 
 def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
-    """Return the design that is moved: the published one at its best zs where none is given."""
+    """Return the given design, or the published one at its best zs."""
     if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
         return hexagonal_design(published_variables())
     return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
@@ -210,7 +174,7 @@ def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: fl
 def _variables(
     what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, over: Mapping[str, Values]
 ) -> dict[str, float]:
-    """Return the variables that a sweep over designs holds: the published ones where none is given."""
+    """Return the fixed variables of a sweep over designs, those of the published design by default."""
     if what is not None:
         raise ValueError(f"sweep: got {shown(what)} and --over {', '.join(over)}, expected a design by --a1 ... --zs")
     given = {name: value for name, value in sides.items() if value is not None}

@@ -1,10 +1,9 @@
-"""`ninedof workspace`: where a robot can work, its table, its run folder."""
+"""`ninedof workspace`: the workspace of a design, its table and its run folder."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,22 +11,19 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli.chosen_design import length_option
+from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import Figures, Json, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
-from ninedof.cli.workspace_summary import draw, pose_bar, sentences, workspace_table
+from ninedof.cli.workspace_summary import draw, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.paper.published import published_variables
-from ninedof.robot.configuration import arrays_of
+from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.design_file import Design, hexagonal_design, load_design
+from ninedof.runs.design_file import hexagonal_design, load_design
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import workspace as find_workspace
-
-ANGLES = ("base_cone", "platform_cone")
-
 
 Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
@@ -38,22 +34,6 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
 
   ninedof workspace --archetype orientation --angle-deg 60 --legs 2.5 6.5 --json | jq .workspace.volume"""
-
-
-@dataclass(frozen=True)
-class WorkspaceOptions:
-    """What the command line says about the poses: angles in degrees, None for what is not asked for."""
-
-    archetype: str
-    box: Mapping[str, tuple[float, float] | None]  # of x, y and z
-    position: tuple[float, float, float] | None
-    criteria: Mapping[str, Any]
-    region_deg: Mapping[str, float | None]  # angle, tilt and torsion
-    orientations: int | None
-    internal_point: str | None  # best, or a fraction
-    lc: str | None
-    search: Mapping[str, Any]
-    threads: int | None
 
 
 def workspace(
@@ -79,17 +59,17 @@ def workspace(
     angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None,
     tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None,
     torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None,
-    orientations: Annotated[int | None, typer.Option(help="How many rotations make a set.")] = None,
+    orientations: Annotated[int | None, typer.Option(help="Number of rotations of a set.")] = None,
     position: Annotated[
         tuple[float, float, float] | None,
-        typer.Option(metavar="X Y Z", help="Of orientation: where the platform is; the home position by default."),
+        typer.Option(metavar="X Y Z", help="Position of the platform, for orientation; the home position by default."),
     ] = None,
     internal_point: Annotated[
-        str | None, typer.Option(help="Where O is: best, or a fraction between the plates; 0.5 by default.")
+        str | None, typer.Option(help="Position of O: best, or a fraction between the plates; 0.5 by default.")
     ] = None,
     lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
     method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
-    tolerance: Annotated[float, typer.Option(help="Error wanted, as a share of the volume.")] = 1e-3,
+    tolerance: Annotated[float, typer.Option(help="Wanted error, as a share of the volume.")] = 1e-3,
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
     points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
     seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None,
@@ -98,47 +78,50 @@ def workspace(
     figures: Figures = True,
     json: Json = False,
 ) -> None:
-    """Find where a robot can work: the volume, its boundary and what limits it."""
+    """Compute the workspace of a robot: its volume, its boundary and what limits it."""
+    screen = Screen(json)
+    thread_argument(threads)
+    given = hexagonal_design(published_variables()) if design is None else load_design(design)
+    given = with_length(given, lc)
     criteria = {
         "leg_limits": legs,
         "condition_number": condition,
-        "base_cone": base_cone_deg,
-        "platform_cone": platform_cone_deg,
+        "base_cone": _radians(base_cone_deg),
+        "platform_cone": _radians(platform_cone_deg),
         "leg_clearance": clearance,
-        "singularity_free": singularity_free,
+        "singularity_free": singularity_free or None,
     }
-    options = WorkspaceOptions(
-        archetype=archetype,
-        box={"x": x, "y": y, "z": z},
-        position=position,
-        criteria=criteria,
-        region_deg={"angle": angle_deg, "tilt": tilt_deg, "torsion": torsion_deg},
-        orientations=orientations,
-        internal_point=internal_point,
-        lc=lc,
-        search={"method": method, "tolerance": tolerance, "resolution": resolution, "points": points, "seed": seed},
-        threads=threads,
-    )
-    screen = Screen(json)
-    thread_argument(options.threads)
-    given = hexagonal_design(published_variables()) if design is None else load_design(design)
-    if options.lc is not None:
-        given = given._replace(characteristic_length=length_option(options.lc))
-    search = {name: value for name, value in options.search.items() if value is not None}
-    if search["method"] == "grid":
-        for name in ("points", "seed"):
-            if name in search:
-                raise ValueError(f"--{name}: got {search[name]}, expected none with --method grid")
-    asked = _arguments(given, options) | search
-    with run_directory(out) as directory, pose_bar(screen, options.archetype.replace("_", " ")) as progress:
-        found = find_workspace(
-            given.geometry, **asked, home=given.configuration, threads=options.threads, progress=progress
-        )
+    if not _given(criteria):
+        raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
+    if method == "grid":
+        for name, value in _given({"points": points, "seed": seed}).items():
+            raise ValueError(f"--{name}: got {value}, expected none with --method grid")
+    region = {"angle": _radians(angle_deg), "tilt": _radians(tilt_deg), "torsion": _radians(torsion_deg)}
+    length = given.characteristic_length
+    if isinstance(length, str):
+        length = float(characteristic_length(given.geometry, given.configuration, length))
+    others = {
+        "archetype": archetype,
+        "criteria": _given(criteria),
+        "characteristic_length": float(length),
+        "region": _given(region) or None,
+        "orientations": orientations,
+        "internal_point": _rule(internal_point),
+        "method": method,
+        "tolerance": tolerance,
+        "resolution": resolution,
+        "points": points,
+        "seed": seed,
+    }
+    asked = _given(others) | _place(given.configuration, archetype, {"x": x, "y": y, "z": z}, position)
+    with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
+        found = find_workspace(given.geometry, **asked, home=given.configuration, threads=threads, progress=bar.show)
     screen.print(workspace_table(found))
     for sentence in sentences(found):
         screen.print(sentence)
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
-    record = write_run(found, directory, partial(draw, found, screen) if drawn else None, _describe(given, asked))
+    question = {"geometry": triples(given.geometry), "home": arrays_of(given.configuration), **asked}
+    record = write_run(found, directory, partial(draw, found, screen) if drawn else None, question)
     figure = ", figure workspace (PNG and SVG)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, map.npz{figure}")
     screen.data({"workspace": found.to_dict(), "record": str(record)})
@@ -147,53 +130,36 @@ def workspace(
     raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
 
 
-def _arguments(given: Design, options: WorkspaceOptions) -> dict[str, Any]:
-    """Return the arguments of `ninedof.workspace`."""
-    home = given.configuration
-    asked: dict[str, Any] = {"archetype": options.archetype}
-    wanted = {name: value for name, value in options.criteria.items() if value is not None and value is not False}
-    for name in ANGLES:
-        if name in wanted:
-            wanted[name] = math.radians(wanted[name])
-    if not wanted:
-        raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
-    asked["criteria"] = wanted
-    length = given.characteristic_length
-    asked["characteristic_length"] = (
-        float(characteristic_length(given.geometry, home, length)) if isinstance(length, str) else float(length)
-    )
-    region = {name: math.radians(value) for name, value in options.region_deg.items() if value is not None}
-    if region:
-        asked["region"] = region
-    if options.orientations is not None:
-        asked["orientations"] = options.orientations
-    if options.internal_point is not None:
-        asked["internal_point"] = _rule(options.internal_point)
-    box = options.box
-    if options.archetype == "orientation":
-        if any(value is not None for value in box.values()):
+def _given(entries: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in entries.items() if value is not None}
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
+
+
+def _place(
+    home: Configuration, archetype: str, box: Mapping[str, Any], position: tuple[float, float, float] | None
+) -> dict[str, Any]:
+    """Return the box, or the fixed position and rotation, of an archetype."""
+    if archetype == "orientation":
+        if _given(box):
             raise ValueError("workspace: got a box, expected none for orientations at one position")
-        position = home.position if options.position is None else options.position
-        return asked | {"position": position, "rotation": home.rotation}
-    if options.position is not None:
-        raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
-    if options.archetype == "constant_orientation":
-        asked["rotation"] = home.rotation
+        return {"position": home.position if position is None else position, "rotation": home.rotation}
+    if position is not None:
+        raise ValueError(f"--position: got {position}, expected none but for --archetype orientation")
     reach = max(float(np.linalg.norm(home.position)), 1e-300)
     around = [
         (at - reach, at + reach) if box[k] is None else box[k] for k, at in zip("xyz", home.position, strict=True)
     ]
-    return asked | {"box": tuple(zip(*around, strict=True))}
+    rotation = {"rotation": home.rotation} if archetype == "constant_orientation" else {}
+    return rotation | {"box": tuple(zip(*around, strict=True))}
 
 
-def _rule(text: str) -> str | float:
+def _rule(text: str | None) -> str | float | None:
+    if text is None or text == "best":
+        return text
     try:
         return float(text)
     except ValueError:
-        if text != "best":
-            raise ValueError(f"--internal-point: got {text!r}, expected best or a fraction") from None
-        return text
-
-
-def _describe(given: Design, asked: Mapping[str, Any]) -> dict[str, Any]:
-    return {"geometry": triples(given.geometry), "home": arrays_of(given.configuration), **asked}
+        raise ValueError(f"--internal-point: got {text!r}, expected best or a fraction") from None
