@@ -1,7 +1,7 @@
-"""The check of a result: every number computed again in another way, and the claim of an optimum tested.
+"""Independent check of a result: recomputes every number and tests the claim of an optimum.
 
-`verdict` is what a caller uses; each other file answers one question. Nothing of the product uses this package: it is a
-second opinion. `rules` holds every constraint from its definition, independent of the core.
+`verdict` has the public function `check`. `rules` has every constraint from its definition, without the core. No result
+of the library is computed by this package.
 """
 
 from ninedof.verify.verdict import Check, Finding, check

@@ -1,4 +1,4 @@
-"""Cones of the joints, and the determinants whose sign tells on which side of a singularity a robot is."""
+"""Joint cone angles, and the determinants that change sign at singularities."""
 
 from __future__ import annotations
 
@@ -47,17 +47,19 @@ def _directions(robot: Robot, body: str, c: Configuration) -> Floats:
 
 
 def determinants(robot: Robot, steps: int) -> Floats:
-    """Return det B, det C and det N, made positive at the neutral pose, there and along straight ways to all poses.
+    """Return det B, det C and det N at the neutral pose and along straight paths to all poses.
+
+    The signs are those relative to the neutral pose, where all three are positive.
 
     Rows are unit vectors of the lower internal legs (B) and the upper internal legs (C), and d_i x w_i with unit
-    vectors from O to the base joint and the platform joint of external leg i (N). A robot that can be assembled on one
-    side of a zero cannot be driven to the other.
+    vectors from O to the base joint and the platform joint of external leg i (N). A
+    determinant that is zero or negative on a path means that the path crosses a singularity.
 
     Parameters
     ----------
     robot : Robot
     steps : int
-        Equal parts of each way, in position, rotation vector and internal point.
+        Equal parts of each path, in position, rotation vector and internal point.
 
     Returns
     -------
@@ -68,8 +70,8 @@ def determinants(robot: Robot, steps: int) -> Floats:
     turn = rotation_vector(there.rotation @ here.rotation.T)
     whole = np.concatenate([turn, there.position - here.position, there.internal_point - here.internal_point], axis=-1)
     parts = np.arange(1, steps + 1)[:, None, None] / steps
-    ways = here.moved((parts * whole).reshape(-1, 9))
-    neutral, seen = _triples(robot, here), _triples(robot, ways)
+    path = here.moved((parts * whole).reshape(-1, 9))
+    neutral, seen = _triples(robot, here), _triples(robot, path)
     return np.concatenate([np.abs(neutral).reshape(-1), (seen * np.sign(neutral)).reshape(-1)])
 
 

@@ -1,8 +1,8 @@
-"""Logarithms of condition numbers near a tie: all their gradients at once.
+"""Gradients of logarithms of condition numbers, also where singular values coincide.
 
-Where singular values meet, the largest of them has no gradient but a whole set: for each unit vector v in the space of
-a cluster, the derivative of log sigma along v. Nothing is perturbed to break the tie. J' itself is smooth in the
-variables; its differences give the derivatives of the cluster as small matrices, one for each variable.
+Where singular values coincide, the largest has a set of gradients: one for each unit vector v in the space of the
+cluster, the derivative of log sigma along v. The tie is not broken by a perturbation. J' itself is smooth in the
+variables. Its differences give the derivatives of the cluster as small matrices, one for each variable.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ import numpy as np
 from ninedof.support.arrays import Floats
 
 TIE = 1e-6  # of a logarithm: values nearer than that count as equal
-STEP = 1e-4  # of the size of a variable; the fourth-order differences err by about its fourth power
+STEP = 1e-4  # of the size of a variable; the error of the differences is about its fourth power
 
 
 @dataclass(frozen=True, eq=False)
 class Ends:
-    """The two ends of a spectrum: for each variable, the derivative of log sigma over the cluster at that end."""
+    """The two ends of a spectrum: for each variable, the derivative of log sigma over the cluster at each end."""
 
     top: Floats
     """Of the largest singular values, shape (variables, m, m)."""
@@ -28,7 +28,7 @@ class Ends:
     """Of the smallest, shape (variables, k, k)."""
 
     def steepest(self, direction: Floats) -> Floats:
-        """Return the gradient of log(largest / smallest) that rises least, or falls most, along a direction."""
+        """Return the gradient of log(largest / smallest) with the least slope along a direction."""
         return _extreme(self.top, direction, 0) - _extreme(self.bottom, direction, -1)
 
     def steepest_speed(self, direction: Floats) -> Floats:
@@ -37,7 +37,7 @@ class Ends:
 
 
 def _extreme(cluster: Floats, direction: Floats, which: int) -> Floats:
-    """Gradient of the cluster's value along the vector in which it rises least (0) or most (-1)."""
+    """Return the gradient for the vector of the cluster with the least (0) or the greatest (-1) slope."""
     vectors = np.linalg.eigh(np.einsum("j,jab->ab", direction, cluster))[1]
     v = vectors[:, which]
     out: Floats = np.einsum("a,jab,b->j", v, cluster, v)
@@ -60,7 +60,7 @@ def ends_of(matrix: Floats, slopes: Floats) -> Ends:
 
 
 def _cluster(left: Floats, right: Floats, sigma: float, slopes: Floats) -> Floats:
-    """Symmetric part of U^T dM V / sigma: its eigenvalues are the derivatives of the logarithms."""
+    """Return the symmetric part of U^T dM V / sigma: its eigenvalues are the derivatives of the logarithms."""
     moved: Floats = np.einsum("ia,jik,bk->jab", left, slopes, right) / sigma
     return 0.5 * (moved + np.swapaxes(moved, -1, -2))
 
@@ -75,11 +75,11 @@ def differences(f: Callable[[Floats], Floats], x: Floats, size: Floats, low: Flo
     f : callable
         From x to an array of any shape.
     x, size, low, high : numpy.ndarray, shape (n,)
-        Variables, their sizes and bounds. Those with low = high are left out.
+        Variables, their sizes and bounds. Fixed variables, with low = high, have no row in the result.
 
     Returns
     -------
-    numpy.ndarray, shape (variables that are free, ...)
+    numpy.ndarray, shape (free variables, ...)
 
     """
     out = []

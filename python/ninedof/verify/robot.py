@@ -1,28 +1,26 @@
-"""A design of a study as the checks see it: joints, configurations and a length, nothing from the solver."""
+"""A design of a study for the checks: joints, configurations and a characteristic length, without the solver."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ninedof.design.study import LENGTH, Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-
-if TYPE_CHECKING:
-    from ninedof.design.study import Study
 
 Indices = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """A design with every configuration that its study looks at."""
+    """A design with all configurations of its study."""
 
     geometry: Geometry
     neutral: Configuration
@@ -31,7 +29,7 @@ class Robot:
     length: float
     """The characteristic length l_c."""
     apart: Indices
-    """Every two legs (0 to 8: l, q, r) that share no joint in any design of the study, shape (k, 2)."""
+    """Pairs of legs (0 to 8: l, q, r) without a common joint, shape (k, 2)."""
 
     def joints(self, body: str) -> Floats:
         """Return the six joints of "base" or "platform" in that body's frame, external first, shape (6, 3)."""
@@ -57,11 +55,11 @@ class Robot:
         return start, np.concatenate([external, centre, centre], axis=-2)
 
 
-class Places:
-    """From the variables of a study to robots, with bounds and sizes of the variables that are free."""
+class DesignSpace:
+    """Maps variables of a study to robots; has the bounds and the sizes of the variables."""
 
     def __init__(self, study: Study, variables: Mapping[str, float]) -> None:
-        """Take the study and the design that sets the sizes."""
+        """Store the study and the design, which defines the sizes."""
         self.problem: Any = study.problem()
         self.names: list[str] = list(self.problem.names)
         self.x = np.array([variables[name] for name in self.names])
@@ -71,29 +69,23 @@ class Places:
         self.low = np.array([low for low, _ in bounds])
         self.high = np.array([high for _, high in bounds])
         self.free = np.flatnonzero(self.low < self.high)
-        # Lengths count in proportion to themselves, small ones to l_c; angles and shifts of O as they are.
+        # The size of a length x is hypot(x, l_c); that of an angle or of a shift of O is 1.
         pure = {*study.angles, *(name for name in self.names if name.startswith("pose"))}
         relative = np.array([name in pure for name in self.names])
         self.size = np.where(relative, 1.0, np.hypot(self.x, self.length))
         self.apart = self._apart()
 
     def robot(self, x: Floats) -> Robot:
-        """Return the robot of a full vector of variables; a ValueError where there is none."""
+        """Return the robot of a full vector of variables; raise ValueError if none exists."""
         values = x.tolist()
         position, rotation, point = self.problem.configurations(values)
         every = Configuration(position, rotation, point)
-        # The neutral configuration comes first; where the objective looks at nothing else, it stands alone.
+        # The neutral configuration comes first. Without poses of the objective it is the only one.
         poses = every[1:] if len(every) > 1 else every
-        return Robot(
-            self.problem.geometry(values),
-            every[0],
-            poses,
-            self._length(values),
-            self.apart,
-        )
+        return Robot(self.problem.geometry(values), every[0], poses, self._length(values), self.apart)
 
     def _length(self, values: list[float]) -> float:
-        """Ask only where the length depends on the design."""
+        """Return the characteristic length; it may depend on the design."""
         return float(self.problem.characteristic_length(values)) if self._fixed is None else self._fixed
 
     def inside(self, x: Floats) -> Floats:
@@ -101,18 +93,18 @@ class Places:
         return np.clip(x, self.low, self.high)
 
     def _apart(self) -> Indices:
-        """Find legs that share a joint by construction: here, and in another design of the study as well."""
+        """Return the pairs of legs without a common joint: one that coincides here and in a nearby design."""
         step = np.where(np.arange(len(self.x)) % 2, 0.01, 0.02) * self.size
         moved = np.where(self.x + step <= self.high, self.x + step, np.maximum(self.x - step, self.low))
         both = [self.problem.geometry(x.tolist()) for x in (self.x, np.where(self.low < self.high, moved, self.x))]
         return np.array([pair for pair in combinations(range(9), 2) if not all(_meet(g, *pair) for g in both)])
 
 
-_SAME = 1e-9  # of the size of a body: joints nearer than that are one
+_SAME = 1e-9  # of the size of a body: joints nearer than that coincide
 
 
 def _meet(g: Geometry, one: int, other: int) -> bool:
-    """Whether two legs share O or a joint; the first comes earlier in the order l, q, r."""
+    """Return whether two legs share O or a joint; the first comes earlier in the order l, q, r."""
     if one >= 3:
         return True
     base, platform = (g.base_external[one], g.base_external), (g.platform_external[one], g.platform_external)
@@ -131,10 +123,7 @@ def _bound(study: Study, name: str) -> tuple[float, float]:
     given: Any = study.variables.get(name)
     if name == LENGTH and not isinstance(study.characteristic_length, str):
         given = study.characteristic_length
-    if given is None:  # the best length of all, or the place of O in a pose
+    if given is None:  # a length by its kind, or an offset of O at a pose
         return -np.inf, np.inf
     low, high = given if isinstance(given, tuple) else (given, given)
     return float(low), float(high)
-
-
-LENGTH = "characteristic_length"

@@ -1,8 +1,8 @@
-"""Every constraint once more, written from its definition: the second opinion on the core's margins.
+"""Every constraint from its definition: an independent computation of the core's margins.
 
-A rule turns a robot into the numbers that a limit speaks of, all of them: `upper` gives those that each must stay
-under the largest value allowed, `lower` those that each must stay over the least. Lengths of legs come from the general
-path of the core, everything else from joints and configurations.
+A rule computes the values that a constraint limits: each value of `upper` must be at most the high limit, each value of
+`lower` at least the low limit. Leg lengths come from the general path of the core, everything else from joints and
+configurations.
 """
 
 from __future__ import annotations
@@ -10,26 +10,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ninedof.design.limits import Limit as Entry
 from ninedof.design.limits import for_core
+from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.support.arrays import Floats
 from ninedof.verify import directions, spacing
 from ninedof.verify.robot import Robot
 
-if TYPE_CHECKING:
-    from ninedof.design.study import Study
-
-MOST_PAIRED = 60  # poses; all pairs of lengths of more would fill the memory, and ties among so many matter less
+MOST_PAIRED = 60  # poses; for more, all pairs of lengths would need too much memory
 
 
 @dataclass(frozen=True)
 class Limit:
-    """One constraint: what may be how large, angles in radians."""
+    """One constraint with its limits and options, angles in radians."""
 
     name: str
     low: float = 0.0
@@ -45,13 +43,13 @@ def limits_of(study: Study) -> list[Limit]:
 
 
 def limit_of(name: str, entry: Entry) -> Limit:
-    """Return one limit from what a study holds under its name."""
+    """Return one limit from its entry in `Study.constraints`."""
     given = for_core(name, entry)
     return Limit(name, given["low"], given["high"], given["of"], tuple(given["axis"]), given["steps"])
 
 
 def margins(limit: Limit, robot: Robot) -> Floats:
-    """Return every margin of a limit: relative to it, negative where it is violated.
+    """Return every margin of a limit: relative to the limit, negative if violated.
 
     Returns
     -------
@@ -74,7 +72,7 @@ def margins(limit: Limit, robot: Robot) -> Floats:
 
 
 def measured(limit: Limit, robot: Robot) -> float:
-    """Return the least value that `max` of a limit could have with this robot still allowed."""
+    """Return the least `max` of a limit that allows this robot."""
     rule = RULES[limit.name]
     if rule.upper is None:
         raise ValueError(f"{limit.name}: got a limit without a max, expected one with a max")
@@ -91,7 +89,7 @@ Values = Callable[[Robot, Limit], Floats]
 
 @dataclass(frozen=True)
 class Rule:
-    """What a limit is about."""
+    """The values that a constraint limits, and the form of its margins."""
 
     upper: Values | None = None
     lower: Values | None = None
@@ -126,7 +124,7 @@ def _some_legs(first: int, last: int) -> Rule:
 
 
 def _between_poses(robot: Robot) -> tuple[Floats, Floats]:
-    """Lengths of each leg at every two poses, broadcasting to (n, n, 9); of very many poses, beside the least."""
+    """Return leg lengths that broadcast to all pairs of poses, (n, n, 9), or beside the least for very many poses."""
     legs = _legs(robot)
     return legs[:, None], legs[None, :] if len(legs) <= MOST_PAIRED else legs.min(axis=0)[None, None]
 
@@ -172,7 +170,7 @@ def _fraction(robot: Robot, limit: Limit) -> Floats:
 
 
 RULES: Mapping[str, Rule] = {
-    # Of several joints that could be the largest, all must obey and one must suffice.
+    # max(base) / max(platform): the high limit holds for every base joint, the low limit for every platform joint.
     "radius_ratio": Rule(
         lambda r, _: _radii(r, "base") / _radii(r, "platform").max(),
         lambda r, _: _radii(r, "base").max() / _radii(r, "platform"),

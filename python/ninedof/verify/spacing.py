@@ -31,8 +31,8 @@ def between_legs(robot: Robot) -> Floats:
 def between_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     """Return the distance of the segments ab and cd.
 
-    Either the nearest points are an end and something, or both are inside and the common normal joins them. The
-    second is tried where the feet of the normal fall inside; parallel segments need only the first.
+    One of the nearest points is an end of its segment, or both are interior and lie on the common normal. The second
+    case needs both feet of the normal inside the segments, and segments that are not parallel.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Stationarity of a design, also at a kink: the least convex combination of the active gradients.
 
-At a minimum some convex combination of the objective's gradients is balanced by the limits and bounds that hold:
-no direction improves to first order. A tie has infinitely many gradients; those that matter are added one by one, each
-time the one that most reduces the combination so far.
+At a minimum, a convex combination of gradients of the objective and a nonnegative combination of gradients of active
+limits and bounds add up to zero: no direction improves to first order. A tie has infinitely many gradients. They are
+added one by one, each time the one that most reduces the current combination.
 """
 
 from __future__ import annotations
@@ -12,36 +12,36 @@ from dataclasses import dataclass
 import numpy as np
 
 from ninedof.support.arrays import Floats
-from ninedof.verify.aim import Aim, Slopes
 from ninedof.verify.nonsmooth import differences
-from ninedof.verify.robot import Indices, Places
+from ninedof.verify.objective import Gradients, ObjectiveRule
+from ninedof.verify.robot import DesignSpace, Indices
 from ninedof.verify.rules import Limit, margins
 
-ACTIVE = 1e-6  # a limit or bound nearer than this part of it holds
+ACTIVE = 1e-6  # relative distance at which a limit or bound is active
 ROUNDS = 300
 
 
 @dataclass(frozen=True)
 class Stationarity:
-    """How far a design is from stationary."""
+    """The stationarity of a design."""
 
     residual: float
     """Norm of the least combination: relative change of the objective for a relative change of the variables."""
     gradients: int
     """Gradients of the objective in the last combination."""
     limits: int
-    """Margins and bounds that hold."""
+    """Active margins and bounds."""
 
 
-def stationarity(places: Places, aim: Aim, limits: list[Limit]) -> Stationarity:
+def stationarity(space: DesignSpace, objective: ObjectiveRule, limits: list[Limit]) -> Stationarity:
     """Return the stationarity of a design over the free variables of its study."""
-    x, size, low, high = places.x, places.size, places.low, places.high
-    free = places.free
+    x, size, low, high = space.x, space.size, space.low, space.high
+    free = space.free
     if not len(free):
         return Stationarity(0.0, 0, 0)
-    slopes = differences(lambda y: aim.matrices(places.robot(y)), x, size, low, high)
-    all_slopes = Slopes(aim, places.robot(x), aim.matrices(places.robot(x)), slopes)
-    held = -active_limits(places, limits, ACTIVE)
+    slopes = differences(lambda y: objective.matrices(space.robot(y)), x, size, low, high)
+    all_slopes = Gradients(objective, space.robot(x), objective.matrices(space.robot(x)), slopes)
+    held = -active_limits(space, limits, ACTIVE)
     room = 1.0 / np.maximum(size[free], 1e-300)
     at_low = np.flatnonzero((x[free] - low[free]) * room <= ACTIVE)
     at_high = np.flatnonzero((high[free] - x[free]) * room <= ACTIVE)
@@ -51,37 +51,36 @@ def stationarity(places: Places, aim: Aim, limits: list[Limit]) -> Stationarity:
     return Stationarity(residual, used, len(cone))
 
 
-def active_limits(places: Places, limits: list[Limit], near: float) -> Floats:
+def active_limits(space: DesignSpace, limits: list[Limit], near: float) -> Floats:
     """Return the gradients of all margins under `near`, in units of the sizes of the variables, shape (k, free)."""
-    here = places.robot(places.x)
-    rows = [np.empty((0, len(places.free)))]
+    here = space.robot(space.x)
+    rows = [np.empty((0, len(space.free)))]
     for limit in limits:
         close = np.flatnonzero(margins(limit, here) <= near)
         if len(close):
 
             def chosen(y: Floats, limit: Limit = limit, close: Indices = close) -> Floats:
-                out: Floats = margins(limit, places.robot(y))[close]
+                out: Floats = margins(limit, space.robot(y))[close]
                 return out
 
-            rows.append(differences(chosen, places.x, places.size, places.low, places.high).T)
+            rows.append(differences(chosen, space.x, space.size, space.low, space.high).T)
     return np.vstack(rows)
 
 
-def least_combination(slopes: Slopes, cone: Floats) -> tuple[float, int]:
-    """Return the norm of the least sum of a convex combination of gradients and of a combination of a cone's rows.
+def least_combination(slopes: Gradients, cone: Floats) -> tuple[float, int]:
+    """Return the least norm of a convex combination of gradients plus a nonnegative combination of the rows of a cone.
 
     Parameters
     ----------
     slopes : object with steepest(direction) and held(direction)
-        The sets that gradients come from; `held` gives rows of the cone.
+        The sets of gradients; `held` returns further rows of the cone.
     cone : numpy.ndarray, shape (k, n)
-        Rows to be taken any number of times.
 
     Returns
     -------
     residual : float
     used : int
-        Gradients with a share in the combination.
+        Number of gradients with a positive coefficient.
 
     """
     n = cone.shape[1]
@@ -92,7 +91,7 @@ def least_combination(slopes: Slopes, cone: Floats) -> tuple[float, int]:
         a = np.array([*points, *rows]).T
         ones = np.concatenate([np.ones(len(points)), np.zeros(len(rows))])
         scale = max(float(np.abs(a).max()), 1e-300)
-        # With shares that sum to one as a further equation, the solution is the least combination up to its length.
+        # With a further equation, that the shares sum to one, the solution is a multiple of the least combination.
         shares = nonnegative_least_squares(np.vstack([a / scale, ones]), np.append(np.zeros(n), 1.0))
         shares = shares / max(float(shares[: len(points)].sum()), 1e-300)
         rest = a @ shares
@@ -135,7 +134,7 @@ def nonnegative_least_squares(a: Floats, b: Floats) -> Floats:
             out = np.flatnonzero(taken & (trial <= 0.0))
             steps = x[out] / np.maximum(x[out] - trial[out], 1e-300)
             x = x + float(steps.min()) * (trial - x)
-            # The one that set the step is zero now, whatever rounding has left of it: else this might never end.
+            # The entry that set the step is zero except for rounding. Without this line the loop may not end.
             x[out[int(steps.argmin())]] = 0.0
             taken &= x > 1e-15
             if not taken.any():

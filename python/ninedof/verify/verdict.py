@@ -1,4 +1,4 @@
-"""`check`: a result re-examined without believing the solver."""
+"""`check`: an independent check of a result."""
 
 from __future__ import annotations
 
@@ -14,40 +14,40 @@ from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result
 from ninedof.robot.geometry import TRIPLES
 from ninedof.support.arrays import Floats
-from ninedof.verify.aim import Aim
+from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.perturbation import SCALES, perturb
-from ninedof.verify.robot import Places
+from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import Limit, limits_of, margins
 from ninedof.verify.stationarity import stationarity
 
 EQUAL = 1e-9  # relative: two ways to one number
 FEASIBLE = 1e-8  # by how much a margin may be negative
 STATIONARY = 1e-6
-BETTER = 1e-8  # relative: less is rounding and the tolerance of the limits
-BOUND = 1e-7  # close to 1 a condition number is good to half the digits only
+BETTER = 1e-8  # relative: a smaller improvement is rounding or the tolerance of the limits
+BOUND = 1e-7  # close to 1 a condition number has half the digits only
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was tested."""
+    """One test and its outcome."""
 
     name: str
     passed: bool
     figure: float
-    """The number the verdict rests on; the sentence says what it is."""
+    """The number that decides the test; the sentence describes it."""
     sentence: str
 
 
 @dataclass(frozen=True)
 class Check:
-    """What a check of a result found."""
+    """The findings of a check."""
 
     findings: tuple[Finding, ...]
     title: str = ""
 
     @property
     def passed(self) -> bool:
-        """Whether every test was passed."""
+        """Whether all tests passed."""
         return all(finding.passed for finding in self.findings)
 
     def __bool__(self) -> bool:
@@ -62,7 +62,7 @@ class Check:
         raise KeyError(f"{name!r}; there are {', '.join(finding.name for finding in self.findings)}")
 
     def report(self) -> str:
-        """Return what was tested and how it went, one line a test."""
+        """Return the tests and their outcomes as text, one line per test."""
         failed = sum(not finding.passed for finding in self.findings)
         verdict = "all passed" if not failed else f"{failed} failed"
         width = max((len(finding.name) for finding in self.findings), default=0)
@@ -83,7 +83,7 @@ class Check:
 
 
 def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
-    """Examine the best design of a result without believing the solver.
+    """Check the best design of a result independently of the solver.
 
     Condition numbers come from the general path, constraints from their definitions in plain numpy. The claim of an
     optimum is tested twice: by the least convex combination of all active gradients, ties of singular values included,
@@ -92,11 +92,11 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
     Parameters
     ----------
     result : Result
-        One with a design. Where its status is not "optimal" it claims no optimum, and none is tested.
+        A result with a design. Stationarity and random steps are tested only if its status is "optimal".
     perturbations : int
-        Random steps from the design, from 1e-1 to 1e-6 of each variable (of l_c, where that is larger).
+        Number of random steps from the design, 1e-1 to 1e-6 of each variable (or of l_c, if that is larger).
     seed : int
-        Of the steps.
+        Seed of the steps.
 
     Returns
     -------
@@ -129,97 +129,95 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
 def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
     best: Any = result.best
     study = result.study
-    places, aim, limits = Places(study, best.variables), Aim.of(study), limits_of(study)
-    yield _design(places, best)
-    yield from _numbers(places, aim, best)
-    core = _core_margins(places)
+    space, objective, limits = DesignSpace(study, best.variables), ObjectiveRule.of(study), limits_of(study)
+    yield _design(space, best)
+    yield from _numbers(space, objective, best)
+    core = _core_margins(space)
     worst = 0.0
     for limit in limits:
-        finding = _limit(places, limit, core.get(limit.name))
+        finding = _limit(space, limit, core.get(limit.name))
         worst = max(worst, -finding.figure)
         yield finding
     if str(result.status) == "optimal":
-        found = stationarity(places, aim, limits)
+        found = stationarity(space, objective, limits)
         sentence = (
             f"{found.gradients} gradients of the objective and {found.limits} limits and bounds balance to "
             f"{found.residual:.1e} of the objective per unit of relative change, {STATIONARY:.0e} allowed"
         )
         yield Finding("stationarity", found.residual <= STATIONARY, found.residual, sentence)
-        tried = perturb(places, aim, limits, count, seed, max(worst, 1e-12))
+        tried = perturb(space, objective, limits, count, seed, max(worst, 1e-12))
+        allowed = f"within the limits by up to {tried.best:.1e}" if tried.best > BETTER else "none within the limits"
         sentence = (
-            f"of {tried.tried} steps of {SCALES[0]:g} to {SCALES[-1]:g} of the variables, {tried.better} lead to "
-            f"something better, {'one' if tried.best > BETTER else 'none'} of it within the limits"
-            + (f" and by {tried.best:.1e}" if tried.best > BETTER else "")
+            f"of {tried.tried} steps of {SCALES[0]:g} to {SCALES[-1]:g} of the variables, {tried.better} improve the "
+            f"objective, {allowed}"
         )
         yield Finding("perturbations", tried.best <= BETTER, tried.best, sentence)
-    neutral = _neutral(places)
+    neutral = _neutral(space)
     for bound in applicable_bounds(result):
         above = neutral / bound.value - 1.0
         proof = "proved" if bound.proved else "searched"
         yield Finding(f"bound: {bound.name}", above >= -BOUND, above, f"{above:.2%} above; {bound.sentence} ({proof})")
 
 
-def _design(places: Places, best: Any) -> Finding:
-    """Hold the variables against their bounds and against the geometry that is returned."""
-    outside = np.maximum(places.low - places.x, places.x - places.high) / places.size
+def _design(space: DesignSpace, best: Any) -> Finding:
+    """Compare the variables with their bounds, and their robot with the returned one."""
+    outside = np.maximum(space.low - space.x, space.x - space.high) / space.size
     figure = max(float(outside.max()), 0.0)
-    robot = places.robot(places.x)
+    robot = space.robot(space.x)
     g, h = robot.geometry, best.geometry
     apart = max(float(np.abs(getattr(g, name) - getattr(h, name)).max()) for name in TRIPLES)
     same = apart <= EQUAL * float(max(np.abs(getattr(g, name)).max() for name in TRIPLES))
     same &= np.allclose(robot.neutral.position, best.configuration.position, rtol=EQUAL, atol=0.0)
     same &= np.allclose(robot.neutral.internal_point, best.configuration.internal_point, rtol=EQUAL, atol=0.0)
     same &= np.allclose(robot.neutral.rotation, best.configuration.rotation, rtol=0.0, atol=EQUAL)
-    words = "describe the joints returned" if same else "do NOT describe the joints returned"
-    sentence = f"{len(places.names)} variables within their bounds to {figure:.1e}, {words}"
+    words = "the same joints as returned" if same else "NOT the joints returned"
+    sentence = f"{len(space.names)} variables within their bounds to {figure:.1e}, {words}"
     return Finding("design", bool(same) and figure <= FEASIBLE, figure, sentence)
 
 
-def _numbers(places: Places, aim: Aim, best: Any) -> Iterator[Finding]:
-    robot = places.robot(places.x)
+def _numbers(space: DesignSpace, objective: ObjectiveRule, best: Any) -> Iterator[Finding]:
+    robot = space.robot(space.x)
     poses = np.asarray(condition_number(robot.geometry, robot.poses, robot.length))
-    ours = np.append(poses, _neutral(places))
+    ours = np.append(poses, _neutral(space))
     theirs = np.append(np.asarray(best.conditions, dtype=np.float64), best.condition_number)
     figure = _difference(ours, theirs) if ours.shape == theirs.shape else math.inf
-    sentence = (
-        f"{len(ours)} of J' by the general path, {ours.min():.6f} to {ours.max():.6f}: off by {figure:.1e} at most"
-    )
+    sentence = f"{len(ours)} by the general path, {ours.min():.6f} to {ours.max():.6f}: differences up to {figure:.1e}"
     yield Finding("condition numbers", figure <= EQUAL * float(ours.max()), figure, sentence)
-    values = aim.values(robot)
-    total = aim.total(values)
+    values = objective.values(robot)
+    total = objective.total(values)
     figure = _difference(np.array([total]), np.array([best.objective]))
-    words = aim.aggregate.replace("_", " ")
+    words = objective.aggregate.replace("_", " ")
     where = "1 pose" if len(values) == 1 else f"{len(values)} poses"
-    sentence = f"{words} {aim.index.replace('_', ' ')} of {where}: {total:.9g}, off by {figure:.1e}"
+    sentence = f"{words} {objective.index.replace('_', ' ')} of {where}: {total:.9g}, difference {figure:.1e}"
     yield Finding("objective", figure <= EQUAL * max(1.0, float(ours.max())), figure, sentence)
-    if math.isfinite(aim.condition_limit):
-        margin = float(np.log(aim.condition_limit / poses.max()))
-        sentence = f"worst condition number {poses.max():.6f}, limit {aim.condition_limit:g}"
+    if math.isfinite(objective.condition_limit):
+        margin = float(np.log(objective.condition_limit / poses.max()))
+        sentence = f"worst condition number {poses.max():.6f}, limit {objective.condition_limit:g}"
         yield Finding("condition_limit", margin >= -FEASIBLE, margin, sentence)
 
 
-def _limit(places: Places, limit: Limit, core: float | None) -> Finding:
-    """Test a limit, and the study's own margin against the one that the definition gives."""
-    every = margins(limit, places.robot(places.x))
+def _limit(space: DesignSpace, limit: Limit, core: float | None) -> Finding:
+    """Test a limit, and compare the margin of the core with that of the definition."""
+    every = margins(limit, space.robot(space.x))
     ours = float(every.min()) if every.size else math.inf
     passed = ours >= -FEASIBLE
-    sentence = f"least of {every.size} margins {ours:.3e}"
+    sentence = f"least of {every.size} margins: {ours:.3e}"
     if core is not None:
         agrees = abs(core - ours) <= EQUAL * max(1.0, abs(ours))
         passed &= agrees
-        sentence += ", as the study has it" if agrees else f", but the study has {core:.9e}"
+        sentence += ", equal to that of the core" if agrees else f", but {core:.9e} by the core"
     return Finding(f"limit: {limit.name}", passed, ours, sentence)
 
 
-def _core_margins(places: Places) -> dict[str, float]:
+def _core_margins(space: DesignSpace) -> dict[str, float]:
     out: dict[str, float] = {}
-    for name, margin, _ in places.problem.evaluate(places.x.tolist())["margins"]:
+    for name, margin, _ in space.problem.evaluate(space.x.tolist())["margins"]:
         out[name] = min(out.get(name, math.inf), float(margin))
     return out
 
 
-def _neutral(places: Places) -> float:
-    robot = places.robot(places.x)
+def _neutral(space: DesignSpace) -> float:
+    robot = space.robot(space.x)
     return float(condition_number(robot.geometry, robot.neutral, robot.length))
 
 

@@ -1,26 +1,23 @@
-"""What a study aims at, computed once more from its definition, and all gradients of it."""
+"""The objective of a study from its definition, and its gradients: at a tie all of them."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number, singular_values
+from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import jacobian
 from ninedof.support.arrays import Floats
 from ninedof.verify.nonsmooth import TIE, Ends, ends_of
 from ninedof.verify.robot import Robot
 
-if TYPE_CHECKING:
-    from ninedof.design.study import Study
-
 
 @dataclass(frozen=True)
-class Aim:
-    """What a study makes least."""
+class ObjectiveRule:
+    """The objective of a study."""
 
     index: str = "condition_number"
     aggregate: str = "worst"
@@ -28,8 +25,8 @@ class Aim:
     condition_limit: float = math.inf
 
     @classmethod
-    def of(cls, study: Study) -> Aim:
-        """Take the objective of a study."""
+    def of(cls, study: Study) -> ObjectiveRule:
+        """Return the objective of a study."""
         o = study.objective
         return cls(o.index, o.aggregate, o.weight, math.inf if o.condition_limit is None else o.condition_limit)
 
@@ -48,7 +45,7 @@ class Aim:
             return np.asarray(sigma[:, 0] / sigma[:, -1])
 
     def total(self, values: Floats) -> float:
-        """Return the number made least: the worst, the harmonic mean, or both weighted in logarithms."""
+        """Return the objective: the worst value, the harmonic mean, or both weighted in logarithms."""
         worst = float(values.max())
         if self.aggregate == "worst" or not math.isfinite(worst):
             return worst
@@ -58,28 +55,28 @@ class Aim:
         return math.exp(self.weight * math.log(worst) + (1.0 - self.weight) * math.log(harmonic))
 
     def matrices(self, robot: Robot) -> Floats:
-        """Return the matrices whose singular values the index is made of, shape (n, 6, 9) or (1, 6, 6)."""
+        """Return the matrices whose singular values define the index, shape (n, 6, 9) or (1, 6, 6)."""
         if self.index == "six_legged":
             return six_legged(robot)
         return jacobian(robot.geometry, robot.poses, robot.length)
 
 
-class Slopes:
-    """All gradients of log(objective) at a design, and of log(condition number) where that has a limit."""
+class Gradients:
+    """Gradients of log(objective) at a design, and of log(condition number) if that is limited."""
 
-    def __init__(self, aim: Aim, robot: Robot, matrices: Floats, slopes: Floats) -> None:
-        """Take the matrices of `Aim.matrices` and their derivatives, shape (variables, n, 6, k)."""
-        self._aim = aim
-        self._values = aim.values(robot)
+    def __init__(self, objective: ObjectiveRule, robot: Robot, matrices: Floats, slopes: Floats) -> None:
+        """Store the matrices of `ObjectiveRule.matrices` and their derivatives, shape (variables, n, 6, k)."""
+        self._objective = objective
+        self._values = objective.values(robot)
         self._ends = [ends_of(m, slopes[:, k]) for k, m in enumerate(matrices)]
         self._smooth = [_frobenius(m, slopes[:, k]) for k, m in enumerate(matrices)]
-        limited = math.isfinite(aim.condition_limit) and aim.index != "six_legged"
+        limited = math.isfinite(objective.condition_limit) and objective.index != "six_legged"
         conditions = np.asarray(condition_number(robot.geometry, robot.poses, robot.length)) if limited else np.empty(0)
-        self._held = np.flatnonzero(np.log(conditions) >= math.log(aim.condition_limit) - TIE)
+        self._held = np.flatnonzero(np.log(conditions) >= math.log(objective.condition_limit) - TIE)
 
     def steepest(self, direction: Floats) -> Floats:
-        """Return the gradient of log(objective) that rises least along a direction: it is one of many at a tie."""
-        o, values = self._aim, self._values
+        """Return the gradient of log(objective) with the least slope along a direction; at a tie there are many."""
+        o, values = self._objective, self._values
         each = np.array([self._one(k, direction) for k in range(len(values))])
         worst = np.flatnonzero(np.log(values) >= math.log(values.max()) - TIE)
         best_of_worst: Floats = min((each[k] for k in worst), key=lambda g: float(g @ direction))
@@ -89,14 +86,14 @@ class Slopes:
         return mean if o.aggregate == "mean_inverse" else o.weight * best_of_worst + (1.0 - o.weight) * mean
 
     def held(self, direction: Floats) -> list[Floats]:
-        """Return gradients of log(condition number) at poses on its limit, those that rise least along a direction."""
+        """Return, for each pose on the condition limit, the gradient of log(condition number) with the least slope."""
         return [self._ends[k].steepest(direction) for k in self._held]
 
     def _one(self, k: int, direction: Floats) -> Floats:
-        if self._aim.index == "frobenius":
+        if self._objective.index == "frobenius":
             return self._smooth[k]
         ends: Ends = self._ends[k]
-        return ends.steepest_speed(direction) if self._aim.index == "speed" else ends.steepest(direction)
+        return ends.steepest_speed(direction) if self._objective.index == "speed" else ends.steepest(direction)
 
 
 def six_legged(robot: Robot) -> Floats:
@@ -108,7 +105,7 @@ def six_legged(robot: Robot) -> Floats:
 
 
 def _frobenius(matrix: Floats, slopes: Floats) -> Floats:
-    """Gradient of log(|M| |M^+|) = (log tr G + log tr G^-1) / 2, G = M M^T."""
+    """Return the gradient of log(|M| |M^+|) = (log tr G + log tr G^-1) / 2, G = M M^T."""
     gram, inverse = matrix @ matrix.T, np.linalg.pinv(matrix @ matrix.T)
     change = 2.0 * np.einsum("jik,lk->jil", slopes, matrix)  # its symmetric part is the derivative of G
     size = np.einsum("jii->j", change) / np.trace(gram)
