@@ -1,6 +1,6 @@
 """Trade-offs: the best objective for each value of a limit.
 
-`tracing` holds what a caller calls, `front` what it returns; `sweep` solves and `span` finds where to.
+`tracing` has the public function, `front` its result. `solving` solves the limits, `span` finds their range.
 """
 
 from ninedof.pareto.front import Front

@@ -1,4 +1,4 @@
-"""What a trade-off is: for each limit the best design, or why there is none."""
+"""The result of a trade-off: the best design for each limit, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 
-SAME = 1e-9  # relative: an objective that is no better than this is no better
+SAME = 1e-9  # relative: smaller differences of objectives do not count
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,14 +18,14 @@ class Front:
     """The least objective for each value of a limit, from the tightest to the loosest."""
 
     study: Study
-    """As it was given, with the index that was made least; the limit takes the values of `limits` in turn."""
+    """The given study, with the index that was minimized; the limit takes the values of `limits`."""
     against: str
     """The limit: a constraint, whose max moves, or "condition_limit"."""
     limits: tuple[float, ...]
     results: tuple[Result, ...]
     """One for each limit."""
     interrupted: bool = False
-    """Whether Ctrl-C ended the work: what was found until then is here."""
+    """Whether Ctrl-C ended the work; the limits solved so far are included."""
     seconds: float = 0.0
 
     def __len__(self) -> int:
@@ -33,7 +33,7 @@ class Front:
         return len(self.limits)
 
     def __iter__(self) -> Iterator[Result]:
-        """Go through the results, from the tightest limit to the loosest."""
+        """Iterate over the results, from the tightest limit to the loosest."""
         return iter(self.results)
 
     @property
@@ -43,7 +43,7 @@ class Front:
 
     @property
     def prices(self) -> tuple[float | None, ...]:
-        """Per cent by which the objective falls when the limit is relaxed by 1 %; None where no design was proved."""
+        """Per cent by which the objective falls when the limit is relaxed by 1 %; None without an optimum."""
         return tuple(
             r.best.prices.get(self.against, 0.0) if r.best is not None and r.status == Status.OPTIMAL else None
             for r in self.results
@@ -51,7 +51,7 @@ class Front:
 
     @property
     def dominated(self) -> tuple[bool, ...]:
-        """Whether a tighter limit allows a design that is as good: the limit has stopped to matter."""
+        """Whether a tighter limit allows a design that is as good: this limit has no effect."""
         out, best = [], math.inf
         for value in self.objectives:
             out.append(value >= best * (1.0 - SAME))
@@ -89,7 +89,7 @@ class Front:
         return rows
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the front as plain JSON values. `ninedof.runs.folder` writes it with all results."""
+        """Return the front as plain JSON values, without the results of the limits."""
         return {
             "against": self.against,
             "objective": self.study.objective.words,
@@ -100,7 +100,7 @@ class Front:
 
 
 def objective_of(result: Result) -> float:
-    """Return the objective of a result, NaN where it holds no design or the study has no least value."""
+    """Return the objective of a result; NaN without a design or if the study is unbounded."""
     if result.best is None or result.status not in (Status.OPTIMAL, Status.STOPPED):
         return math.nan
     return result.best.objective

@@ -18,11 +18,11 @@ SMALL = 1e-8  # margin from which one more step is exact
 
 
 def resolve(study: Study, against: str) -> tuple[Study, str]:
-    """Return the study to solve and the limit to move for what a caller trades the objective against.
+    """Return the study to solve and the limit to vary, for the argument `against` of `pareto`.
 
-    A constraint with a max moves as it is. Of two indices, one is made least within limits of the condition number:
-    "speed" for a study of the condition number becomes a study of speed under a moving condition limit, the same
-    front seen from the other side.
+    A constraint with a max is varied as it is. Of two indices, one is minimized under limits on the condition number:
+    "speed" for a study of the condition number becomes a study of speed with a varying condition limit. The front is
+    the same, with its axes exchanged.
     """
     known = names_with_max()
     if isinstance(against, str) and against in known:
@@ -46,7 +46,7 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
 
 
 def limited(study: Study, against: str, value: float | None) -> Study:
-    """Return the study with `max` of a limit set, or open where the value is None; other options are kept."""
+    """Return the study with another `max` of a limit, None for no max; its other options are kept."""
     if against == CONDITION_LIMIT:
         return replace(study, objective=replace(study.objective, condition_limit=value))
     entry = _entry(study, against) | {"max": value}
@@ -57,7 +57,7 @@ def limited(study: Study, against: str, value: float | None) -> Study:
 
 
 def own_value(study: Study, against: str) -> float | None:
-    """Return the value that the study itself gives to the limit."""
+    """Return the value of the limit in the study; None without one."""
     if against == CONDITION_LIMIT:
         return study.objective.condition_limit
     found = _entry(study, against).get("max")
@@ -67,15 +67,15 @@ def own_value(study: Study, against: str) -> float | None:
 def value_at(study: Study, against: str, variables: Mapping[str, float]) -> float:
     """Return the least limit that allows a design: the limit at which the design's margin is zero.
 
-    A margin is log(limit / value) or 1 - value / limit. Newton's method is used in the limit or in its logarithm,
-    whichever step is the safe one; each is exact for one of the two forms.
+    A margin is log(limit / value) or 1 - value / limit. Newton's method acts on the limit or on its logarithm,
+    depending on the sign of the margin; each is exact for one of the two forms.
     """
     options = {key: value for key, value in _entry(study, against).items() if key not in ("min", "max")}
     limit, before = own_value(study, against) or 1.0, 0.0
     for _ in range(MOST_STEPS):
         alone = replace(study, constraints={against: options | {"max": limit}})
         margin = alone.evaluate(variables).margins[against]
-        if margin == before == 1.0:  # 1 - value / limit at two limits: the value is zero
+        if margin == before == 1.0:  # 1 - value / limit is 1 at two limits: the value is zero
             return 0.0
         limit *= math.exp(-margin) if margin > 0.0 else 1.0 - margin
         if abs(margin) <= SMALL:
@@ -85,7 +85,7 @@ def value_at(study: Study, against: str, variables: Mapping[str, float]) -> floa
 
 
 def floor_of(study: Study, against: str) -> float:
-    """Return what the limit cannot be under, whatever the design: 1 for ratios of like things, or its own min."""
+    """Return the lower bound of the limit for any design: 1 for a ratio of maximum to minimum, or its own min."""
     least = 1.0 if against in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
     return least if against == CONDITION_LIMIT else max(least, _entry(study, against).get("min") or 0.0)
 

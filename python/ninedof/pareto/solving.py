@@ -1,4 +1,4 @@
-"""Solving one study for many values of a limit, each time starting from what the neighbours found as well."""
+"""Solves one study for many values of a limit, with the designs of neighbouring limits as additional starts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ninedof.pareto.limited import limited
 from ninedof.support.progress import Progress
 
 
-class Interrupted(Exception):  # a way out, not an error
+class Interrupted(Exception):  # ends the computation, not an error
     """Ctrl-C was pressed while a limit was being solved."""
 
 
@@ -22,7 +22,7 @@ class Sweep:
     """The limits solved so far and the best result for each."""
 
     def __init__(self, study: Study, against: str, threads: int | None, progress: Progress | None) -> None:
-        """Begin with nothing."""
+        """Begin without results."""
         self.study, self.against = study, against
         self.results: dict[float, Result] = {}
         self.open_ended: Result | None = None
@@ -30,15 +30,15 @@ class Sweep:
         self._solved, self.planned = 0, 0
 
     def solve(self, limit: float | None, warm: Iterable[Result | None] = (), again: bool = False) -> Result:
-        """Solve for one limit (None: open) and keep what is best.
+        """Solve for one limit (None: no limit) and store the best result.
 
         Parameters
         ----------
         limit : float or None
         warm : results
-            Whose designs are tried as starts.
+            Their designs are additional starts.
         again : bool
-            Whether this is not the first time: then other starts are taken, and fewer.
+            Whether the limit was solved before: then the starts are others, and fewer.
 
         """
         study = limited(self.study, self.against, limit)
@@ -63,8 +63,8 @@ class Sweep:
     def both_ways(self, limits: Sequence[float]) -> None:
         """Solve from the loosest limit to the tightest and back; limits in increasing order.
 
-        On the way down a design that has just been cut off is the start; on the way up one that is allowed, so that a
-        looser limit does not end worse.
+        The pass to tighter limits starts from designs that violate the new limit slightly, the pass back from allowed
+        designs, so that a looser limit does not have a worse result.
         """
         self.planned = self._solved + 2 * len(limits)
         for k in reversed(range(len(limits))):
@@ -73,13 +73,13 @@ class Sweep:
             self.solve(limits[k], self._beside(limits, k), again=True)
 
     def between(self, low: float, high: float) -> float:
-        """Solve for the geometric middle of two limits, from both; return it."""
+        """Solve for the geometric mean of two limits, starting from both designs; return it."""
         middle = math.sqrt(low * high)
         self.solve(middle, (self.results.get(low), self.results.get(high)))
         return middle
 
     def repair(self) -> None:
-        """Make sure that no looser limit has a worse design: what a tighter one allows, it allows."""
+        """Solve again, or take over the design of a tighter limit, where a looser limit has a worse design."""
         best: tuple[float, Result] | None = None
         for limit in sorted(self.results):
             if best is not None and self._is_worse(limit, best[1]):
@@ -100,7 +100,7 @@ class Sweep:
 
 
 def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
-    """Order results: a proved optimum first, then by objective; no least value at all is the lowest."""
+    """Return a sort key: unbounded first, then optima by objective, then other designs, then no design."""
     if result.status == Status.UNBOUNDED:
         return 0, -math.inf
     if result.best is None or result.status == Status.INFEASIBLE:
@@ -109,6 +109,6 @@ def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
 
 
 def _adopted(result: Result, study: Study, limit: float) -> Result:
-    """Return the design of a tighter limit as that of a looser one, without the claim of an optimum."""
-    reason = f"the design found for the limit {limit:g} is better than any found for this one, so it is shown here too"
+    """Return the design of a tighter limit as the result of a looser one, not as an optimum."""
+    reason = f"the design found for the limit {limit:g} is better than all found for this one, so it is used here too"
     return replace(result, study=study, status=Status.STOPPED, reason=reason)

@@ -1,4 +1,4 @@
-"""From where to where a limit is worth moving."""
+"""The range of a limit: from the tightest with a useful design to the loosest that is active."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from ninedof.pareto.front import objective_of
 from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, own_value, value_at
 from ninedof.pareto.solving import Interrupted, Sweep
 
-MOST_OBJECTIVE = 3.0  # times the best objective; worse designs are not of interest
+MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
 STEPS_DOWN = 12  # halvings
 BISECTIONS = 6
 
 
 def span(sweep: Sweep) -> tuple[float, float] | None:
-    """Return the tightest and the loosest limit worth solving, or None where no design exists at all.
+    """Return the tightest and the loosest limit to solve, or None if no design exists.
 
-    The loosest is the value that the best design takes when nothing limits it, the tightest one that still allows a
-    design, to a few per cent, or that still allows one within a factor of the best.
+    The loosest limit is the value of the best design without the limit. The tightest is, to a few per cent, the least
+    limit that allows a design with an objective of at most three times the best.
 
     Raises
     ------
     ValueError
-        If the study is unbounded without the limit and does not limit it itself: there is no scale to begin with.
+        If the study is unbounded without the limit and has no value for it: the limits then have no scale.
 
     """
     sweep.planned = 4 + BISECTIONS
@@ -51,9 +51,9 @@ def _value_taken(sweep: Sweep, result: Result) -> float:
 
 
 def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
-    """Return a little more than the least condition number of all, and what the other index asks for at most.
+    """Return the range of the condition limit: just above its least value, up to the optimum of the other index.
 
-    The other index alone may have no best design, or none that anybody would build: it is given a generous limit.
+    The other index alone may be unbounded or have an optimum of extreme size, so it gets a wide condition limit.
     """
     study = sweep.study
     plain = replace(study.objective, index="condition_number", aggregate="worst", condition_limit=None)
@@ -86,23 +86,23 @@ def _loosest(sweep: Sweep, open_ended: Result) -> float:
 
 
 def _tightest(sweep: Sweep, high: float, objective: float) -> float:
-    """Halve the limit until there is no design worth having, then close in on where the last one is lost."""
+    """Halve the limit until no useful design exists, then bisect for the last limit with one."""
     floor = floor_of(sweep.study, sweep.against)
     good, bad = high, None
     for _ in range(STEPS_DOWN):
         trial = max(0.5 * good, floor)
         if trial >= good:
             return good
-        if not _is_worth_it(sweep, trial, good, objective):
+        if not _is_useful(sweep, trial, good, objective):
             bad = trial
             break
         good = trial
     for _ in range(BISECTIONS if bad is not None else 0):
         trial = math.sqrt(good * (bad or good))
-        good, bad = (trial, bad) if _is_worth_it(sweep, trial, good, objective) else (good, trial)
+        good, bad = (trial, bad) if _is_useful(sweep, trial, good, objective) else (good, trial)
     return good
 
 
-def _is_worth_it(sweep: Sweep, limit: float, looser: float, objective: float) -> bool:
+def _is_useful(sweep: Sweep, limit: float, looser: float, objective: float) -> bool:
     value = objective_of(sweep.solve(limit, [sweep.results[looser]]))
-    return value <= MOST_OBJECTIVE * objective  # NaN, no design, is not
+    return value <= MOST_OBJECTIVE * objective  # False for NaN, which means no design

@@ -19,7 +19,7 @@ from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
 MOST_POINTS = 1000
-FIRST = 0.6  # share of the points that is spread evenly; the rest goes where the front is steep
+FIRST = 0.6  # share of the points that is evenly spaced; the others go where the front is steep
 
 
 def pareto(
@@ -31,30 +31,30 @@ def pareto(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Front:
-    """Find the best objective for each value of a limit: what one thing costs in terms of the other.
+    """Return the best objective for each value of a limit: a trade-off.
 
     One study is solved for many limits (the epsilon-constraint method), from loose to tight and back, each time from
-    its own starts and from what its neighbours found. A looser limit never ends with a worse design. Ctrl-C returns
-    what there is, with `interrupted` set.
+    its own starts and from the designs of its neighbours. A looser limit never has a worse design. Ctrl-C returns the
+    limits solved so far, with `interrupted` set.
 
     Parameters
     ----------
     study : Study
-        A value that it gives to the limit itself is replaced; its min and its other options are kept.
+        Its own value of the limit is replaced; the min and the other options of the limit are kept.
     against : str
         A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...), or a second index: with
-        "condition_limit" the study's own index is made least under limits of the condition number at every pose, and
-        "speed" or "frobenius" make that index least for a study of the condition number.
+        "condition_limit" the study's own index is minimized under limits on the condition number at every pose; with
+        "speed" or "frobenius", for a study of the condition number, that index is minimized.
     values : sequence of float, optional
-        Limits to solve, in the unit of the constraint (radians for angles). By default from the value that the best
-        design takes without the limit down to where no design is left, evenly in logarithms, and closer together
-        where the objective changes fast; the largest limit found impossible comes with them.
+        Limits to solve, in the unit of the constraint (radians for angles). By default from the value of
+        the best design without the limit down to the least limit with a design, evenly spaced in logarithms and closer
+        together where the objective changes fast, and the largest limit found to be infeasible.
     points : int
-        How many limits with a design, if `values` is None; 13 by default.
+        Number of limits with a design, if `values` is None; 13 by default.
     starts : int, optional
         Starts for each limit, in place of the study's.
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        One per processor by default. The result does not depend on it.
     progress : callable, optional
         Called as progress(solved so far, to be solved as far as known, last objective, None without a design).
 
@@ -65,7 +65,7 @@ def pareto(
     Raises
     ------
     ValueError
-        If an argument does not fit, or no limits can be derived since the study is unbounded without one.
+        If an argument does not fit, or if the study is unbounded without a limit, so that none can be derived.
 
     Examples
     --------
@@ -107,9 +107,9 @@ def _values(values: Sequence[float]) -> list[float]:
 
 
 def _trace(sweep: Sweep, count: int) -> list[float]:
-    """Find the range, solve a first part of the limits, then halve the widest gaps."""
+    """Find the range, solve evenly spaced limits, then halve the widest gaps."""
     ends = span(sweep)
-    if ends is None:  # one row that says why: the study as open as it can be
+    if ends is None:  # one row with the reason: the study without the limit
         assert sweep.open_ended is not None
         sweep.results[math.inf] = sweep.open_ended
         return [math.inf]
@@ -129,9 +129,9 @@ def _trace(sweep: Sweep, count: int) -> list[float]:
 
 
 def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None:
-    """Return the neighbours farthest apart in limit and objective, each in parts of its range; None if all are close.
+    """Return the neighbours farthest apart in limit and objective, each relative to its range; None if all are close.
 
-    Objectives count thrice: a table wants the steep part, a figure the whole.
+    Gaps in the objective have three times the weight: steep parts get more points.
     """
     pairs = [(value, objective_of(sweep.results[value])) for value in limits]
     x, y = np.log(np.array([pair for pair in pairs if not math.isnan(pair[1])]).reshape(-1, 2)).T
