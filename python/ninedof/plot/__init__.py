@@ -1,4 +1,4 @@
-"""Figures of geometries, configurations and arrays that the caller passes in; nothing but the layout is computed.
+"""Figures of given geometries, configurations and arrays; only the layout is computed here.
 
 Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
 """

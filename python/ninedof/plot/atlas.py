@@ -1,4 +1,4 @@
-"""An atlas of designs: the best for each size of the base, and how all of them are distributed."""
+"""An atlas of designs: the best for each size of the base, and the distribution of all."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullFormatter
 
 from ninedof.plot import style
 
@@ -15,17 +14,17 @@ if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
 
 MAP = "cividis"
-SHARE = 1e-3  # of all designs: sizes of the base that fewer have are left out at the ends
+SHARE = 1e-3  # of all designs: sizes of the base with fewer designs are left out at both ends
 TOP = 300.0  # condition numbers shown
 
 
 def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Figure:
-    """Return a figure of an atlas: where designs lie in radius ratio and condition number, and the best of each bin.
+    """Return a figure of an atlas: designs over radius ratio and condition number, and the best of each bin.
 
     Parameters
     ----------
     result : SweepResult
-        As `ninedof.atlas` gives it.
+        The result of `ninedof.atlas`.
     optimum : (radius_ratio, condition_number), optional
         A known optimum to mark.
 
@@ -42,7 +41,7 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     used = np.flatnonzero(counts[1:-1].sum(axis=1) >= SHARE * total / len(ratio))
     first, last = (int(used[0]), int(used[-1]) + 1) if used.size else (0, len(inner))
     x, y = ratio[1:][first : last + 1], kappa
-    with style.look():
+    with style.settings():
         figure = style.new_figure(9.0, 4.4)
         left = figure.add_axes((0.07, 0.13, 0.53, 0.78))
         right = figure.add_axes((0.725, 0.13, 0.265, 0.78))
@@ -55,12 +54,8 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
         middle = np.sqrt(x[1:] * x[:-1])
         left.plot(middle, best, color=style.ALARM, lw=1.6, label="best in each bin")
         left.set(xscale="log", yscale="log", xlim=(x[0], x[-1]), ylim=(max(1.0, 0.8 * float(np.nanmin(best))), TOP))
-        left.xaxis.set_major_locator(FixedLocator([2.0**k for k in range(-4, 5)]))
-        left.xaxis.set_major_formatter(lambda t, _: f"{t:g}" if t >= 1 else f"1/{1 / t:g}")
-        left.xaxis.set_minor_formatter(NullFormatter())
-        left.yaxis.set_major_locator(FixedLocator([1, 2, 3, 5, 10, 20, 50, 100, 200, 500]))
-        left.yaxis.set_major_formatter("{x:g}")
-        left.yaxis.set_minor_formatter(NullFormatter())
+        style.plain_numbers(left.xaxis, [2.0**k for k in range(-4, 5)])
+        style.plain_numbers(left.yaxis, [1, 2, 3, 5, 10, 20, 50, 100, 200, 500])
         left.grid(False)
         left.set(xlabel="radius ratio, base / platform", ylabel="condition number")
         left.set_title(f"{total:,} designs, number in each bin")
@@ -74,13 +69,6 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
         right.set(xscale="log", xlim=(kappa[0], kappa[-1]), xlabel="condition number", ylabel="% of designs")
         right.xaxis.set_major_formatter(style.power_of_ten)
         right.set_title("all sizes of the base")
-        right.text(
-            0.97,
-            0.96,
-            f"{share[-1]:.2g} % above",
-            ha="right",
-            va="top",
-            size=style.SMALL_SIZE,
-            transform=right.transAxes,
-        )
+        note = right.text(0.97, 0.96, f"{share[-1]:.2g} % above", size=style.SMALL_SIZE, transform=right.transAxes)
+        note.set(ha="right", va="top")
     return figure

@@ -1,4 +1,4 @@
-"""How an optimization comes down: the smooth minimax form beside plain SQP, from the same starts."""
+"""The convergence of an optimization: the smooth minimax form beside plain SQP, from the same starts."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, PercentFormatter
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.support.arrays import Floats
 
-Floats = NDArray[np.float64]
-
-FLOOR, CEILING = 1e-10, 1e4  # gaps shown; what is below is rounding, what is above a start far from any good design
+FLOOR, CEILING = 1e-10, 1e4  # range of gaps: smaller ones are rounding, larger ones starts far from an optimum
 
 
 def convergence(
@@ -24,10 +23,10 @@ def convergence(
     best: float,
     tolerance: float = 1e-6,
 ) -> Figure:
-    """Return a figure of the distance to the best known condition number against evaluations spent.
+    """Return a figure of the distance to the best known condition number against evaluations.
 
-    Above, one line a start and their median; runs that end further away than the tolerance stand out. Below, the share
-    of starts that have come within the tolerance.
+    Top: one line per start and the median; runs that end outside the tolerance have another colour. Below: the share of
+    starts within the tolerance.
 
     Parameters
     ----------
@@ -37,7 +36,7 @@ def convergence(
     best : float
         The best known condition number.
     tolerance : float
-        How near counts as there.
+        Largest distance of a run that has converged.
 
     Examples
     --------
@@ -54,14 +53,14 @@ def convergence(
     methods = (("minimax SQP", minimax, style.SERIES[1]), ("plain SQP", plain, style.SERIES[0]))
     longest = max(np.size(run) for run in (*minimax, *plain))
     near = style.power_of_ten(tolerance)
-    with style.look():
+    with style.settings():
         figure = style.new_figure(8.0, 5.34)
         share = figure.add_axes((0.105, 0.095, 0.875, 0.25))
         for x, (name, runs, colour) in zip((0.105, 0.5575), methods, strict=True):
             gaps = [np.maximum(np.atleast_1d(np.asarray(run, dtype=np.float64)) - best, FLOOR) for run in runs]
             held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
             axes = figure.add_axes((x, 0.455, 0.4225, 0.48))
-            axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} arrive")
+            axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} converge")
             _runs(axes, gaps, held, colour, tolerance, near)
             _share(share, name, (held <= tolerance).mean(axis=0), colour)
         first, second = figure.axes[1:]
@@ -79,7 +78,7 @@ def convergence(
 
 
 def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: float, near: str) -> None:
-    """One line a start, the median of all (`held` keeps what each ended with), the tolerance."""
+    """Draw one line per start, the median of all (`held` continues each run with its last value), the tolerance."""
     there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
     stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
     median = np.quantile(held, 0.5, axis=0, method="lower")  # an average would fail while half the runs are infinite
@@ -101,9 +100,9 @@ def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: f
 
 
 def _steps(gap: Floats) -> Floats:
-    """Staircase of one run, shape (n, 2), from its first finite value to its end or to the floor.
+    """Return the steps of one run, shape (n, 2), from its first finite value to its end or to FLOOR.
 
-    Corners only where the line moves by 1/25 of a decade, about its own width.
+    Steps of less than 1/25 of a decade, about the line width, are merged.
     """
     alive = np.isfinite(gap)
     alive[1:] &= gap[:-1] > FLOOR

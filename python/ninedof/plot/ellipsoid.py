@@ -1,4 +1,4 @@
-"""Fig. 4: the unit sphere of leg rates and the ellipsoids that the Jacobian makes of it."""
+"""Fig. 4: the unit sphere of leg rates and its images under the Jacobian, which are ellipsoids."""
 
 from __future__ import annotations
 
@@ -11,20 +11,19 @@ from matplotlib import patheffects
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ninedof.plot import scene, style
+from ninedof.support.arrays import Floats
 
-Floats = NDArray[np.float64]
-
-ELEVATION, AZIMUTH = 22.0, -58.0  # degrees: x, y and z all show their length
+ELEVATION, AZIMUTH = 22.0, -58.0  # degrees: no axis is much foreshortened
 EYE = scene.towards_eye(ELEVATION, AZIMUTH)
 ACROSS = np.cross([0.0, 0.0, 1.0], EYE) / np.linalg.norm(np.cross([0.0, 0.0, 1.0], EYE))
 SCREEN = np.stack([ACROSS, np.cross(EYE, ACROSS)])  # rows: to the right and up in the picture
 
 MOST_PANELS = 4
 ROOM = 1.15  # half a panel, over the largest semi-axis
-ENDLESS = 0.92  # of half a panel: where a semi-axis without end is cut
+CUT = 0.92  # of half a panel: drawn length of an infinite semi-axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +34,7 @@ class EllipsoidPanel:
     directions: ArrayLike
     """Columns: the axes, shape (3, 3)."""
     semi_axes: ArrayLike
-    """Lengths >= 0 in the order of the columns, shape (3,); an infinite one is drawn to the edge."""
+    """Lengths >= 0 in the order of the columns, shape (3,); an infinite one ends at the edge."""
     note: str = ""
     """A second line, such as the symbol and its unit."""
 
@@ -46,16 +45,16 @@ def ellipsoids(
     source_note: str = "all nine, of norm 1 at most",
     mapping: str = "J'",
 ) -> Figure:
-    """Return a figure of the unit sphere and, at the same scale, the ellipsoids it is taken to.
+    """Return a figure of the unit sphere and, at the same scale, its images.
 
     Parameters
     ----------
     panels : sequence of EllipsoidPanel
         One to four. The dashed circle in each is the unit sphere.
     source, source_note : str
-        What the unit sphere stands for.
+        Name and description of the unit sphere.
     mapping : str
-        What takes one to the other, written over the arrow.
+        Name of the map, written over the arrow.
 
     Raises
     ------
@@ -79,7 +78,7 @@ def ellipsoids(
     count = len(panels) + 1
     share = 1.0 / count
     unit = EllipsoidPanel(source, np.eye(3), np.ones(3), source_note)
-    with style.look():
+    with style.settings():
         figure = style.new_figure(width=0.4 + 2.6 * count, height=3.5)
         for k, panel in enumerate([unit, *panels]):
             axes = figure.add_axes((k * share, 0.1, share, 0.76), projection="3d")
@@ -119,7 +118,7 @@ def _circle() -> Floats:
 
 
 def _space(axes: Any, half: float) -> None:
-    """Set equal scale and the view; three thin lines through the centre in place of a box."""
+    """Set equal scale and the view; draw thin coordinate axes."""
     axes.set(xlim=(-half, half), ylim=(-half, half), zlim=(-half, half))
     axes.set_box_aspect((1, 1, 1), zoom=1.45)
     axes.set_proj_type("ortho")
@@ -134,20 +133,20 @@ def _space(axes: Any, half: float) -> None:
 
 
 def _body(axes: Any, directions: Floats, semi_axes: Floats, half: float, colour: str) -> None:
-    """Draw an ellipsoid: its outline, filled; its principal ellipses, faint behind; its semi-axes that face the eye."""
-    endless = np.isinf(semi_axes)
-    shape = directions * np.where(endless, ENDLESS * half, semi_axes)
-    # What the eye sees of {shape @ u : |u| <= 1} is {SCREEN @ shape @ u}: an ellipse, even where the body is flat.
+    """Draw an ellipsoid: the filled outline, the principal ellipses, and the semi-axes that face the viewer."""
+    infinite = np.isinf(semi_axes)
+    shape = directions * np.where(infinite, CUT * half, semi_axes)
+    # The projection of {shape @ u : |u| <= 1} is {SCREEN @ shape @ u}: an ellipse, also for a flat body.
     wide, lengths, _ = np.linalg.svd(SCREEN @ shape)
     outline = SCREEN.T @ (wide * lengths) @ _circle()
     axes.add_collection3d(Poly3DCollection([outline.T], facecolor=colour, alpha=0.16, lw=0, zorder=2))
-    axes.plot(*outline, color=colour, lw=1.0, ls=_dashes(bool(endless.any())), zorder=4)
+    axes.plot(*outline, color=colour, lw=1.0, ls=_dashes(bool(infinite.any())), zorder=4)
     for i, j in ((0, 1), (1, 2), (2, 0)):
         ring = shape[:, [i, j]] @ _circle()
-        axes.plot(*ring, color=colour, lw=0.8, alpha=0.4, ls=_dashes(bool(endless[[i, j]].any())), zorder=3)
-        axes.plot(*_in_front(ring, shape), color=colour, lw=1.5, ls=_dashes(bool(endless[[i, j]].any())), zorder=6)
+        axes.plot(*ring, color=colour, lw=0.8, alpha=0.4, ls=_dashes(bool(infinite[[i, j]].any())), zorder=3)
+        axes.plot(*_in_front(ring, shape), color=colour, lw=1.5, ls=_dashes(bool(infinite[[i, j]].any())), zorder=6)
     rim = [patheffects.Stroke(linewidth=3.4, foreground="white"), patheffects.Normal()]
-    for tip, cut in zip(shape.T * np.where(EYE @ shape >= 0.0, 1.0, -1.0)[:, None], endless, strict=True):
+    for tip, cut in zip(shape.T * np.where(EYE @ shape >= 0.0, 1.0, -1.0)[:, None], infinite, strict=True):
         axes.plot(*np.outer(tip, [0, 1]), color=style.INK, lw=1.8, ls=_dashes(cut), path_effects=rim, zorder=7)
         if cut:
             beside = tip + 0.12 * half * ACROSS
@@ -158,15 +157,15 @@ def _body(axes: Any, directions: Floats, semi_axes: Floats, half: float, colour:
 
 
 def _dashes(cut: bool) -> Any:
-    """Dashes for what goes on beyond the picture."""
+    """Return the line style: dashes if the line continues beyond the figure."""
     return (0, (3, 1.5)) if cut else "-"
 
 
 def _in_front(ring: Floats, shape: Floats) -> Floats:
-    """Return the half of a closed curve on the ellipsoid that faces the eye, NaN elsewhere."""
+    """Return the half of a closed curve on the ellipsoid that faces the viewer, NaN elsewhere."""
     lengths = np.linalg.norm(shape, axis=0)
     if lengths.min() <= 1e-9 * lengths.max():
-        return ring  # flat: nothing is behind it
+        return ring  # flat: no part is hidden
     inverse = np.linalg.inv(shape)
     facing = EYE @ inverse.T @ inverse @ ring  # the normal at shape @ u is along shape^-T u
     return np.where(facing >= -1e-9 * np.abs(facing).max(), ring, np.nan)

@@ -1,4 +1,4 @@
-"""A front: the best objective against a limit, what relaxing it buys, and where there is no design."""
+"""A front: the best objective against a limit, its prices, and the limits without a design."""
 
 from __future__ import annotations
 
@@ -9,18 +9,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from matplotlib.ticker import LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from ninedof.plot import style
 from ninedof.plot.plates import outlines
 from ninedof.robot.geometry import Geometry
-
-Floats = NDArray[np.float64]
+from ninedof.support.arrays import Floats
 
 
 class Sketch(NamedTuple):
-    """A design of the front, to be drawn from above."""
+    """A design of the front, for a drawing from above."""
 
     limit: float
     geometry: Geometry
@@ -30,7 +27,7 @@ class Sketch(NamedTuple):
 
 MOST_SKETCHES = 5
 MARKS = {"optimal": "o", "stopped": "D"}
-NONE = {"infeasible": ("X", "no design"), "unbounded": ("v", "no least value"), "stopped": ("P", "nothing found")}
+NONE = {"infeasible": ("X", "no design"), "unbounded": ("v", "unbounded"), "stopped": ("P", "nothing found")}
 
 
 def front(
@@ -42,17 +39,17 @@ def front(
 ) -> Figure:
     """Return a figure of a front.
 
-    Above, the objective at each limit; limits without a design are crosses on a grey ground. Below, what relaxing the
-    limit by 1 % buys, and a few plates from above.
+    Top: the objective at each limit; limits without a design are crosses on a grey background. Below: the price of each
+    limit, and the plates of a few designs from above.
 
     Parameters
     ----------
     rows : sequence of mappings
-        As `ninedof.pareto.Front.table` gives them: limit, status, objective, price, dominated.
+        The rows of `ninedof.pareto.Front.table`: limit, status, objective, price, dominated.
     against : str
         Name of the limit.
     objective : str
-        Name of what was made least.
+        Name of the objective.
     unit : str
         Of the limit, if it is a length.
     sketches : sequence of Sketch
@@ -79,7 +76,7 @@ def front(
         raise ValueError(f"rows: got {len(rows)} without a finite limit, expected at least one")
     if len(sketches) > MOST_SKETCHES:
         raise ValueError(f"sketches: got {len(sketches)}, expected at most {MOST_SKETCHES}")
-    with style.look():
+    with style.settings():
         figure = style.new_figure(8.0, 6.9 if sketches else 5.34)
         share = 1.75 / 6.9 if sketches else 0.0
         upper = figure.add_axes((0.095, share + 0.42 * (1 - share), 0.885, 0.515 * (1 - share)))
@@ -125,16 +122,14 @@ def _prices(axes: Any, rows: Sequence[Mapping[str, Any]], name: str) -> None:
 
 
 def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Spread the limits, evenly in logarithms where they span a factor, and mark where there is no design."""
+    """Set the axis of limits, logarithmic for a wide range, and mark limits without a design."""
     limits = np.array([row["limit"] for row in rows], dtype=np.float64)
     low, high = float(limits.min()), float(limits.max())
     if high > 4.0 * low > 0.0:
         margin = (high / low) ** 0.035
         view = (low / margin, high * margin)
         axes.set_xscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axes.xaxis.set_major_formatter("{x:g}")
-        axes.xaxis.set_minor_formatter(NullFormatter())
+        style.one_two_five(axes.xaxis)
     else:
         margin = 0.035 * max(high - low, 0.1 * abs(high))
         view = (low - margin, high + margin)
@@ -152,7 +147,7 @@ def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Explain only the marks that are there."""
+    """Add a legend of the marks in the figure."""
     plain: dict[str, Any] = {"ls": "", "ms": 6.5, "mew": 1.3}
     keys = []
     if any(row["status"] == "optimal" and not row["dominated"] for row in rows):
@@ -161,7 +156,7 @@ def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> Non
         label = "no better than a tighter limit"
         keys.append(style.key(style.SERIES[0], marker="o", mfc="white", label=label, **plain))
     if any(row["status"] != "optimal" and row["objective"] is not None for row in rows):
-        keys.append(style.key(style.ALARM, marker="D", label="found, not proved", **plain))
+        keys.append(style.key(style.ALARM, marker="D", label="found, not an optimum", **plain))
     for status, (mark, words) in NONE.items():
         if any(row["status"] == status and row["objective"] is None for row in rows):
             keys.append(style.key(style.ALARM, marker=mark, label=words, ls="", ms=8, mec="white", mew=0.8))
@@ -169,15 +164,11 @@ def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> Non
 
 
 def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float) -> None:
-    """Draw plates from above in a row, in the order of their limits."""
+    """Draw plates from above in one row, in the order of their limits."""
     ordered = sorted(sketches, key=lambda sketch: sketch.limit)
     width = 0.885 / len(ordered)
-    figure.text(
-        0.095,
-        share - 0.005,
-        "plates from above, each at its own scale, base dark, platform light",
-        size=style.SMALL_SIZE,
-    )
+    words = "plates from above, each at its own scale, base dark, platform light"
+    figure.text(0.095, share - 0.005, words, size=style.SMALL_SIZE)
     for k, sketch in enumerate(ordered):
         reach = float(np.abs(_joints(sketch)[:, :2]).max())
         axes = figure.add_axes((0.095 + k * width, 0.005, width, share - 0.045))

@@ -9,16 +9,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Rectangle
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class DesignCurves:
-    """Condition number of one design along two lines through its own point. Lengths in one unit, angles in radians."""
+    """Condition number of one design along zs and along theta_z. Lengths in one unit, angles in radians."""
 
     name: str
     zs: ArrayLike
@@ -32,20 +30,20 @@ class DesignCurves:
     point: tuple[float, float, float]
     """The design's own zs, theta_z and condition number."""
     slope: float | None = None
-    """d(condition number)/d(theta_z) at the point, per radian: draws the tangent."""
+    """d(condition number)/d(theta_z) at the point, per radian; the tangent is drawn if given."""
     level: float | None = None
-    """A condition number to compare with: draws a magnified view about it."""
+    """A reference condition number; with `crossings`, a magnified view of the curve near it is drawn."""
     crossings: tuple[float, ...] = ()
-    """The zs where the level is met, for that view."""
+    """The zs at which the condition number is `level`."""
     least: tuple[float, float] | None = None
-    """The lowest point between them, zs and condition number, for that view."""
+    """The minimum between the crossings: zs and condition number."""
 
 
 def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
     """Return a figure of the condition number along zs and along theta_z.
 
-    The first design with a level and crossings has them in a magnified view of its own: at full scale two crossings
-    near the minimum are one point.
+    A magnified view shows the crossings of the first design that has a level and crossings: at full scale two crossings
+    near the minimum look like one point.
 
     Parameters
     ----------
@@ -67,7 +65,7 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
         raise ValueError(f"designs: got {len(designs)}, expected 1 to {len(style.SERIES)}")
     pairs = list(zip(style.SERIES, designs, strict=False))
     compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
-    with style.look():
+    with style.settings():
         figure = style.new_figure(8.0, 5.34)
         bottom, height = (0.475, 0.45) if compared else (0.185, 0.74)
         left = figure.add_axes((0.085, bottom, 0.415, height))
@@ -98,13 +96,12 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
 
 
 def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colour: str) -> None:
-    values = np.asarray(y, dtype=np.float64)
-    axes.plot(x, np.where(np.isfinite(values), values, np.nan), color=colour, lw=2.0)
+    axes.plot(x, style.without_infinite(y), color=colour, lw=2.0)
     axes.plot(*own, "o", color=colour, ms=7, mec="white", mew=1.2, zorder=5)
 
 
 def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
-    """Show all curves up to `factor` times their least value, and the part of the x axis where one is that low."""
+    """Show the curves up to `factor` times their least value, and the part of the x axis where one is below that."""
     x, y = np.hstack([np.array(line.get_data()) for line in axes.lines])
     finite = y[np.isfinite(y)]
     if not len(finite):
@@ -123,7 +120,7 @@ def _tangent(axes: Any, design: DesignCurves, slope: float) -> None:
     ends = at + 0.28 * float(np.ptp(axes.get_xlim())) * np.array([-1.0, 1.0])
     axes.plot(ends, kappa + per_degree * (ends - at), color=style.INK, lw=1.1, ls=(0, (5, 3)), zorder=4)
     text = f"dashed, {design.name}:\nslope {per_degree:+.4f} a degree,\nnot 0 as eq. (7) has it"
-    side = 0.025 if slope < 0 else 0.975  # where the line is high
+    side = 0.025 if slope < 0 else 0.975  # the side where the line is high
     note = axes.text(side, 0.025, text.replace("-", "\N{MINUS SIGN}"), size=style.SMALL_SIZE, transform=axes.transAxes)
     note.set(
         ha="left" if slope < 0 else "right",
@@ -134,7 +131,7 @@ def _tangent(axes: Any, design: DesignCurves, slope: float) -> None:
 
 
 def _magnify(axes: Any, box: Any, colour: str, design: DesignCurves) -> None:
-    """Draw the curve about the level on axes of its own, and the frame it comes from."""
+    """Draw the curve near the level on separate axes, and mark the magnified part."""
     zs, kappa = np.asarray(design.zs, dtype=np.float64), np.asarray(design.along_zs, dtype=np.float64)
     level, first, last = float(design.level or 0.0), min(design.crossings), max(design.crossings)
     margin = 0.6 * max(last - first, 0.02 * abs(last))

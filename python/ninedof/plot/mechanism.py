@@ -13,7 +13,8 @@ from matplotlib.patches import Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 
 from ninedof.plot import scene, style
-from ninedof.plot.plates import Floats, distinct, outlines
+from ninedof.plot.plates import distinct, outlines
+from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
     from ninedof.robot.configuration import Configuration
@@ -53,8 +54,8 @@ def draw_mechanism(
     unit : str
         Of the lengths, for the axis labels; none by default.
     limits : (float, float, float), optional
-        Half width in x and y, lowest and highest z. What the mechanism needs by default; give the same to several axes
-        to have them at one scale.
+        Half width in x and y, lowest and highest z; those of the mechanism by default. The same limits give several
+        axes one scale.
     legend : bool
         Whether to add a legend under the axes.
 
@@ -124,7 +125,7 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
     if not panels:
         raise ValueError("panels: got none, expected at least one Mechanism")
     limits = scene.limits(np.vstack([_points(panel.geometry, panel.configuration) for panel in panels]))
-    with style.look():
+    with style.settings():
         figure = style.new_figure(width=max(4.0 * len(panels), 5.4), height=5.0)
         share = 1.0 / len(panels)
         for k, panel in enumerate(panels):
@@ -161,7 +162,7 @@ def _keys() -> list[Any]:
 
 
 def _points(geometry: Geometry, configuration: Configuration) -> Floats:
-    """Stack base joints, platform joints where they stand (external before internal), and O: shape (13, 3)."""
+    """Return base joints, platform joints in the base frame (external before internal), and O: shape (13, 3)."""
     carried = np.vstack([geometry.platform_external, geometry.platform_internal])
     placed = configuration.position + carried @ configuration.rotation.T
     return np.vstack([geometry.base_external, geometry.base_internal, placed, configuration.internal_point])
@@ -169,7 +170,7 @@ def _points(geometry: Geometry, configuration: Configuration) -> Floats:
 
 def _plate(axes: Any, joints: Floats, colour: str, alpha: float, zorder: int) -> None:
     sides = outlines(joints)
-    clear = 1.0 - alpha if len(sides) == 1 else 0.5 * (1.0 - alpha)  # a solid is seen through twice
+    clear = 1.0 - alpha if len(sides) == 1 else 0.5 * (1.0 - alpha)  # two faces of a solid overlap
     faces = Poly3DCollection(sides, facecolor=colour, alpha=1.0 - clear, zorder=zorder)
     faces.set_edgecolor(style.INK)
     faces.set_linewidth(0.9 if len(sides) == 1 else 0.6)
@@ -177,7 +178,7 @@ def _plate(axes: Any, joints: Floats, colour: str, alpha: float, zorder: int) ->
 
 
 def _legs(axes: Any, legs: list[tuple[str, Floats, Floats]]) -> None:
-    """Draw lines from the back to the front, each with a white rim where it passes over another."""
+    """Draw the legs from the back to the front, with a white rim where one crosses another."""
     eye = scene.towards_eye()
     for order, (kind, start, end) in enumerate(sorted(legs, key=lambda leg: float((leg[1] + leg[2]) @ eye))):
         width = 2.8 if kind == "l" else 2.3

@@ -1,19 +1,18 @@
-"""The body of a plate: the convex hull of its six joints, flat or solid."""
+"""The shape of a plate: the convex hull of its six joints, flat or solid."""
 
 from __future__ import annotations
 
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from ninedof.support.arrays import Floats
 
 _TOLERANCE = 1e-9  # relative to the size of the plate
 
 
 def distinct(points: Floats) -> Floats:
-    """Return the points without those that coincide with an earlier one, as coupled joints do."""
+    """Return the points without those that coincide with an earlier one, such as coupled joints."""
     size = float(np.ptp(points, axis=0).max())
     kept: list[Floats] = []
     for point in points:
@@ -25,8 +24,8 @@ def distinct(points: Floats) -> Floats:
 def outlines(joints: Floats) -> list[Floats]:
     """Return the faces of the convex hull of a few points, each as an ordered outline.
 
-    One polygon where the points lie in a plane (joints inside it are left out), the faces of a solid otherwise. Planes
-    through three points are tried one by one: for six joints that is twenty, and there is no need of a hull library.
+    One polygon if the points lie in a plane (joints inside it are left out), else the faces of a solid. All planes
+    through three points are tested: twenty for six joints.
 
     Parameters
     ----------
@@ -57,7 +56,7 @@ def outlines(joints: Floats) -> list[Floats]:
 
 
 def _outline(points: Floats, normal: Floats) -> Floats:
-    """Corners of the convex hull of points in a plane, in order (Andrew's monotone chain)."""
+    """Return the corners of the convex hull of points in a plane, in order (Andrew's monotone chain)."""
     across = points[1] - points[0]
     across = across / np.linalg.norm(across)
     flat = np.column_stack([points @ across, points @ np.cross(normal, across)])
@@ -76,5 +75,5 @@ def _outline(points: Floats, normal: Floats) -> Floats:
 
 
 def _turn(a: Floats, b: Floats, c: Floats) -> float:
-    """Twice the area of a triangle in the plane, positive where it turns to the left."""
+    """Return twice the area of a triangle in the plane, positive if it turns to the left."""
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

@@ -1,4 +1,4 @@
-"""The condition number at each pose of a design, beside other designs."""
+"""The condition number at each pose of one or more designs."""
 
 from __future__ import annotations
 
@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, ScalarFormatter
-from numpy.typing import ArrayLike, NDArray
+from matplotlib.ticker import FixedLocator
+from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.support.arrays import Floats
 
-Floats = NDArray[np.float64]
-
-MOST_NAMED = 40  # poses; more have numbers, and not every one
-RANGE = 30.0  # times the least: poses beyond it are drawn at the upper edge
+MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
+RANGE = 30.0  # times the least: larger values are drawn at the upper edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +35,9 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
     designs : sequence of PoseConditions
         One to four, all at the same poses.
     names : sequence of str
-        Of the poses; their numbers if there are none.
+        Names of the poses; their numbers by default.
     index : str
-        What is shown.
+        Name of the index.
 
     Raises
     ------
@@ -60,9 +59,9 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
         raise ValueError(f"designs: got conditions of shapes {[v.shape for v in values]}, expected one shape (n,)")
     if len(names) not in (0, count):
         raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
-    with style.look():
+    with style.settings():
         longest = max((len(name) for name in names), default=0) if count <= MOST_NAMED else 0
-        below = max(0.95, 0.42 + 0.055 * longest)  # inches: slanted names stand on their ends
+        below = max(0.95, 0.42 + 0.055 * longest)  # inches below the axis, for slanted names
         height = 3.4 + below
         figure = style.new_figure(8.0, height)
         axes = figure.add_axes((0.085, below / height, 0.895, 1.0 - (below + 0.4) / height))
@@ -87,16 +86,14 @@ def _label(name: str, values: Floats) -> str:
 
 
 def _scale(axes: Any, values: Sequence[Floats]) -> None:
-    """Show all that is finite and not far off, in logarithms where it spans a factor."""
+    """Show the finite values up to RANGE times the least, on a logarithmic axis if they span a factor of 3."""
     every = np.concatenate(values)
     finite = every[np.isfinite(every)]
     low = float(finite.min()) if len(finite) else 1.0
     high = min(float(finite.max()) if len(finite) else 2.0, RANGE * low)
     if high > 3.0 * low:
         axes.set_yscale("log")
-        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axes.yaxis.set_major_formatter(ScalarFormatter())
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        style.one_two_five(axes.yaxis)
         axes.set_ylim(low / 1.15, high * 1.15)
     else:
         room = 0.1 * max(high - low, 0.05 * low)
@@ -104,7 +101,7 @@ def _scale(axes: Any, values: Sequence[Floats]) -> None:
 
 
 def _one(axes: Any, values: Floats, colour: str, k: int, count: int) -> None:
-    """One design: its poses side by side with those of the others, its worst as a line."""
+    """Draw one design: its values beside those of the others, its worst value as a line."""
     x = np.arange(len(values)) + (k - 0.5 * (count - 1)) * min(0.16, 0.5 / count)
     bottom, top = axes.get_ylim()
     seen = np.minimum(values, top)

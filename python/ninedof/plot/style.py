@@ -1,23 +1,27 @@
-"""The one look of all figures: colours, sizes, how a figure is made and written."""
+"""The style of all figures: colours, sizes, axes, and how a figure is created and saved."""
 
 from __future__ import annotations
 
 import io
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
+from numpy.typing import ArrayLike
 
+from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 
-# Okabe and Ito's set: told apart with every common kind of colour vision.
+# Okabe and Ito's palette, which is safe for colour-blind readers.
 EXTERNAL = "#0072B2"
 UPPER = "#D55E00"
 LOWER = "#009E73"
@@ -29,10 +33,10 @@ INK = "#1F262D"
 MUTED = "#6B7680"
 GRID = "#E3E7EB"
 
-# Paul Tol's "bright", without what the legs have: for designs and methods beside each other, in this order.
+# Paul Tol's "bright" without the colours of the legs: for designs and methods in one figure, in this order.
 SERIES = ("#566370", "#AA3377", "#117799", "#B07D00")
-ALARM = UPPER  # what went wrong
-CONDITION = "cividis_r"  # condition numbers, dark where large; told apart with every common kind of colour vision
+ALARM = UPPER  # failures and warnings
+CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-blind readers
 
 TITLE_SIZE = 10.5
 TEXT_SIZE = 9.0
@@ -54,14 +58,14 @@ _SETTINGS: Any = {
     "axes.titlesize": TITLE_SIZE,
     "axes.titleweight": "bold",
     "figure.facecolor": "white",
-    "font.family": ["DejaVu Sans"],  # comes with matplotlib, so a figure is the same everywhere
+    "font.family": ["DejaVu Sans"],  # part of matplotlib, so that figures are the same on every machine
     "font.size": TEXT_SIZE,
     "grid.color": GRID,
     "grid.linewidth": 0.7,
     "legend.fontsize": SMALL_SIZE,
     "legend.frameon": False,
     "svg.fonttype": "path",
-    "svg.hashsalt": "ninedof",  # ids from content, not from chance: equal figures are equal files
+    "svg.hashsalt": "ninedof",  # ids that are not random: equal figures give equal files
     "text.color": INK,
     "text.usetex": False,
     "xtick.color": MUTED,
@@ -74,8 +78,8 @@ _SETTINGS: Any = {
 
 
 @contextmanager
-def look() -> Iterator[None]:
-    """Apply the settings of all figures inside a `with`, and leave matplotlib as it was."""
+def settings() -> Iterator[None]:
+    """Apply the settings of all figures inside a `with` block, and restore those of matplotlib."""
     with rc_context(_SETTINGS):
         yield
 
@@ -88,16 +92,36 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def with_unit(name: str, unit: str) -> str:
-    """Return an axis label: "zs (m)", or the bare name where lengths have no unit."""
+    """Return an axis label such as "zs (m)"; the name alone without a unit."""
     return f"{name} ({unit})" if unit else name
 
 
 def power_of_ten(value: float, position: object = None) -> str:
-    """Return "10⁻⁶" for 1e-6, and other numbers as they are; also a tick formatter, ten times as fast as mathtext."""
+    """Return "10⁻⁶" for 1e-6, and other numbers unchanged; also a tick formatter, ten times as fast as mathtext."""
     exponent = math.log10(value) if value > 0 else math.nan
     if not math.isfinite(exponent) or abs(exponent - round(exponent)) > 1e-9:
         return f"{value:g}"
     return "10" + str(round(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def plain_numbers(axis: Any, ticks: Sequence[float]) -> None:
+    """Label a logarithmic axis with these numbers, without powers of ten; numbers below 1 as fractions."""
+    axis.set_major_locator(FixedLocator(ticks))
+    axis.set_major_formatter(lambda x, _: f"{x:g}" if x >= 1 else f"1/{1 / x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def one_two_five(axis: Any) -> None:
+    """Label a logarithmic axis with 1, 2 and 5 in each decade, without powers of ten."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def without_infinite(values: ArrayLike) -> Floats:
+    """Return the values with NaN in place of infinite ones: the curve has a gap there."""
+    array = np.asarray(values, dtype=np.float64)
+    return np.where(np.isfinite(array), array, np.nan)
 
 
 def key(colour: str, **line: Any) -> Line2D:
@@ -114,14 +138,14 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     ----------
     figure : matplotlib.figure.Figure
     directory : path
-        Made where it is missing.
+        Created if it does not exist.
     stem : str
         File name without suffix.
 
     Returns
     -------
     list of pathlib.Path
-        The PNG (150 dots an inch) and the SVG.
+        The PNG (150 dots per inch) and the SVG.
 
     Raises
     ------
@@ -138,7 +162,7 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     folder.mkdir(parents=True, exist_ok=True)
     metadata: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None}}
     paths = []
-    with look():
+    with settings():
         for kind, entries in metadata.items():
             image = io.BytesIO()
             figure.savefig(image, format=kind, dpi=DPI, metadata=entries)

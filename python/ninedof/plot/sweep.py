@@ -9,19 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullFormatter
-from numpy.typing import NDArray
+from matplotlib.ticker import NullFormatter
 
 from ninedof.plot import style
+from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
 
-Floats = NDArray[np.float64]
-
 PANELS = 6  # slices shown of a sweep over three coordinates
 MOST_CURVES = 9
-RANGE = 30.0  # times the least: what lies beyond is off the scale
+RANGE = 30.0  # times the least: larger values are cut off
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
 
@@ -29,8 +27,8 @@ MAP = "viridis"
 def sweep(result: SweepResult, name: str = "") -> Figure:
     """Return a figure of one index of a sweep.
 
-    One coordinate gives a curve, or several for an index of several numbers. Two give a map, the first along x, or a
-    map of each of several numbers. Three give maps at up to six values of the first, of the first number.
+    One coordinate gives a curve for each component of the index. Two give a map for each component, with the first
+    coordinate along x. Three give maps of the first component at up to six values of the first coordinate.
 
     Parameters
     ----------
@@ -53,7 +51,7 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
     dims, values = result.dims[name], result.arrays[name]
     labels = result.coords[dims[-1]] if values.shape and result.coords[dims[-1]].dtype.kind == "U" else None
     swept = dims if labels is None else dims[:-1]
-    with style.look():
+    with style.settings():
         if len(swept) == 1:
             return _curves(result, name, swept[0], np.atleast_2d(np.asarray(values).T), labels)
         if len(swept) == 2:
@@ -74,7 +72,7 @@ def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any)
         colour = style.SERIES[k % len(style.SERIES)]
         label = None if labels is None else str(labels[k])
         dashes = ("-", "--", ":")[k // len(style.SERIES) % 3]
-        axes.plot(x, np.where(np.isfinite(row), row, np.nan), ls=dashes, color=colour, lw=2.0, label=label)
+        axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, lw=2.0, label=label)
     axes.set_title(_words(name))
     axes.set(xlabel=_axis(result, dim), ylabel=style.with_unit(_words(name), _unit(result, name)))
     if name.startswith("condition_number"):
@@ -85,7 +83,7 @@ def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any)
 
 
 def _crop(axes: Any, rows: Floats) -> None:
-    """Leave out what is many times the least, where a curve runs off to infinity."""
+    """Cut off values of many times the least, near a singularity."""
     finite = rows[np.isfinite(rows)]
     if finite.size and finite.max() > RANGE * finite.min():
         axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
@@ -93,7 +91,7 @@ def _crop(axes: Any, rows: Floats) -> None:
 
 
 def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats, titles: Sequence[str]) -> Figure:
-    """Draw maps over one plane, with one scale of colours."""
+    """Draw maps over two coordinates with a common colour scale."""
     columns = min(3, len(slices))
     rows = -(-len(slices) // 3)
     figure = style.new_figure(5.4 if columns == 1 else 9.0, 4.4 if columns == 1 else 0.9 + 2.9 * rows)
@@ -140,28 +138,26 @@ def _norm(values: Floats, name: str) -> Normalize:
 
 
 def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
-    """Return the condition number against displacement: platform, its turn, and O, three curves each.
+    """Return a figure of the condition number against displacements of p, rotations, and displacements of O.
 
     Parameters
     ----------
     result : SweepResult
-        As `ninedof.sweep_figure("6")` gives it.
+        The result of `ninedof.sweep_figure("6")`.
     unit : str
         Of lengths.
 
     """
     names, x, rows = (result[key] for key in ("coordinate", "displacement", "condition_number"))
     groups = ((0, f"platform moved ({unit})"), (3, "platform turned (rad)"), (6, f"O moved ({unit})"))
-    with style.look():
+    with style.settings():
         figure = style.new_figure(9.0, 3.9)
         panels = figure.subplots(1, 3, sharey=True)
         top = min(float(rows[np.isfinite(rows)].max()), 2.4 * float(rows.min()))
         for axes, (first, title) in zip(panels, groups, strict=True):
             for k, dashes in zip(range(first, first + 3), ("-", (0, (5, 2)), (0, (1.2, 1.2))), strict=True):
                 colour = style.SERIES[k - first]
-                axes.plot(
-                    x, np.where(np.isfinite(rows[k]), rows[k], np.nan), color=colour, ls=dashes, lw=2.0, label=names[k]
-                )
+                axes.plot(x, style.without_infinite(rows[k]), color=colour, ls=dashes, lw=2.0, label=names[k])
             axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
             axes.set_xticks([x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]])
             axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
@@ -171,25 +167,23 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
 
 
 def figure_7(result: SweepResult) -> Figure:
-    """Return the least condition number against the two ratios of sides.
+    """Return a figure of the least condition number against the two ratios of sides.
 
     Parameters
     ----------
     result : SweepResult
-        As `ninedof.sweep_figure("7")` gives it.
+        The result of `ninedof.sweep_figure("7")`.
 
     """
     names, x, rows = (result[key] for key in ("sides", "ratio", "condition_number"))
-    with style.look():
+    with style.settings():
         figure = style.new_figure(7.0, 4.2)
         axes = figure.add_axes((0.09, 0.13, 0.88, 0.77))
         axes.plot(x, rows[0], color=style.SERIES[0], lw=2.4, label=names[0])
         axes.plot(x, rows[1], "o", color=style.SERIES[1], ms=4.5, mfc="white", mew=1.3, label=names[1])
         axes.set_xscale("log", base=2)
         ticks = [t for t in 2.0 ** np.arange(-10, 11) if x[0] <= t <= x[-1]]
-        axes.xaxis.set_major_locator(FixedLocator(ticks))
-        axes.xaxis.set_major_formatter(lambda t, _: f"{t:g}" if t >= 1 else f"1/{1 / t:g}")
-        axes.xaxis.set_minor_formatter(NullFormatter())
+        style.plain_numbers(axes.xaxis, ticks)
         axes.set_title("least condition number, all else re-optimized")
         axes.set(xlabel="ratio of the sides", ylabel="condition number")
         axes.legend(loc="upper right")

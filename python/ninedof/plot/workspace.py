@@ -1,4 +1,4 @@
-"""A workspace in sections, what limits it, and how the volume came to be known."""
+"""A workspace: sections, its limits, and the convergence of the volume."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ KINDS = {  # the limits by kind, in the order of the legend: beginning of the na
     "det": ("singularity", "#CC3311"),
     "region": ("region", style.MUTED),
     "box": ("box", style.MUTED),
-    "internal_point": ("no place for O", "#999933"),
+    "internal_point": ("no admissible O", "#999933"),
 }
 
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """One plane of a map, as `WorkspaceMap.slice` returns it, with the ball and the box that fit inside."""
+    """One section, as `WorkspaceMap.slice` returns it, with the largest ball and box inside the workspace."""
 
     plane: WorkspaceSlice
     ball: tuple[ArrayLike, float] | None = None
-    """Centre and radius in the two coordinates drawn: the circle that the plane cuts out of a ball."""
+    """Centre and radius of the section of the ball, in the two coordinates drawn."""
     box: tuple[ArrayLike, ArrayLike] | None = None
     """Low and high corner in the two coordinates drawn."""
 
@@ -60,7 +60,7 @@ def workspace(
     sections : sequence of Section
         One to three.
     limit_names : sequence of str
-        What the numbers in the sections stand for.
+        Names of the limits, indexed by the numbers in the sections.
     shares : mapping of str to float
         Share of the boundary by limit.
     percentiles : array_like, shape (101,)
@@ -88,7 +88,7 @@ def workspace(
     if not 0 < len(sections) <= MOST_SECTIONS:
         raise ValueError(f"sections: got {len(sections)}, expected 1 to {MOST_SECTIONS}")
     kinds = [_kind(name) for name in limit_names]
-    with style.look():
+    with style.settings():
         figure = style.new_figure(width=0.9 + 3.6 * max(len(sections), 2), height=6.6)
         rows = figure.add_gridspec(
             2, 1, height_ratios=[1.55, 1.0], hspace=0.42, left=0.155, right=0.91, top=0.88, bottom=0.09
@@ -119,7 +119,7 @@ def _kind(name: str) -> str:
 
 
 def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[float, float], unit: str) -> Any:
-    """Draw a plane: the condition number inside, the boundary in the colour of what limits it."""
+    """Draw a section: the condition number inside, the boundary in the colour of its limit."""
     s = section.plane
     half = [0.5 * (c[1] - c[0]) for c in (s.horizontal, s.vertical)]
     extent = (
@@ -150,7 +150,7 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     axes.set_title(f"{s.plane[0]} = {s.plane[1]:.4g}")
     found = np.argwhere(s.state > 0)
     if len(found):
-        # What is allowed, with a margin, in place of an empty box.
+        # The allowed part with a margin.
         (v0, h0), (v1, h1) = found.min(axis=0), found.max(axis=0)
         room = 0.06 * max(s.horizontal[h1] - s.horizontal[h0], s.vertical[v1] - s.vertical[v0]) + half[0]
         axes.set_xlim(max(extent[0], s.horizontal[h0] - room), min(extent[1], s.horizontal[h1] + room))
@@ -167,7 +167,7 @@ def _legend(figure: Figure, sections: Sequence[Section], kinds: Sequence[str]) -
             loc="upper left",
             ncols=5,
             bbox_to_anchor=(0.02, 0.995),
-            title="the boundary by what limits it",
+            title="limits of the boundary",
             alignment="left",
         )
 
@@ -206,4 +206,4 @@ def _levels(axes: Any, levels: Any) -> None:
     axes.xaxis.set_major_formatter(style.power_of_ten)
     axes.yaxis.set_major_formatter(style.power_of_ten)
     axes.minorticks_off()
-    axes.set(xlabel="poses looked at", ylabel="share of the volume")
+    axes.set(xlabel="poses evaluated", ylabel="share of the volume")

@@ -239,8 +239,8 @@ def test_view_keeps_to_where_the_curves_are_low():
 def test_convergence_shows_who_is_stuck():
     share, minimax, plain = plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0).axes
     assert (minimax.get_title(loc="left"), plain.get_title(loc="left")) == (
-        "minimax SQP: 2 of 2 arrive",
-        "plain SQP: 1 of 2 arrive",
+        "minimax SQP: 2 of 2 converge",
+        "plain SQP: 1 of 2 converge",
     )
     there, stuck, median = (c for c in plain.collections if isinstance(c, LineCollection))
     assert [len(c.get_segments()) for c in (there, stuck, median)] == [1, 1, 1]

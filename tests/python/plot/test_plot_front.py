@@ -72,7 +72,7 @@ def test_every_limit_is_marked_by_its_status():
     assert marks(upper, "X") == [(1.0, bottom, alarm), (1.2, bottom, alarm)]
     assert marks(upper, "v") == [(3.5, bottom, alarm)]
     words = [text.get_text() for text in upper.get_legend().get_texts()]
-    assert words == ["optimal", "no better than a tighter limit", "found, not proved", "no design", "no least value"]
+    assert words == ["optimal", "no better than a tighter limit", "found, not an optimum", "no design", "unbounded"]
 
 
 def test_the_line_joins_what_was_found():
