@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ninedof.design.study import Study
 from ninedof.optimize.prices import price_words
@@ -14,6 +14,9 @@ from ninedof.robot.geometry import Geometry
 
 if TYPE_CHECKING:
     from ninedof import _core
+
+
+T = TypeVar("T")
 
 
 class Status(StrEnum):
@@ -67,6 +70,17 @@ class Candidate:
         return _to_dict(self)
 
 
+class _OfBest(property, Generic[T]):
+    """A property of the best candidate of a result; None without one."""
+
+    def __init__(self, get: Callable[[Candidate], T], doc: str) -> None:
+        super().__init__(lambda result: get(result.best) if result.best else None, doc=doc)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, result: Any, owner: type | None = None) -> T | None: ...  # type: ignore[override]
+
+
 @dataclass(frozen=True)
 class Result:
     """What an optimization returns. The properties of a design are those of the best candidate, or None without one."""
@@ -100,65 +114,20 @@ class Result:
         completed = self.starts_done - self.runs_abandoned if self.runs_completed is None else self.runs_completed
         return min(1.0, self.best.reached / completed) if self.best and completed > 0 else 0.0
 
-    @property
-    def objective(self) -> float | None:
-        """Objective of the best candidate."""
-        return self.best.objective if self.best else None
-
-    @property
-    def condition_number(self) -> float | None:
-        """Condition number of the best candidate at the neutral pose."""
-        return self.best.condition_number if self.best else None
-
-    @property
-    def conditions(self) -> tuple[float, ...] | None:
-        """Condition numbers of the best candidate at the poses of the objective."""
-        return self.best.conditions if self.best else None
-
-    @property
-    def characteristic_length(self) -> float | None:
-        """Characteristic length of the best candidate."""
-        return self.best.characteristic_length if self.best else None
-
-    @property
-    def variables(self) -> dict[str, float] | None:
-        """Variables of the best candidate by name."""
-        return self.best.variables if self.best else None
-
-    @property
-    def geometry(self) -> Geometry | None:
-        """Geometry of the best candidate."""
-        return self.best.geometry if self.best else None
-
-    @property
-    def configuration(self) -> Configuration | None:
-        """Neutral configuration of the best candidate."""
-        return self.best.configuration if self.best else None
-
-    @property
-    def configurations(self) -> Configuration | None:
-        """Neutral configuration and poses of the best candidate: a stack."""
-        return self.best.configurations if self.best else None
-
-    @property
-    def active(self) -> tuple[str, ...] | None:
-        """Active bounds and constraints of the best candidate."""
-        return self.best.active if self.best else None
-
-    @property
-    def prices(self) -> dict[str, float] | None:
-        """Shadow prices of the best candidate: per cent of the objective for 1 % of each active limit."""
-        return self.best.prices if self.best else None
-
-    @property
-    def optimality_residual(self) -> float | None:
-        """Stationarity of the best candidate."""
-        return self.best.optimality_residual if self.best else None
-
-    @property
-    def constraint_violation(self) -> float | None:
-        """Violation of the best candidate."""
-        return self.best.constraint_violation if self.best else None
+    objective = _OfBest(lambda c: c.objective, "Objective of the best candidate.")
+    condition_number = _OfBest(lambda c: c.condition_number, "Condition number of the best candidate, neutral pose.")
+    conditions = _OfBest(lambda c: c.conditions, "Its condition numbers at the poses of the objective.")
+    characteristic_length = _OfBest(lambda c: c.characteristic_length, "Characteristic length of the best candidate.")
+    variables = _OfBest(lambda c: c.variables, "Variables of the best candidate by name.")
+    geometry = _OfBest(lambda c: c.geometry, "Geometry of the best candidate.")
+    configuration = _OfBest(lambda c: c.configuration, "Neutral configuration of the best candidate.")
+    configurations = _OfBest(
+        lambda c: c.configurations, "Neutral configuration and poses of the best candidate: a stack."
+    )
+    active = _OfBest(lambda c: c.active, "Active bounds and constraints of the best candidate.")
+    prices = _OfBest(lambda c: c.prices, "Its shadow prices: per cent of the objective for 1 % of each active limit.")
+    optimality_residual = _OfBest(lambda c: c.optimality_residual, "Stationarity of the best candidate.")
+    constraint_violation = _OfBest(lambda c: c.constraint_violation, "Violation of the best candidate.")
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field but the study as plain values, and the confidence; the candidates come last."""
