@@ -11,6 +11,7 @@ from numpy import float64, intc, uint8
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
+_Out = _Floats | None
 _Progress = Callable[[int, int, float | None], object]
 
 version: str
@@ -51,7 +52,7 @@ def moved(
 def neutral(zp: _Floats, zs: _Floats, theta_z: _Floats, is_stack: bool) -> tuple[_Floats, _Floats, _Floats]: ...
 
 # (n, 9), (n, 54), (n, 153), (n, 9), (n, 9)
-def leg_lengths(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Floats | None, /) -> _Floats: ...
+def leg_lengths(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def jacobian(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 def velocity_matrices(g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /) -> _Floats: ...
 def forward_velocity(g: Geometry, p: _Floats, q: _Floats, s: _Floats, rates: _Floats, threads: int, /) -> _Floats: ...
@@ -63,27 +64,14 @@ def track(
 ) -> tuple[_Floats, NDArray[uint8]]: ...
 
 track_statuses: list[str]
-
 internal_point_statuses: list[str]
 
 # "internal_point" (n, 3), "value", "status", "active" (n,); "active_names" has the words for each key in "active".
 def best_internal_point(
-    g: Geometry,
-    position: _Floats,
-    rotation: _Floats,
-    start: _Floats,
-    problem: dict[str, Any],
-    threads: int,
-    /,
+    g: Geometry, position: _Floats, rotation: _Floats, start: _Floats, problem: dict[str, Any], threads: int, /
 ) -> dict[str, Any]: ...
 def best_internal_path(
-    g: Geometry,
-    position: _Floats,
-    rotation: _Floats,
-    start: _Floats,
-    problem: dict[str, Any],
-    smoothness: float,
-    /,
+    g: Geometry, position: _Floats, rotation: _Floats, start: _Floats, problem: dict[str, Any], smoothness: float, /
 ) -> dict[str, Any]: ...
 
 # The same and "audit", "searched" and "followed".
@@ -121,34 +109,32 @@ def jacobian_rate(
 
 # (n, 6), (n, 6), and (n, 1) for the indices, which write into `out` if it is not None
 def singular_values(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
-def hexagonal_condition_numbers(designs: _Floats, threads: int, out: _Floats | None, /) -> _Floats: ...
+def hexagonal_condition_numbers(designs: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def simd_level() -> str: ...
 def axis_singular_values(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, /
 ) -> _Floats: ...
 def condition_number_two(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
 def condition_number_frobenius(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
 def reciprocal_condition_number(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
 def manipulability(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
 def isotropy_residual(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Floats | None, /
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, length: _Floats, threads: int, out: _Out, /
 ) -> _Floats: ...
 def characteristic_length(g: Geometry, p: _Floats, q: _Floats, s: _Floats, kind: str, threads: int, /) -> _Floats: ...
 
 # (n, 3), (n, 16), (k, 9), (n, 6)
-def singularity_margins(
-    g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Floats | None, /
-) -> _Floats: ...
+def singularity_margins(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, out: _Out, /) -> _Floats: ...
 def singularity(g: Geometry, p: _Floats, q: _Floats, s: _Floats, threads: int, /) -> _Floats: ...
 def uncontrolled_motions(g: Geometry, p: _Floats, q: _Floats, s: _Floats, tolerance: float, /) -> _Floats: ...
 def distance_to_singularity(

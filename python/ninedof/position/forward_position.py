@@ -103,17 +103,6 @@ class AssemblyModes(Configuration):
             return f"<AssemblyModes of shape {self.shape}>"
         return f"<{self.count} assembly modes: {self.status}{', ' + self.reason if self.reason else ''}>"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle all arrays."""
-        return _restored, (self._arrays(), tuple(getattr(self, name) for name in AssemblyModes.__slots__))
-
-
-def _restored(arrays: tuple[Floats, Floats, Floats], extra: tuple[Any, ...]) -> AssemblyModes:
-    modes = AssemblyModes._of(*arrays)
-    for name, value in zip(AssemblyModes.__slots__, extra, strict=True):
-        setattr(modes, name, value)
-    return modes
-
 
 def forward_position(geometry: Geometry, leg_lengths: ArrayLike, threads: int | None = None) -> AssemblyModes:
     """Return every configuration that has the given leg lengths: all real assembly modes, up to 32.
@@ -188,7 +177,7 @@ def _modes(
 ) -> AssemblyModes:
     """Arrange the modes of all rows, which the core returns one after the other, as a padded stack."""
     most = int(counts.max(initial=0))
-    places = np.repeat(np.arange(len(counts)) * most, counts) + _positions_in_row(counts)
+    places = np.flatnonzero(np.arange(most) < counts[:, None])
     padded = np.full((len(counts) * most, 15), np.nan)
     padded[places] = flat
     spread = np.full(len(counts) * most, np.nan)
@@ -205,9 +194,3 @@ def _modes(
     modes._reason = reason[0] if single else np.array(reason, dtype=object).reshape(shape)
     modes._status = status[0] if single else np.array(status, dtype=object).reshape(shape)
     return modes
-
-
-def _positions_in_row(counts: NDArray[np.intc]) -> NDArray[np.int64]:
-    """Return 0, 1, ... within each row."""
-    ends = np.cumsum(counts)
-    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)

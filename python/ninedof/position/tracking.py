@@ -72,16 +72,6 @@ class Tracked(Configuration):
             return f"<Tracked stack of shape {self.shape}>"
         return f"<{self.status}: {super().__repr__()}>"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle all arrays."""
-        return _restored, (self._arrays(), self._numbers, self._status)
-
-
-def _restored(arrays: tuple[Floats, Floats, Floats], numbers: Floats, status: Any) -> Tracked:
-    new = Tracked._of(*arrays)
-    new._numbers, new._status = numbers, status
-    return new
-
 
 def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, threads: int | None = None) -> Tracked:
     """Return the assembly mode reached from `start` when the leg lengths change along a straight path.

@@ -133,8 +133,7 @@ class Configuration:
         if not self.shape:
             raise TypeError("a single configuration cannot be indexed")
         picks: NDArray[np.intp] = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
-        p, q, s = self._arrays()
-        return Configuration._of(p.reshape(-1, 3)[picks], q.reshape(-1, 3, 3)[picks], s.reshape(-1, 3)[picks])
+        return Configuration._of(*(array[picks] for array in _flat(*self._arrays())))
 
     def __bool__(self) -> bool:
         """Return True also for an empty stack."""
@@ -156,9 +155,12 @@ class Configuration:
         p, q, s = (a.tolist() for a in self._arrays())
         return f"Configuration(position={p}, rotation={q}, internal_point={s})"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle as the three arrays."""
-        return Configuration._of, self._arrays()
+    def __setstate__(self, state: tuple[None, dict[str, Any]]) -> None:
+        """Restore a pickled or copied stack; its arrays become read-only again."""
+        for name, value in state[1].items():
+            setattr(self, name, value)
+        for array in self._arrays():
+            array.flags.writeable = False
 
     def _arrays(self) -> tuple[Floats, Floats, Floats]:
         return self._position, self._rotation, self._internal_point
