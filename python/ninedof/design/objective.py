@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from inspect import signature
 from typing import Any, TypeVar
 
 from ninedof.design import poses
@@ -20,11 +21,7 @@ AGGREGATES = {
     "weighted": "worst and harmonic mean, weighted, of the {index}",
 }
 SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
-SET_KEYS = {  # the first of each is required
-    "box": ["half", "points", "tilt", "tilt_deg", "internal_point", "unit"],
-    "ball": ["radius", "points", "tilt", "tilt_deg", "internal_point", "unit"],
-    "path": ["positions", "rotations", "rotations_deg", "points", "internal_point", "unit"],
-}
+SET_KEYS = {name: list(signature(make).parameters) for name, make in SETS.items()}  # the first of each is required
 
 
 @dataclass(frozen=True)
@@ -121,16 +118,10 @@ class Objective:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""
-        out: dict[str, Any] = {"index": self.index}
-        if self.aggregate != "worst":
-            out["aggregate"] = self.aggregate
-        if self.weight != 0.5:
-            out["weight"] = self.weight
-        if self.condition_limit is not None:
-            out["condition_limit"] = self.condition_limit
-        if self.poses:
-            out["poses"] = [pose.to_dict() for pose in self.poses]
-        return out
+        numbers = {name: getattr(self, name) for name in ("aggregate", "weight", "condition_limit")}
+        changed = {name: value for name, value in numbers.items() if value != getattr(Objective, name)}
+        poses = {"poses": [pose.to_dict() for pose in self.poses]} if self.poses else {}
+        return {"index": self.index, **changed, **poses}
 
     def for_core(self) -> dict[str, Any]:
         """Return the objective as the core takes it."""

@@ -51,7 +51,7 @@ def box(
     axes = [_grid(h, count if h > 0.0 else 1) for h in edges]
     _few_enough(math.prod(len(axis) for axis in axes))
     places: list[Vector] = [(x, y, z) for x, y, z in itertools.product(*axes)]
-    return _at(places, internal_point, unit) + _tilts(tilt, tilt_deg, internal_point, unit)
+    return _with_tilts(places, tilt, tilt_deg, internal_point, unit)
 
 
 def ball(
@@ -92,7 +92,7 @@ def ball(
         around = 2.0 * math.pi * ((0.5 + k / plastic**2) % 1.0)
         flat = math.sqrt(1.0 - height * height)
         places.append((distance * flat * math.cos(around), distance * flat * math.sin(around), distance * height))
-    return _at(places, internal_point, unit) + _tilts(tilt, tilt_deg, internal_point, unit)
+    return _with_tilts(places, tilt, tilt_deg, internal_point, unit)
 
 
 def path(
@@ -151,17 +151,12 @@ def _grid(half: float, count: int) -> list[float]:
     return [half * ((2 * k - (count - 1)) / (count - 1)) for k in range(count)] if count > 1 else [0.0]
 
 
-def _at(places: list[Vector], internal_point: Any, unit: str) -> tuple[Pose, ...]:
-    return tuple(Pose(position=p, internal_point=internal_point, unit=unit) for p in places)
-
-
-def _tilts(tilt: Any, tilt_deg: Any, internal_point: Any, unit: str) -> tuple[Pose, ...]:
-    """Return the neutral pose turned by plus and minus each angle that is not zero."""
+def _with_tilts(places: list[Vector], tilt: Any, tilt_deg: Any, internal_point: Any, unit: str) -> tuple[Pose, ...]:
+    """Return poses at the places, and the neutral pose turned by plus and minus each angle that is not zero."""
     angles = vector_argument("tilt", tilt, tilt_deg, least=0.0)
     turns = [sign * angle * np.eye(3)[k] for k, angle in enumerate(angles) if angle > 0.0 for sign in (1.0, -1.0)]
-    return tuple(
-        Pose(rotation=tuple((turn + 0.0).tolist()), internal_point=internal_point, unit=unit) for turn in turns
-    )
+    given = [(p, ZERO) for p in places] + [(ZERO, tuple((turn + 0.0).tolist())) for turn in turns]
+    return tuple(Pose(p, turn, internal_point, unit) for p, turn in given)
 
 
 def _turns(rotations: Any, rotations_deg: Any, count: int) -> list[Vector]:

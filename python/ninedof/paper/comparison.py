@@ -12,12 +12,12 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result
 from ninedof.paper.published import (
-    A1,
-    BASE_SIDE,
     KAPPA,
+    PLATES,
     PLATFORM_SIDE,
     ZP,
     published_geometry,
+    published_variables,
     published_zs,
     solved,
 )
@@ -94,8 +94,7 @@ def compare(
 
 
 def _published(title: str, zs: float) -> Row:
-    variables = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0, "zp": ZP, "zs": zs, "theta_z": 0.0}
-    return _row(title, variables, ("a1", "b2", "radius_ratio"))
+    return _row(title, published_variables(zs) | {"theta_z": 0.0}, ("a1", "b2", "radius_ratio"))
 
 
 def _found(title: str, result: Result) -> Row | None:
@@ -103,7 +102,7 @@ def _found(title: str, result: Result) -> Row | None:
 
 
 def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Row:
-    geometry = Geometry.hexagonal(**{name: variables[name] for name in ("a1", "a2", "b1", "b2")})
+    geometry = Geometry.hexagonal(**{name: variables[name] for name in PLATES})
     configuration = Configuration.neutral(variables["zp"], variables["zs"], variables["theta_z"])
     kappa = float(condition_number(geometry, configuration))
     l, _, _, q, _, _, r, _, _ = leg_lengths(geometry, configuration).tolist()
@@ -114,8 +113,7 @@ def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Ro
 
 
 def _why(best_zs: float, same: Result) -> str:
-    here = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0, "zp": ZP, "zs": best_zs}
-    slope = Study.paper().evaluate(here).gradient["zp"]
+    slope = Study.paper().evaluate(published_variables(best_zs)).gradient["zp"]
     smaller = (
         f", and a platform of side {same.best.variables['b1']:.4f} instead of {PLATFORM_SIDE:.4f} on the same base "
         f"at the same height gives {same.best.condition_number:.4f}"

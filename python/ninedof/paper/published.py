@@ -21,13 +21,12 @@ from ninedof.robot.geometry import Geometry
 
 A1, B1, ZP, KAPPA = 0.0, 5.8124, 3.9828, 3.9110
 BASE_SIDE, PLATFORM_SIDE = B1, B1 / 2  # the reading that reproduces eq. (40)
+PLATES = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0}
 
 STUDIES: dict[str, Callable[[], Study]] = {
     # eq. (39) with the names of eqs. (37)-(38)
     "as printed": lambda: Study(variables={"a1": A1, "b1": B1, "zp": ZP}),
-    "published plates and height": lambda: Study(
-        variables={"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0, "zp": ZP}
-    ),
+    "published plates and height": lambda: Study(variables=PLATES | {"zp": ZP}),
     "same base and height": lambda: Study(variables={"a1": 0.0, "a2": BASE_SIDE, "zp": ZP}),
     "base no larger": lambda: Study(variables={"a1": (0.0, BASE_SIDE), "a2": (0.0, BASE_SIDE)}),
     "base at most twice the platform": Study.paper,
@@ -42,13 +41,12 @@ STUDIES: dict[str, Callable[[], Study]] = {
 
 def published_geometry() -> Geometry:
     """Return the published plates: coupled triangles, base side 5.8124, platform side half of it."""
-    return Geometry.hexagonal(a1=A1, a2=BASE_SIDE, b1=PLATFORM_SIDE, b2=0.0)
+    return Geometry.hexagonal(**PLATES)
 
 
-def published_variables() -> dict[str, float]:
-    """Return the published design at its best zs."""
-    sides = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0}
-    return {**sides, "zp": ZP, "zs": published_zs()[2]}
+def published_variables(zs: float | None = None) -> dict[str, float]:
+    """Return the published design; by default at its best zs."""
+    return PLATES | {"zp": ZP, "zs": published_zs()[2] if zs is None else zs}
 
 
 def published_zs() -> tuple[float, float, float]:

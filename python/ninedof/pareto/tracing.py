@@ -133,14 +133,12 @@ def _widest(sweep: Sweep, limits: Sequence[float]) -> tuple[float, float] | None
 
     Gaps in the objective have three times the weight: steep parts get more points.
     """
-    pairs = [(value, objective_of(sweep.results[value])) for value in limits]
-    x, y = np.log(np.array([pair for pair in pairs if not math.isnan(pair[1])]).reshape(-1, 2)).T
-    if len(x) < 2:
+    found = [(limit, objective_of(sweep.results[limit])) for limit in limits]
+    found = [pair for pair in found if not math.isnan(pair[1])]
+    if len(found) < 2:
         return None
+    x, y = np.log(found).T
     apart = np.hypot(np.diff(x) / max(np.ptp(x), 1e-12), 3.0 * np.diff(y) / max(np.ptp(y), 1e-12))
     widest = int(np.argmax(apart))
-    low, high = math.exp(x[widest]), math.exp(x[widest + 1])
-    known = sorted(limits)
-    low = min(known, key=lambda value: abs(value - low))
-    high = min(known, key=lambda value: abs(value - high))
+    low, high = found[widest][0], found[widest + 1][0]
     return (low, high) if high > low * (1.0 + 1e-4) else None

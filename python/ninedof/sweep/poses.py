@@ -103,8 +103,7 @@ class Poses:
         """Return the positions of O when it is fixed to the platform."""
         x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
         # Written out: BLAS may round differently in a chunk of another size.
-        out: Floats = p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z)
-        return out
+        return np.asarray(p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z))
 
 
 def best_block(shape: tuple[int, ...]) -> tuple[int, ...]:

@@ -33,8 +33,7 @@ def cone(robot: Robot, body: str, axis: Sequence[float]) -> Floats:
     middle = np.asarray(axis) if len(axis) else _directions(robot, body, robot.neutral)
     middle = np.broadcast_to(middle, seen.shape)
     across = np.linalg.norm(np.cross(seen, middle), axis=-1)
-    out: Floats = np.arctan2(across, np.sum(seen * middle, axis=-1)).reshape(-1)
-    return out
+    return np.asarray(np.arctan2(across, np.sum(seen * middle, axis=-1)).reshape(-1))
 
 
 def _directions(robot: Robot, body: str, c: Configuration) -> Floats:
@@ -80,14 +79,14 @@ def _triples(robot: Robot, c: Configuration) -> Floats:
     along = end - start
     to_base, to_platform = (at[..., :3, :] - c.internal_point[..., None, :] for at in (start, end))
     turning = np.cross(_units(to_base), _units(to_platform))
-    out: Floats = np.linalg.det(np.stack([_units(along[..., 6:9, :]), _units(along[..., 3:6, :]), turning], axis=-3))
-    return out
+    return np.asarray(
+        np.linalg.det(np.stack([_units(along[..., 6:9, :]), _units(along[..., 3:6, :]), turning], axis=-3))
+    )
 
 
 def _units(v: Floats) -> Floats:
     sizes = np.linalg.norm(v, axis=-1, keepdims=True)
-    out: Floats = v / np.where(sizes > 0.0, sizes, 1.0)
-    return out
+    return np.asarray(v / np.where(sizes > 0.0, sizes, 1.0))
 
 
 def rotation_vector(rotation: Floats) -> Floats:
@@ -97,5 +96,4 @@ def rotation_vector(rotation: Floats) -> Floats:
     sine = np.linalg.norm(axis, axis=-1, keepdims=True)
     cosine = 0.5 * (np.trace(rotation, axis1=-2, axis2=-1)[..., None] - 1.0)
     small = sine < 1e-12
-    out: Floats = np.where(small, axis, axis * np.arctan2(sine, cosine) / np.where(small, 1.0, sine))
-    return out
+    return np.asarray(np.where(small, axis, axis * np.arctan2(sine, cosine) / np.where(small, 1.0, sine)))

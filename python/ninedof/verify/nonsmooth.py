@@ -40,8 +40,7 @@ def _extreme(cluster: Floats, direction: Floats, which: int) -> Floats:
     """Return the gradient for the vector of the cluster with the least (0) or the greatest (-1) slope."""
     vectors = np.linalg.eigh(np.einsum("j,jab->ab", direction, cluster))[1]
     v = vectors[:, which]
-    out: Floats = np.einsum("a,jab,b->j", v, cluster, v)
-    return out
+    return np.asarray(np.einsum("a,jab,b->j", v, cluster, v))
 
 
 def ends_of(matrix: Floats, slopes: Floats) -> Ends:

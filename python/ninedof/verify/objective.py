@@ -110,5 +110,4 @@ def _frobenius(matrix: Floats, slopes: Floats) -> Floats:
     change = 2.0 * np.einsum("jik,lk->jil", slopes, matrix)  # its symmetric part is the derivative of G
     size = np.einsum("jii->j", change) / np.trace(gram)
     other = np.einsum("jil,li->j", change, inverse @ inverse) / np.trace(inverse)
-    out: Floats = 0.5 * (size - other)
-    return out
+    return np.asarray(0.5 * (size - other))

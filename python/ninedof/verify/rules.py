@@ -104,8 +104,7 @@ def _legs(robot: Robot) -> Floats:
 
 
 def _radii(robot: Robot, body: str) -> Floats:
-    out: Floats = np.linalg.norm(robot.joints(body)[:, :2], axis=-1)
-    return out
+    return np.asarray(np.linalg.norm(robot.joints(body)[:, :2], axis=-1))
 
 
 def _height(robot: Robot) -> float:
@@ -153,8 +152,7 @@ def _leg_ratio(robot: Robot, limit: Limit) -> Floats:
 def _joint_height(robot: Robot, limit: Limit) -> Floats:
     heights = np.abs(np.concatenate([robot.joints("base")[:, 2], robot.joints("platform")[:, 2]]))
     largest = max(_radii(robot, "base").max(), _radii(robot, "platform").max())
-    out: Floats = heights / (largest if limit.of == "radius" else 1.0)
-    return out
+    return np.asarray(heights / (largest if limit.of == "radius" else 1.0))
 
 
 def _joint_spacing(robot: Robot, limit: Limit) -> Floats:

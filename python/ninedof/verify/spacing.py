@@ -53,8 +53,7 @@ def between_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     along_v = np.sum(np.cross(w, u) * normal, axis=-1) / safe
     inside = crossing & (along_u >= 0.0) & (along_u <= 1.0) & (along_v >= 0.0) & (along_v <= 1.0)
     lines = np.abs(np.sum(w * normal, axis=-1)) / np.sqrt(safe)
-    out: Floats = np.where(inside, np.minimum(lines, ends), ends)
-    return out
+    return np.asarray(np.where(inside, np.minimum(lines, ends), ends))
 
 
 def _to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
@@ -62,5 +61,4 @@ def _to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
     square = np.sum(along**2, axis=-1)
     share = np.clip(np.sum((point - a) * along, axis=-1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     foot = a + share[..., None] * along
-    out: Floats = np.linalg.norm(point - foot, axis=-1)
-    return out
+    return np.asarray(np.linalg.norm(point - foot, axis=-1))

@@ -60,8 +60,7 @@ def active_limits(space: DesignSpace, limits: list[Limit], near: float) -> Float
         if len(close):
 
             def chosen(y: Floats, limit: Limit = limit, close: Indices = close) -> Floats:
-                out: Floats = margins(limit, space.robot(y))[close]
-                return out
+                return np.asarray(margins(limit, space.robot(y))[close])
 
             rows.append(differences(chosen, space.x, space.size, space.low, space.high).T)
     return np.vstack(rows)

@@ -13,6 +13,7 @@ from ninedof.conditioning.conditioning import condition_number
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result
 from ninedof.robot.geometry import TRIPLES
+from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.perturbation import SCALES, perturb
@@ -119,11 +120,8 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
         got = getattr(result, "status", None)
         what = f"one without a design (status {str(got)!r})" if got is not None else type(result).__name__
         raise ValueError(f"result: got {what}, expected a Result with a design")
-    for name, value in (("perturbations", perturbations), ("seed", seed)):
-        if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 0:
-            raise ValueError(f"{name}: got {value!r}, expected a whole number of at least 0")
-    title = f"check of a design of the {result.study.family} family"
-    return Check(tuple(_findings(result, int(perturbations), int(seed))), title)
+    findings = _findings(result, whole("perturbations", perturbations, 0), whole("seed", seed, 0))
+    return Check(tuple(findings), f"check of a design of the {result.study.family} family")
 
 
 def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
