@@ -44,7 +44,7 @@ def atlas(
     Parameters
     ----------
     designs : int
-        How many.
+        Number of designs.
     seed : int
         Shifts the sequence.
     bounds : mapping, optional
@@ -56,7 +56,7 @@ def atlas(
     out : path, optional
         Folder that keeps finished chunks, as in `sweep`.
     chunk : int, optional
-        Designs a chunk. The result does not depend on it.
+        Designs per chunk. The result does not depend on it.
     progress : callable, optional
         Called as progress(designs done, designs in all, None).
 

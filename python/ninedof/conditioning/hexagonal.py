@@ -26,9 +26,9 @@ def hexagonal_condition_number(
 ) -> Any:
     """Return the condition number of many hexagonal designs, each at its neutral configuration (eqs. 6, 37, 38).
 
-    By the closed form on the symmetry axis, about 6 ns per design on one processor and as much again to gather six
-    arrays: for maps and atlases of millions of designs. All lengths in units of the characteristic length; theta_z = 0.
-    The designs need not satisfy any constraint, not even zs < zp (eq. 9b).
+    Uses the closed form on the symmetry axis: about 6 ns per design on one processor, and as much to gather the six
+    arrays. Made for maps and atlases of millions of designs. All lengths are in units of the characteristic length, and
+    theta_z = 0. The designs need not satisfy any constraint, not even zs < zp (eq. 9b).
 
     Parameters
     ----------

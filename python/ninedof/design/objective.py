@@ -66,7 +66,7 @@ class Objective:
     poses: tuple[Pose, ...] = ()
 
     def __post_init__(self) -> None:
-        """Check and normalise every entry."""
+        """Check and normalize every entry."""
         listed = items("objective.poses", self.poses, "a sequence of poses")
         for name, value in {
             "index": _index(self.index),

@@ -52,7 +52,7 @@ class Pose:
     unit: str = "length"
 
     def __post_init__(self) -> None:
-        """Check and normalise every entry."""
+        """Check and normalize every entry."""
         point = self.internal_point
         if isinstance(point, str):
             chosen: Vector | str = choice("internal_point", point, INTERNAL_POINTS)

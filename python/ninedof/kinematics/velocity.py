@@ -75,8 +75,8 @@ def inverse_velocity(
 
     Examples
     --------
-    The platform rises. If O stays at rest, only the upper internal legs move inside; the rates are smaller if O follows
-    part of the motion.
+    The platform rises. If O is at rest, the lower internal legs do not move. The rates are smaller if O follows part of
+    the motion.
 
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)

@@ -35,7 +35,7 @@ class PositionStatus(StrEnum):
     INFEASIBLE = "infeasible"
     """No configuration has these lengths; `reason` names the legs."""
     SELF_MOTION = "self_motion"
-    """The robot can move with these lengths locked: infinitely many modes, none is listed."""
+    """The robot can move with these lengths locked: infinitely many modes, which are not listed."""
     NO_DATA = "no_data"
     """The row of lengths has NaN."""
 

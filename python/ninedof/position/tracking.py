@@ -20,7 +20,7 @@ class TrackStatus(StrEnum):
     TRACKED = "tracked"
     """Reached, and certified to be the only mode near the start of the last step."""
     LOST = "lost"
-    """Not reached: on the straight path of the lengths the mode meets another, or O a plane of internal joints."""
+    """Not reached: on the path of the lengths the mode meets another mode, or O reaches a plane of internal joints."""
     INFEASIBLE = "infeasible"
     """The internal legs do not meet, or an external leg is too long or too short for the position of O."""
 

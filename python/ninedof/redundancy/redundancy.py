@@ -1,4 +1,4 @@
-"""The best internal point: the three degrees of freedom that nine legs leave for six coordinates."""
+"""The best internal point: nine legs control the six coordinates of the platform and the three of O."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class InternalPointStatus(StrEnum):
     STOPPED = "stopped"
     """Within the limits, but the checks failed: the best point evaluated."""
     INFEASIBLE = "infeasible"
-    """An external leg is out of its limits, or no point keeps the internal ones; `active` names them."""
+    """An external leg is outside its limits, or no point satisfies those of the internal legs; `active` names them."""
     UNBOUNDED = "unbounded"
-    """The criterion improves without end as O moves away, or into a joint; `active` names the legs or det N."""
+    """The criterion improves without bound as O moves away or towards a joint; `active` names the legs or det N."""
     SINGULAR = "singular"
     """The start lies on a singularity, and so in no chamber."""
     MISSING = "missing"
@@ -47,7 +47,7 @@ class InternalPoint:
     status: Any
     """An InternalPointStatus, or an array of them, shape (...)."""
     active: Any
-    """Names of the bounds that hold O, or that leave no point: a tuple, or an array of tuples, shape (...).
+    """Names of the bounds active at O, or of those that exclude every point: a tuple, or an array of them, shape (...).
 
     "q1 low" and "r3 high" are limits of legs, "det B" the clearance from a singularity."""
 
@@ -78,13 +78,13 @@ def best_internal_point(
     rotation : array_like, shape (..., 3, 3), or scipy.spatial.transform.Rotation
         Q, platform frame to base frame. The identity by default. Broadcasts against the position.
     criterion : {"condition_number", "singularity", "leg_centring"}
-        "condition_number" minimises that of J' (eq. 2). "singularity" maximises the least of |det B|, |det C| and
-        |det N| of `singularity_margins`. "leg_centring" minimises the sum of ((length - middle) / half range)^2 over
+        "condition_number" minimizes that of J' (eq. 2). "singularity" maximizes the least of |det B|, |det C| and
+        |det N| of `singularity_margins`. "leg_centring" minimizes the sum of ((length - middle) / half range)^2 over
         the internal legs, and needs finite limits.
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
     characteristic_length : float
-        Of the condition number.
+        Length l_c of the condition number.
     start : array_like, shape (..., 3), optional
         A point of the chamber to search. By default midway between the centroids of the internal joints of base and
         platform.
@@ -92,7 +92,7 @@ def best_internal_point(
         Lower bound of each of the three |det| of "singularity", for every criterion; "det B" in `active` means that it
         is active. By default 0.01 for "leg_centring", which would allow singular points, and 1e-10 for the others.
     threads : int, optional
-        One for each processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
@@ -134,7 +134,7 @@ def best_internal_path(
 ) -> InternalPoint:
     """Return internal points along a path of the platform: good at every pose, and smooth.
 
-    Minimises the mean of f along the path plus `smoothness` times the mean square of the speed of O along it,
+    Minimizes the mean of f along the path plus `smoothness` times the mean square of the speed of O along it,
 
         mean f(s_k) + smoothness (n - 1) sum |s_(k+1) - s_k|^2 / size^2,
 

@@ -21,9 +21,9 @@ class MapAudit:
     """How often continuation missed a better point, from searches of poses drawn at random."""
 
     poses: int
-    """Number of poses searched, none of them a seed."""
+    """Number of poses searched, without the seeds."""
     missed: int
-    """Those of them where the search found a point better by more than 1e-6 of the value."""
+    """Number of these where the search found a point better by more than 1e-6 of the value."""
     largest: float
     """Greatest such difference, relative to the better value; infinite where the map had no point and the search had
     one. For "leg_centring" the difference of the sums of squares."""
@@ -36,9 +36,9 @@ class InternalPointMap(InternalPoint):
     audit: MapAudit
     """Of the map before improvements found by the audit were entered; the map returned is as good or better."""
     searched: int
-    """Poses given to the search of `best_internal_point`, those of the audit included."""
+    """Number of poses searched as by `best_internal_point`, including those of the audit."""
     followed: int
-    """Local optima continued from a neighbour's."""
+    """Number of local optima continued from those of neighbours."""
 
 
 def best_internal_map(
@@ -80,20 +80,20 @@ def best_internal_map(
     threads : int, optional
         As in `best_internal_point`.
     seed_every : int
-        About one pose in so many is a seed, on a lattice with equal steps along all axes. 1 searches every pose.
+        Number of poses per seed, approximately: seeds lie on a lattice with equal steps along all axes. 1 searches
+        every pose.
     audit_every : int
-        At the end one pose in so many of the others, but at least 32, is searched too. Improvements are passed on.
+        Number of other poses per audited pose; at least 32 poses are searched at the end. Improvements are passed on.
     audit_seed : int
-        Selects them.
+        Seed of the selection of audited poses.
     progress : callable, optional
-        Called as progress(poses placed, poses in all, None). An exception it raises ends the map and goes on to the
-        caller.
+        Called as progress(poses placed, poses in all, None). If it raises an exception, the map ends with it.
 
     Returns
     -------
     InternalPointMap
-        Statuses as of `best_internal_point`; "infeasible" for an internal leg says here that no point near those of the
-        neighbours keeps the limits. A pose with NaN is "missing" and does not affect others.
+        Statuses as of `best_internal_point`; "infeasible" for an internal leg means that no point near those of the
+        neighbours satisfies the limits. A pose with NaN is "missing" and does not affect others.
 
     Raises
     ------

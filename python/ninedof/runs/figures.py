@@ -47,13 +47,7 @@ def figures_of(run: Result | Comparison, say: Say) -> Callable[[Path], list[Path
     return lambda directory: _figures(designs, result, directory, say, **compared)
 
 
-def _figures(
-    designs: list[Named],
-    result: Result,
-    directory: Path,
-    say: Say,
-    **compared: Any,
-) -> list[Path]:
+def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **compared: Any) -> list[Path]:
     """Draw the designs in space, their condition number along zs and theta_z, and the convergence."""
     say("drawing the mechanisms")
     from ninedof import plot

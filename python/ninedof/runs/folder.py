@@ -1,4 +1,4 @@
-"""Run folders, written and read here whatever the run was. Each has a `record.json` of one form.
+"""Run folders of all kinds, written and read. Each has a `record.json` of one form.
 
 The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created` and `files`:
 the names of the arrays and figures beside it. It is written whole or not at all, before the figures are drawn.

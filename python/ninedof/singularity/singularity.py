@@ -21,9 +21,9 @@ class Mechanism(StrEnum):
     N = "n"
     """The planes (O, A_i, B_i) of the external legs share a line through O; the platform turns about it."""
     B = "b"
-    """O is in the plane of the lower internal joints; it leaves the plane and takes the platform along."""
+    """O is in the plane of the lower internal joints; it can leave the plane, and the platform moves with it."""
     C = "c"
-    """O is in the plane of the upper internal joints; the platform moves and O does not."""
+    """O is in the plane of the upper internal joints; the platform can move while O is at rest."""
 
 
 class SingularityMargins(NamedTuple):
@@ -60,9 +60,9 @@ def singularity_margins(
     """Return the signed, length-free determinants whose zeros are the singularities.
 
     det H = -det N' det C det B / l_c^3, N' with rows w_i x e_i: each factor is an independent singularity and changes
-    sign across it. The three determinants are those of rows without unit, as defined below. Their size says how spread
-    the directions of the legs are, not how far away a singularity is: for that see `singularity` and
-    `distance_to_singularity`. Theory of position and velocity, section 5.
+    sign across it. The three determinants are those of rows without unit, as defined below. Their size
+    measures how different the directions of the legs are, not the distance to a singularity; for that see `singularity`
+    and `distance_to_singularity`. Theory of position and velocity, section 5.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def singularity_margins(
     configuration : Configuration
         Shape (...).
     threads : int, optional
-        One a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, shape (..., 3), optional
         Array for the result: float64, C-contiguous, aligned. The result is a view of it.
 
@@ -106,15 +106,15 @@ def singularity(geometry: Geometry, configuration: Configuration, threads: int |
     configuration : Configuration
         Shape (...).
     threads : int, optional
-        Threads for a stack; one a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
     Singularity
-        The mechanism is the one of least singular value; of several lost to rounding (1.4e-14) the first of n, c, b, so
-        that the motion exists. The motion changes the lengths of its own legs only: n of the external ones (sdot = 0,
-        the platform turns about a line through O), c of the upper (sdot = 0), b of the lower (sdot normal to their
-        plane). Where the configuration is singular it changes no length. Its size is that of a turn by one radian,
+        The mechanism is the one of least singular value; if several are singular to rounding (1.4e-14), the first of n,
+        c, b, so that the motion exists. The motion changes the lengths of its own legs only: n of the external ones
+        (sdot = 0, the platform turns about a line through O), c of the upper (sdot = 0), b of the lower (sdot normal to
+        their plane). At a singular configuration it changes no length. Its size is that of a turn by one radian,
 
             |omega|^2 + (|v_O|^2 + |sdot|^2) / L^2 = 1,    v_O = pdot + omega x (s - p),
 
@@ -164,7 +164,7 @@ def uncontrolled_motions(geometry: Geometry, configuration: Configuration, toler
     Returns
     -------
     numpy.ndarray, shape (k, 9)
-        Rows (omega, pdot, sdot), base frame, by ascending singular value; none away from singularities. A small
+        Rows (omega, pdot, sdot), base frame, by ascending singular value; no rows at a regular configuration. A small
         multiple of a row is a tangent for `Configuration.moved`; leg lengths change in second order. Rows are
         orthonormal in the measure of `singularity`. A leg of zero length holds its two ends together.
 

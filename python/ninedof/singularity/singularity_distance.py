@@ -36,7 +36,7 @@ def distance_to_singularity(
     """Return the distance along a direction to the first singularity.
 
     The path is t -> configuration.moved(t * direction): p and s on straight lines, the platform turning about a fixed
-    axis at a fixed rate. No zero is stepped over: within each step, bounds of the derivatives prove that the
+    axis at a fixed rate. No zero is missed: within each step, bounds of the derivatives prove that the
     determinants keep their signs. A zero without change of sign is found where the determinant is below its rounding
     error; its place is then known to about the square root of that error.
 
@@ -50,14 +50,14 @@ def distance_to_singularity(
         `Configuration.moved`. Broadcasts against the configuration.
     most : float
         End of the path, in multiples of the direction. 1 by default: the displacement itself, so that an infinite
-        answer says that the whole move is free. A pure rotation repeats after 2 pi / |omega|.
+        distance means that the whole displacement is free. A pure rotation repeats after 2 pi / |omega|.
     threads : int, optional
-        Threads for a stack; one a processor by default. The result does not depend on it.
+        Number of threads; one per processor by default. The result does not depend on it.
 
     Returns
     -------
     SingularityDistance
-        0 where the configuration itself is singular, infinite where nothing is lost on the path, NaN where the
+        0 where the configuration itself is singular, infinite where the whole path is free, NaN where the
         configuration or the direction has NaN.
 
     Raises

@@ -44,7 +44,7 @@ def leg_forces(
         External load on the platform: moment about its origin p (force times length) and force, base axes. They
         broadcast against the configuration.
     force_at_o : array_like, shape (..., 3)
-        Load on the internal point; none by default.
+        Load on the internal point; zero by default.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def leg_forces(
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> c = nd.Configuration.neutral(3.9828, 2.4432)
     >>> forces, _ = nd.leg_forces(g, c, moment=[0, 0, 0], force=[0, 0, -9.81])  # a weight on the platform
-    >>> (forces + 0.0).round(3)[[0, 3, 6]]  # external legs idle: no moment about O
+    >>> (forces + 0.0).round(3)[[0, 3, 6]]  # no force in external legs: no moment about O
     array([0.   , 4.837, 5.556])
 
     """

@@ -1,4 +1,4 @@
-"""The axes of a sweep: names and values, and how a chunk of the grid finds its points."""
+"""The axes and the grid of a sweep, and the part of the grid that a chunk needs."""
 
 from __future__ import annotations
 

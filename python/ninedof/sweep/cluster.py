@@ -17,7 +17,7 @@ ADDRESS = re.compile(r"(?:(tcp|tls|ucx|ws|wss)://)?(?:\[([^\[\]\s]+)\]|([^\[\]\s
 
 @contextmanager
 def dask_executor(address: str) -> Iterator[Executor]:
-    """Connect to a Dask scheduler; inside the `with` its workers compute what the executor is given.
+    """Connect to a Dask scheduler; inside the `with` block its workers compute the tasks of the executor.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def dask_executor(address: str) -> Iterator[Executor]:
     ImportError
         If dask is not installed; the message says how to install it.
     ValueError
-        If it is not an address, or no scheduler answers there.
+        If the address is not valid, or no scheduler answers.
 
     """
     distributed = optional("distributed", "cluster", "a Dask cluster")
@@ -49,7 +49,7 @@ def dask_executor(address: str) -> Iterator[Executor]:
 
 
 def _require_answer(host: str, port: int, sends_first: bool) -> None:
-    """Raise OSError unless a scheduler answers: a client without one would warn when it is collected.
+    """Raise OSError unless a scheduler answers: a Dask client without a scheduler warns when it is deleted.
 
     By plain TCP the scheduler sends first. A client would wait forever for a server that accepts and sends nothing.
     """

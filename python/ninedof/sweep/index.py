@@ -1,4 +1,4 @@
-"""What a sweep computes at its points: indices of the table in design/indices.py, or functions of the caller."""
+"""The quantities of a sweep: indices of the table in design/indices.py, or functions of the caller."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class _Own:
         found = found.astype(np.float64, copy=False)
         if found.shape != c.shape:
             raise ValueError(
-                f"index {self.name}: got shape {found.shape}, expected {c.shape}, one number a configuration"
+                f"index {self.name}: got shape {found.shape}, expected {c.shape}, one number per configuration"
             )
         return found
 
 
 def indices_of(index: Any) -> tuple[Index, ...]:
-    """Return the indices that a caller asks for: a name, a function, or several of them."""
+    """Return the indices for the argument `index`: a name, a function, or several of them."""
     given = [index] if isinstance(index, str) or callable(index) else index
     if not isinstance(given, Iterable) or not (listed := list(given)):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")
@@ -56,7 +56,7 @@ def _own(function: OwnIndex) -> Index:
 
 
 def identity(index: Index) -> str:
-    """Return the name of an index in a record. A caller's function is known by its module and name, not by its code.
+    """Return the name of an index in a record. A caller's function is identified by its module and name, not its code.
 
     Raises
     ------
@@ -69,5 +69,7 @@ def identity(index: Index) -> str:
     function = index.function.function
     module, name = getattr(function, "__module__", None), getattr(function, "__qualname__", "<nameless>")
     if module is None or "<" in name.replace("<locals>.", ""):
-        raise ValueError(f"index: got {shown(function)}, expected a function with a name of its own, to know it again")
+        raise ValueError(
+            f"index: got {shown(function)}, expected a function with a name of its own, which identifies it"
+        )
     return f"{module}:{name}"

@@ -19,7 +19,7 @@ ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p",
 COORDINATES = (*ROTATION, *POSITION, *INTERNAL)
 """In the order of `Configuration.moved`."""
 RULES = ("held", "carried", "best")
-"""Where O is while the platform moves."""
+"""Position of O while the platform moves."""
 
 BLOCK = 2048
 """Approximate number of points whose O is searched together, in a tenth of a second: each continues its neighbours."""
@@ -76,13 +76,8 @@ class Poses:
         for first in range(0, len(p), size):
             part = slice(first, first + size)
             sides = (-1, *self.block[1:])
-            found = best_internal_map(
-                self.geometry,
-                p[part].reshape(*sides, 3),
-                q[part].reshape(*sides, 3, 3),
-                characteristic_length=self.length,
-                threads=threads,
-            )
+            poses = p[part].reshape(*sides, 3), q[part].reshape(*sides, 3, 3)
+            found = best_internal_map(self.geometry, *poses, characteristic_length=self.length, threads=threads)
             s[part] = found.configuration.internal_point.reshape(-1, 3)
         return s
 
@@ -102,7 +97,7 @@ class Poses:
     def _carried(self, p: Floats, q: Floats) -> Floats:
         """Return the positions of O when it is fixed to the platform."""
         x, y, z = self.home.rotation.T @ (self.home.internal_point - self.home.position)
-        # Written out: BLAS may round differently in a chunk of another size.
+        # Not by matrix multiplication: BLAS may round differently in a chunk of another size.
         return np.asarray(p + (q[:, :, 0] * x + q[:, :, 1] * y + q[:, :, 2] * z))
 
 

@@ -1,4 +1,4 @@
-"""Sweeps as a caller asks for them."""
+"""Sweeps over configurations and over designs."""
 
 from __future__ import annotations
 
@@ -65,22 +65,22 @@ def sweep(
         Whether the values are displacements from `home`. If not they are the coordinates themselves, and a swept theta
         takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
     internal_point : {"held", "carried", "best"}
-        Where O is while the platform moves: where it is at home, as in the paper's Fig. 6; carried along as if fixed to
-        the platform, with swept x_s, y_s, z_s displacing it from there; or where the condition number is least
-        (`best_internal_map`, over blocks of some 2000 points; NaN where there is no such place).
+        Position of O while the platform moves: at rest, as in the paper's Fig. 6; fixed to the platform ("carried"),
+        from where swept x_s, y_s, z_s displace it; or the point of least condition number (`best_internal_map`, over
+        blocks of some 2000 points; NaN where no position is admissible).
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each configuration.
     executor : concurrent.futures.Executor, optional
         Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
-        process by default. The values are the same, bit for bit. Lost workers are the executor's matter: Dask gives
-        their chunks to others; an exception of the executor ends the sweep, and finished chunks stay in `out`.
+        process by default. The values are the same, bit for bit. The executor handles lost workers: Dask repeats their
+        chunks on others. An exception of the executor ends the sweep; finished chunks stay in `out`.
     out : path, optional
-        Folder that keeps finished chunks. The same call goes on where an interrupted sweep stopped, even if that was
-        killed. A folder with the chunks of another question raises ValueError.
+        Folder that keeps finished chunks. The same call continues a sweep that was interrupted or killed. A folder with
+        the chunks of another question raises ValueError.
     chunk : int, optional
-        Points a chunk; with "best" rounded up to whole blocks. The values do not depend on it.
+        Points per chunk; with "best" rounded up to whole blocks. The values do not depend on it.
     threads : int, optional
-        Threads within a chunk; one a processor by default, and one with an executor.
+        Threads within a chunk; one per processor by default, and one with an executor.
     progress : callable, optional
         Called as progress(points done, points in all, None).
 
@@ -94,7 +94,7 @@ def sweep(
     ValueError
         If an argument does not fit; the message names it.
     KeyboardInterrupt
-        Within a chunk's time of Ctrl-C. Finished chunks stay in `out`.
+        After Ctrl-C, at the end of the current chunk. Finished chunks stay in `out`.
 
     Examples
     --------
@@ -149,8 +149,8 @@ def sweep_designs(
     over : mapping
         Name of a variable to its values: an array of shape (n,), or a tuple (low, high, count) for evenly spaced ones.
     index : str, callable, or a sequence of them
-        As in `sweep`. The condition number of untwisted hexagonal designs comes from the closed form, some nanoseconds
-        each; for anything else every design is made into a robot, some ten thousand a second.
+        As in `sweep`. The condition number of untwisted hexagonal designs comes from the closed form, a few
+        nanoseconds each; other indices are evaluated design by design, about ten thousand per second.
     family : str
         As in `Study`: "hexagonal", "symmetric", "symmetric_nonplanar" or "general".
     characteristic_length : float or str
@@ -166,7 +166,7 @@ def sweep_designs(
     Raises
     ------
     ValueError
-        If an argument does not fit, or a point of the grid is no design; the message names it.
+        If an argument does not fit, or if no design exists at a point of the grid; the message names it.
 
     Examples
     --------
@@ -188,7 +188,7 @@ def sweep_designs(
         length_argument(characteristic_length),
     )
     study = variants.study()
-    study.vector({axis.name: float(axis.values()[0]) for axis in grid.axes})  # names what is missing
+    study.vector({axis.name: float(axis.values()[0]) for axis in grid.axes})  # raises for missing variables
     units = {name: "rad" if name in study.angles else "length" for name in known}
     indices = indices_of(index)
     fast = all(variants.has_closed_form(i, [axis.name for axis in grid.axes]) for i in indices)

@@ -1,4 +1,4 @@
-"""Where the values of chunks are put together: in memory, or in files if they are too large for it."""
+"""Collects the values of chunks, in memory or, if they are too large, in files."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Sink:
         self._parts: dict[str, NDArray[Any] | _File] = {}
 
     def begin(self, folder: Path | None) -> Callable[[int, int, Arrays], None]:
-        """Make room for all values; return the function that takes those of points first ... last - 1."""
+        """Allocate all values; return the function that stores those of points first ... last - 1."""
         if 8 * sum(map(math.prod, self._shapes.values())) <= IN_MEMORY:
             folder = None
         try:

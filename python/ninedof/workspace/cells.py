@@ -24,8 +24,8 @@ class WorkspaceCells(NamedTuple):
     state: NDArray[np.uint8]
     """0 outside, 1 on the boundary, 2 inside."""
     limit: NDArray[np.int16]
-    """The limit that bounds the workspace in a boundary cell, or that the centre of an outside cell breaks: index into
-    `WorkspaceMap.limit_names`; -1 inside."""
+    """The limit that bounds the workspace in a boundary cell, or that the centre of an outside cell violates: an index
+    into `WorkspaceMap.limit_names`; -1 inside."""
     fraction: Floats
     """Allowed share of the cell."""
     condition_number: Floats
@@ -78,15 +78,8 @@ def slice_of(
         state[there], limit[there] = cells.state[n], cells.limit[n]
         kappa[there] = cells.condition_number[n] if cells.state[n] else np.nan
     middle = (np.arange(pixels) + 0.5)[:, None] / scale + low
-    return WorkspaceSlice(
-        (coordinates[h], coordinates[v]),
-        (coordinates[fixed], at),
-        middle[:, h],
-        middle[:, v],
-        state,
-        limit,
-        kappa,
-    )
+    axes, plane = (coordinates[h], coordinates[v]), (coordinates[fixed], at)
+    return WorkspaceSlice(axes, plane, middle[:, h], middle[:, v], state, limit, kappa)
 
 
 def group_of(name: str) -> str:

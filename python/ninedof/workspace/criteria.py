@@ -1,4 +1,4 @@
-"""Criteria of a workspace: check what is given and convert it for the core."""
+"""Criteria of a workspace: checked and converted for the core."""
 
 from __future__ import annotations
 

@@ -22,12 +22,12 @@ def spread_rotations(count: int, angle: float = math.pi) -> Floats:
     """Return rotations that cover a ball of SO(3) evenly: all of it, or those within an angle of the identity.
 
     The identity, then a low-discrepancy sequence by Haar's measure. Unless the ball is all of SO(3), every second
-    rotation lies on its boundary, where most limits are met first.
+    rotation lies on its boundary, where most limits are reached first.
 
     Parameters
     ----------
     count : int
-        How many.
+        Number of rotations.
     angle : float
         Radius of the ball, radians in (0, pi]; all of SO(3) by default.
 
@@ -53,7 +53,7 @@ def spread_rotations(count: int, angle: float = math.pi) -> Floats:
 
 
 def domain_of(archetype: str, box: Any, position: Any, rotation: Any, region: Any, orientations: Any) -> dict[str, Any]:
-    """Return the set of poses of an archetype; raise for arguments that it does not take."""
+    """Return the set of poses of an archetype; raise for arguments that do not apply to it."""
     choice("archetype", archetype, ARCHETYPES)
     is_set = archetype in ("reachable", "inclusive", "dexterous")
     takes = {

@@ -20,7 +20,7 @@ class WorkspaceStatus(StrEnum):
     """How the search for a workspace ended."""
 
     CONVERGED = "converged"
-    """The wanted error is reached; always the status of a grid or a sample, whose error is not controlled."""
+    """The error is below the tolerance; also the status of every grid or sample, whose error is not controlled."""
     LIMITED = "limited"
     """`most_evaluations` was reached first; see `error`."""
     EMPTY = "empty"
@@ -52,7 +52,7 @@ class WorkspaceMap(Saved):
     home_allowed: bool
     """Whether the home pose is allowed and in the box."""
     home_limit: str
-    """The limit that the home pose breaks; "" if none."""
+    """The limit that the home pose violates; "" without one."""
     pieces: Floats
     """Volumes of the connected pieces, the largest first; with "singularity_free" the one of home first."""
     ball_centre: Floats
@@ -129,11 +129,11 @@ class WorkspaceMap(Saved):
         Parameters
         ----------
         axis : str
-            Which of `coordinates` is fixed.
+            The fixed coordinate, one of `coordinates`.
         at : float
             Its value.
         pixels : int
-            Along each side.
+            Number along each side.
 
         Returns
         -------

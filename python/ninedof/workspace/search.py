@@ -104,16 +104,16 @@ def workspace(
         "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
         random shifts.
     tolerance : float
-        Wanted error of an octree, relative to the volume.
+        Largest error of an octree, relative to the volume.
     resolution : int, optional
         Cells along each side before any is divided, by default 16 (64 for a grid). Only the audit may find features
         thinner than such a cell; `WorkspaceMap.unseen` bounds what it missed.
     points : int, optional
         Audit poses of an octree, or points of each shift of a sample; 16384 by default, 1024 if the best O is sought.
     shifts : int
-        Of a sample.
+        Number of shifts of a sample.
     seed : int
-        Of audit and sample.
+        Seed of audit and sample.
     most_evaluations : int
         Greatest number of poses of an octree. Each takes about 350 bytes, and 24 more for each O that is sought.
     threads : int, optional
@@ -125,8 +125,8 @@ def workspace(
     Returns
     -------
     WorkspaceMap
-        Ctrl-C ends the search within a fraction of a second and returns what is known, with status "stopped"; the
-        summary takes another second for each million cells.
+        Ctrl-C ends the search within a fraction of a second and returns the last complete level, with status "stopped".
+        The summary takes another second for each million cells.
 
     Raises
     ------

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -15,7 +14,7 @@ from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result
-from ninedof.paper.comparison import compare
+from ninedof.paper.comparison import Comparison, compare
 from ninedof.runs.describe import describe_comparison
 from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import figures_of
@@ -50,30 +49,32 @@ def optimize(
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
     directory = new_directory(out)
-    if study is None:
-        raise typer.Exit(_optimize_paper(chosen, directory, threads, figures, screen, check))
-    raise typer.Exit(_optimize_study(chosen, study.name, directory, threads, figures, screen, check))
+    run = _solve_paper(chosen, threads, screen) if study is None else _solve_study(chosen, study.name, threads, screen)
+    result = run if isinstance(run, Result) else run.result
+    data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
+    if check and result.best is not None:
+        verdict = examine(result)
+        screen.print(verdict.report())
+        data["check"] = {"passed": verdict.passed, "report": verdict.report()}
+    record = write_run(run, directory, figures_of(run, screen.say) if figures else None)
+    stems = sorted({path.stem for path in directory.glob("*.png")})
+    drawn = f", figures {', '.join(stems)} (PNG and SVG)" if stems else ""
+    screen.print(f"run folder {directory}: {record.name}{drawn}")
+    screen.data({**data, "record": str(record)})
+    raise typer.Exit(exit_status(result))
 
 
-def _optimize_paper(
-    study: Study, directory: Path, threads: int | None, figures: bool, screen: Screen, check: bool
-) -> int:
+def _solve_paper(study: Study, threads: int | None, screen: Screen) -> Comparison:
     with screen.progress("the paper's problem") as bar:
         comparison = compare(study.starts, study.seed, threads, bar.show)
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
     if comparison.result.interrupted:
         screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
-    checked = _checked(comparison.result, check, screen)
-    record = write_run(comparison, directory, figures_of(comparison, screen.say) if figures else None)
-    _print_folder(screen, record)
-    screen.data({**describe_comparison(comparison), "record": str(record), **checked})
-    return exit_status(comparison.result)
+    return comparison
 
 
-def _optimize_study(
-    study: Study, name: str, directory: Path, threads: int | None, figures: bool, screen: Screen, check: bool
-) -> int:
+def _solve_study(study: Study, name: str, threads: int | None, screen: Screen) -> Result:
     for variable in study.defaulted:
         low, high = study.variables[variable]  # type: ignore[misc]  # a free one
         screen.print(f"{variable} is not given: [{low:g}, {high:g}] assumed")
@@ -85,23 +86,4 @@ def _optimize_study(
         screen.print(*price_text(result))
         for bound in applicable_bounds(result):
             screen.print(bound.sentence)
-    checked = _checked(result, check, screen)
-    record = write_run(result, directory, figures_of(result, screen.say) if figures else None)
-    _print_folder(screen, record)
-    screen.data({"optimization": result.to_dict(), "record": str(record), **checked})
-    return exit_status(result)
-
-
-def _checked(result: Result, wanted: bool, screen: Screen) -> dict[str, Any]:
-    """Check the best design with --check, print the report, and return it for --json."""
-    if not wanted or result.best is None:
-        return {}
-    verdict = examine(result)
-    screen.print(verdict.report())
-    return {"check": {"passed": verdict.passed, "report": verdict.report()}}
-
-
-def _print_folder(screen: Screen, record: Path) -> None:
-    figures = sorted({path.stem for path in record.parent.glob("*.png")})
-    drawn = f", figures {', '.join(figures)} (PNG and SVG)" if figures else ""
-    screen.print(f"run folder {record.parent}: {record.name}{drawn}")
+    return result
