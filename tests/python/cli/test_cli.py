@@ -1,4 +1,4 @@
-"""The command line as a person or a script meets it: words, JSON, exit status, files, interruption."""
+"""The command line: text, JSON, exit status, files, interruption."""
 
 import json
 import shlex
@@ -52,7 +52,7 @@ def test_main_job(capsys, tmp_path):
     assert set(record["files"]) == names - {"record.json"}
 
 
-def test_json_is_all_of_standard_output(capsys):
+def test_standard_output_is_json_only(capsys):
     status, out, err = run(capsys, "--json --no-figures --threads 1")
     assert status == 0
     data = json.loads(out)
@@ -128,7 +128,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("line", "words"), BAD.values(), ids=BAD.keys())
-def test_bad_input_is_one_clear_error(capsys, tmp_path, line, words):
+def test_bad_input_prints_one_error(capsys, tmp_path, line, words):
     status, out, err = run(capsys, line)
     assert status == 2
     assert words in err
@@ -165,7 +165,7 @@ def test_evaluate_a_singular_design(capsys):
     assert data["singular"] is True
 
 
-def test_evaluate_takes_degrees_at_the_edge(capsys):
+def test_evaluate_reads_degrees(capsys):
     published = "evaluate --a1 0 --a2 5.8124 --b1 2.9062 --b2 0 --zp 3.9828 --zs 2.4432 --json"
     turned = json.loads(run(capsys, published + " --theta-z-deg 2.8647889756541161")[1])
     assert turned["condition_number"] == pytest.approx(3.8819, abs=5e-5)
@@ -178,7 +178,7 @@ def test_evaluate_the_best_design_of_a_run(capsys):
     assert json.loads(out)["condition_number"] == pytest.approx(3.762659078596, rel=1e-9)
 
 
-def test_paper_gives_a_verdict_on_every_number(capsys):
+def test_paper_prints_a_verdict_on_every_number(capsys):
     status, out, _ = run(capsys, "paper --json")
     rows = json.loads(out)
     assert status == 0
@@ -212,7 +212,7 @@ def test_version(capsys):
     assert out.strip().count(".") == 2
 
 
-def test_interrupted_run_keeps_what_it_has(tmp_path):
+def test_interrupted_run_records_the_best_design(tmp_path):
     """Ctrl-C on a run of a million starts: status 130, the best so far printed and recorded."""
     arguments = ["--starts", "1000000", "--no-figures", "--out", "run"]
     script = f"""

@@ -1,4 +1,4 @@
-"""Fronts: as good as solving each limit alone, monotone whatever the solver does, interruptible."""
+"""Fronts: as good as solving each limit alone, monotone for any solver, interruptible."""
 
 import math
 import os
@@ -79,7 +79,7 @@ def test_prices_are_the_slope(front):
     assert min(before, after) * 0.9 < front.prices[1] < max(before, after) * 1.1
 
 
-def test_rows_say_everything(front):
+def test_rows_have_all_fields(front):
     row = front.table()[1]
     assert set(row) == {
         *("limit", "status", "reason", "objective", "condition_number", "price", "active", "variables", "dominated")
@@ -96,7 +96,7 @@ def test_a_limit_that_does_not_bind_is_marked():
     assert found.objectives[1] == pytest.approx(found.objectives[2], rel=1e-12)
 
 
-def test_impossible_limits_are_rows_too():
+def test_infeasible_limits_have_rows():
     found = pareto(nd.Study(), "leg_ratio", values=[0.5, 0.9, 2.0])
     assert [row["status"] for row in found.table()] == ["infeasible", "infeasible", "optimal"]
     assert math.isnan(found.objectives[0])
@@ -145,7 +145,7 @@ def test_a_found_front_is_monotone_and_spans_the_range(name):
     assert not any(found.dominated[:-1])
 
 
-def test_a_front_of_two_indices_runs_from_one_best_to_the_other():
+def test_a_front_of_two_indices_spans_both_optima():
     found = pareto(PAPER, "speed", points=7)
     assert found.against == "condition_limit"
     assert found.study.objective.index == "speed"
@@ -169,7 +169,7 @@ def _geometric(low, high, count):
     return [low * (high / low) ** (k / (count - 1)) for k in range(count)]
 
 
-def test_an_impossible_study_is_one_row():
+def test_an_infeasible_study_has_one_row():
     found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
     assert [row["status"] for row in found.table()] == ["infeasible"]
     assert found.limits == (math.inf,)
@@ -189,14 +189,14 @@ def test_without_a_scale_limits_must_be_given():
 
 
 def worse(result, factor):
-    """The result as a solver would return it that missed the best design."""
+    """The result of a solver that misses the best design."""
     wrong = tuple(replace(c, objective=factor * c.objective) for c in result.candidates)
     return replace(result, candidates=wrong)
 
 
 @pytest.mark.parametrize("bad_calls", [1, 2, 99])
-def test_a_solver_that_misses_the_best_is_repaired(monkeypatch, bad_calls):
-    """At the limit 2 the solver returns something 30 % worse: once, twice (both sweeps), or always."""
+def test_missed_optima_are_repaired(monkeypatch, bad_calls):
+    """At the limit 2 the solver returns a design 30 % worse: once, twice (both sweeps), or always."""
     calls = []
 
     def unlucky(study, **options):
@@ -257,7 +257,7 @@ def test_interrupted_between_limits(solved):
     assert is_monotone(found)
 
 
-def test_interrupted_inside_the_solver_keeps_what_there_is(monkeypatch):
+def test_interrupted_inside_the_solver_keeps_the_solved_limits(monkeypatch):
     def slow(study, **options):
         result = nd.optimize(study, **options)
         return replace(result, interrupted=study.constraints["radius_ratio"][1] == 1.5)

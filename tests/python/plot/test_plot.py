@@ -1,4 +1,4 @@
-"""Figures: what is on them, that they keep to scale, that files come out whole and the same every time."""
+"""Figures: their contents and scale; files are complete and reproducible."""
 
 import functools
 import math
@@ -221,7 +221,7 @@ def test_singular_parts_leave_a_gap(along_zs, point, tmp_path):
     assert plot.save(figure, tmp_path, "condition")
 
 
-def test_view_keeps_to_where_the_curves_are_low():
+def test_axes_show_the_low_part_of_the_curves():
     zs = np.linspace(0.1, 3.9, 200)
     kappa = nd.condition_number(PUBLISHED, nd.Configuration.neutral(3.9828, zs))
     theta = np.radians(np.linspace(-59.0, 59.0, 200))
@@ -236,7 +236,7 @@ def test_view_keeps_to_where_the_curves_are_low():
 # --- Convergence ------------------------------------------------------------------------------------------------------
 
 
-def test_convergence_shows_who_is_stuck():
+def test_convergence_marks_runs_that_do_not_converge():
     share, minimax, plain = plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0).axes
     assert (minimax.get_title(loc="left"), plain.get_title(loc="left")) == (
         "minimax SQP: 2 of 2 converge",
@@ -257,7 +257,7 @@ def test_convergence_shows_who_is_stuck():
 
 
 @pytest.mark.parametrize("run", [[math.inf], [math.inf, math.inf], [3.0], [2.9999999]])
-def test_convergence_takes_degenerate_runs(run, tmp_path):
+def test_convergence_accepts_degenerate_runs(run, tmp_path):
     assert plot.save(plot.convergence([run], [run], best=3.0), tmp_path, "convergence")
 
 
@@ -290,7 +290,7 @@ def test_files_are_whole_and_reproducible(make, tmp_path):
 
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_nothing_leaves_the_figure(make):
+def test_nothing_is_outside_the_figure(make):
     figure = figure_of(make)
     figure.draw_without_rendering()
     low, high = figure.get_tightbbox().get_points()
@@ -298,7 +298,7 @@ def test_nothing_leaves_the_figure(make):
     assert np.all(high < figure.get_size_inches())
 
 
-def test_failed_save_leaves_nothing(tmp_path):
+def test_failed_save_leaves_no_file(tmp_path):
     class Broken(Figure):
         def savefig(self, fname, **options):
             fname.write(b"half a fi")
@@ -310,7 +310,7 @@ def test_failed_save_leaves_nothing(tmp_path):
     assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"the old one"]
 
 
-def test_matplotlib_is_left_as_it_was():
+def test_matplotlib_settings_are_restored():
     import matplotlib
 
     before = dict(matplotlib.rcParams)

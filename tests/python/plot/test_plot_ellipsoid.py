@@ -1,4 +1,4 @@
-"""The figure of ellipsoids: true to scale, free of what it cannot show, whole."""
+"""The figure of ellipsoids: scale, visibility, bad input, files."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def tips(axes):
     return np.array([np.ravel(line.get_data_3d()) for line in axes.lines if line.get_marker() == "o"])
 
 
-def test_semi_axes_end_where_they_should_and_face_the_eye():
+def test_semi_axes_have_their_length_and_face_the_viewer():
     shown = panels(TILTED)
     figure = ellipsoids(shown)
     for panel, axes in zip(shown, figure.axes[1:], strict=True):
@@ -84,7 +84,7 @@ def test_one_scale_for_all():
     assert np.linalg.norm(sphere, axis=1) == pytest.approx(1.0)
 
 
-def test_words_say_what_is_seen():
+def test_texts_describe_the_panels():
     figure = ellipsoids(panels(SINGULAR), source="legs", source_note="all", mapping="map")
     words = [text.get_text() for text in figure.texts]
     assert {"legs", "all", "map", "translation", "rotation", "force", "ṗ", "F"} <= set(words)
@@ -95,7 +95,7 @@ def test_words_say_what_is_seen():
 
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_nothing_leaves_the_figure_and_files_are_the_same_twice(make, tmp_path):
+def test_nothing_is_outside_the_figure_and_files_are_reproducible(make, tmp_path):
     figure = make()
     figure.draw_without_rendering()
     low, high = figure.get_tightbbox().get_points()
@@ -116,12 +116,12 @@ def test_nothing_leaves_the_figure_and_files_are_the_same_twice(make, tmp_path):
         (np.full((3, 3), np.nan), np.ones(3)),
     ],
 )
-def test_bad_ellipsoid_is_refused(directions, semi_axes):
+def test_a_bad_ellipsoid_raises(directions, semi_axes):
     with pytest.raises(ValueError, match=r"^panels: got"):
         ellipsoids([EllipsoidPanel("bad", directions, semi_axes)])
 
 
 @pytest.mark.parametrize("count", [0, 5])
-def test_bad_number_of_panels_is_refused(count):
+def test_a_bad_number_of_panels_raises(count):
     with pytest.raises(ValueError, match=f"^panels: got {count}"):
         ellipsoids([EllipsoidPanel("one", np.eye(3), np.ones(3))] * count)

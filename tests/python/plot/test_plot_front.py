@@ -1,4 +1,4 @@
-"""Figures of fronts and of poses: every point is there, marks say what they mean, nothing leaves the picture."""
+"""Figures of fronts and of poses: points, marks, legends, layout."""
 
 import functools
 import math
@@ -81,7 +81,7 @@ def test_the_line_joins_what_was_found():
     assert line.get_xdata().tolist() == [1.3, 1.5, 1.8, 2.0, 3.0]
 
 
-def test_where_there_is_no_design_the_ground_is_grey():
+def test_infeasible_limits_have_a_grey_background():
     for axes in FIGURES["front"]().axes:
         (ground,) = [patch for patch in axes.patches if to_hex(patch.get_facecolor()) == style.GRID.lower()]
         left, right = ground.get_extents().transformed(axes.transData.inverted()).intervalx
@@ -105,7 +105,7 @@ def test_wide_ranges_are_logarithmic_and_carry_the_unit():
     assert FIGURES["front"]().axes[0].get_xscale() == "linear"
 
 
-def test_plates_are_drawn_in_the_order_of_their_limits_each_filling_its_place():
+def test_plates_are_drawn_in_the_order_of_their_limits():
     figure = FIGURES["front with plates"]()
     first, second = figure.axes[2:]
     assert [axes.get_title() for axes in (first, second)] == ["at 1.3", "at 3"]
@@ -122,7 +122,7 @@ def test_plates_are_drawn_in_the_order_of_their_limits_each_filling_its_place():
 # --- Poses ------------------------------------------------------------------------------------------------------------
 
 
-def test_every_pose_is_there():
+def test_every_pose_is_drawn():
     axes = FIGURES["poses"]().axes[0]
     first, second = ([y for _, y, colour in marks(axes, "o") if colour == c.lower()] for c in style.SERIES[:2])
     assert first == [4.0, 4.2, 4.1, 4.3]
@@ -134,7 +134,7 @@ def test_every_pose_is_there():
     assert words == ["a: worst 4.3", "b: worst 7"]
 
 
-def test_singular_poses_stand_at_the_edge():
+def test_singular_poses_are_at_the_upper_edge():
     axes = FIGURES["singular pose"]().axes[0]
     top = axes.get_ylim()[1]
     assert [(x, y) for x, y, _ in marks(axes, "^")] == [(1.0, top), (2.0, top)]
@@ -151,7 +151,7 @@ def figure_of(make):
 
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_nothing_leaves_the_figure(make):
+def test_nothing_is_outside_the_figure(make):
     figure = figure_of(make)
     figure.draw_without_rendering()
     low, high = figure.get_tightbbox().get_points()
@@ -160,8 +160,8 @@ def test_nothing_leaves_the_figure(make):
 
 
 @pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_no_words_on_words(make):
-    """Titles, labels, ticks and legends of a figure keep apart."""
+def test_texts_do_not_overlap(make):
+    """Titles, labels, ticks and legends of a figure do not overlap."""
     figure = make()
     figure.draw_without_rendering()
     renderer = figure.canvas.get_renderer()

@@ -1,4 +1,4 @@
-"""The check of a result: right ones pass, every kind of wrong one fails. Its parts are in test_check_parts.py."""
+"""The check of a result: correct results pass, every kind of wrong result fails. Parts: test_check_parts.py."""
 
 import math
 from dataclasses import replace
@@ -68,7 +68,7 @@ def with_best(result, **changed):
 
 
 def moved(result, **shifts):
-    """The result at another design, with every number of that design: wrong in nothing but its place."""
+    """The result at another design, with all numbers of that design: it is only not an optimum."""
     study = result.study
     variables = dict(result.variables)
     for name, shift in shifts.items():
@@ -99,7 +99,7 @@ def test_an_optimum_passes(name):
     assert found["perturbations"].figure <= 1e-8
 
 
-def test_report_says_what_was_tested(paper):
+def test_report_lists_the_tests(paper):
     text = check(paper, perturbations=60).report()
     assert text.startswith("check of a design of the hexagonal family: 10 tests, all passed")
     for words in ("general path", "60 steps of 0.1 to 1e-06", "no design with", "(proved)", "(searched)", "balance to"):
@@ -112,14 +112,14 @@ def test_same_seed_same_check(paper):
     assert first != check(paper, perturbations=300, seed=6).to_dict()
 
 
-def test_a_result_that_claims_no_optimum_is_not_held_to_it(paper):
+def test_optimality_is_tested_for_optimal_results_only(paper):
     stopped = replace(moved(paper, zp=0.1), status=nd.Status.STOPPED)
     found = check(stopped)
     assert found.passed, found.report()
     assert "stationarity" not in [finding.name for finding in found.findings]
 
 
-def test_nothing_free_is_stationary():
+def test_a_study_without_free_variables_is_stationary():
     fixed = {"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "zp": 5.0, "zs": 3.2}
     found = check(nd.optimize(nd.Study(variables=fixed)))
     assert found.passed, found.report()
@@ -147,12 +147,12 @@ def test_another_geometry_fails(paper):
 
 
 @pytest.mark.parametrize("shift", [0.3, 1e-3, 1e-5])
-def test_a_design_beside_the_optimum_is_not_stationary(paper, shift):
+def test_a_design_near_the_optimum_is_not_stationary(paper, shift):
     assert failed(moved(paper, zp=shift), perturbations=0) == {"stationarity"}
 
 
 @pytest.mark.parametrize("shift", [0.3, 0.01])
-def test_perturbations_find_something_better_beside_the_optimum(paper, shift):
+def test_perturbations_find_a_better_design_near_the_optimum(paper, shift):
     wrong = check(moved(paper, zp=shift), perturbations=size(1000, 4000))
     assert not wrong["perturbations"].passed
     assert wrong["perturbations"].figure > 1e-6
@@ -170,8 +170,8 @@ def test_a_broken_bound_fails(paper):
     assert "design" in failed(moved(paper, zp=100.0), perturbations=0)  # 80 at most
 
 
-def test_too_good_to_be_true_fails(paper):
-    """A design of the general path cannot beat a bound; a bound set too high must show."""
+def test_a_value_below_a_proved_bound_fails(paper):
+    """No design is below a bound, so a bound that is too high must fail."""
     from ninedof.verify import verdict
 
     bound = verdict.applicable_bounds(paper)[0]
@@ -180,7 +180,7 @@ def test_too_good_to_be_true_fails(paper):
         assert failed(paper, perturbations=0) == {"bound: leg ratio"}
 
 
-def test_a_margin_that_the_study_sees_otherwise_fails(paper, monkeypatch):
+def test_a_wrong_margin_of_the_core_fails(paper, monkeypatch):
     from ninedof.verify import verdict
 
     core = verdict._core_margins
@@ -203,7 +203,7 @@ def test_bad_input_is_named(paper):
 
 
 @pytest.mark.parametrize("name", ["displaced", "best place of O", "frobenius", "speed", "hardware", "general"])
-def test_beside_the_optimum_every_kind_of_study_fails(name):
+def test_a_shifted_optimum_fails_for_every_kind_of_study(name):
     result = nd.optimize(STUDIES[name])
     wrong = check(moved(result, zs=1e-3), perturbations=0)
     assert not wrong["stationarity"].passed

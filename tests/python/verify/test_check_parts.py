@@ -1,4 +1,4 @@
-"""The parts of the check, each held against numbers done by hand or against SciPy.
+"""The parts of the check, compared with values computed by hand or by SciPy.
 
 The formulas of the check and those of the core were written apart and agree; here each stands for itself, so that an
 agreement of the two is not an agreement in error.
@@ -49,7 +49,7 @@ def test_a_double_singular_value_at_its_least_is_stationary():
     assert least_combination(Spectrum(np.eye(2), steep), cone_of_none)[0] == pytest.approx(1.0, abs=1e-3)
 
 
-def test_a_limit_balances_what_is_left():
+def test_a_limit_balances_the_gradient():
     steep = [[[3.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]]
     wall = np.array([[-5.0, 0.0]])  # minus the gradient of a margin 5 x
     assert least_combination(Spectrum(np.eye(2), steep), wall)[0] < 1e-6
@@ -173,7 +173,7 @@ def test_distance_of_segments_agrees_with_a_search(seed):
 
 
 def test_determinants_change_sign_through_a_singularity():
-    """O carried through the plane of the base: det B goes through zero, det C does not."""
+    """O crosses the plane of the base: det B changes sign, det C does not."""
     down = np.zeros((1, 9))
     down[0, 8] = -4.0
     r = robot(robot().neutral.moved(down))
@@ -195,7 +195,7 @@ def test_rotation_vectors_agree_with_scipy():
 
 
 @pytest.mark.parametrize("name", ["radius_ratio", "leg_ratio", "height", "footprint", "stroke_ratio", "stroke"])
-def test_the_value_taken_is_the_limit_that_just_holds(name):
+def test_value_at_is_the_least_limit_that_allows_the_design(name):
     up = np.zeros((2, 9))
     up[1, 5] = 0.5
     r = robot(robot().neutral.moved(up))
