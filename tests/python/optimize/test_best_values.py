@@ -10,8 +10,8 @@ import math
 import numpy as np
 import pytest
 from design_oracle import Oracle
+from height_bound import least_by_height
 from numpy.testing import assert_allclose
-from proved_bound import least_by_height
 
 import ninedof as nd
 
@@ -100,7 +100,7 @@ def test_reached_or_beaten(name):
 
 @EVERY
 def test_study_reports_its_own_checks(name):
-    """Condition number through J' and LAPACK, margins from the joints; bounds; the proved bound at this |s - p|."""
+    """Condition number through J' and LAPACK, margins from the joints; bounds; the least value at this |s - p|."""
     data = KNOWN[name][0]
     v = solved(name).variables
     oracle, x = Oracle(data), np.array(list(v.values()))

@@ -1,15 +1,15 @@
 """Checks of optimality that share nothing with the solver.
 
 For each of several studies: what a candidate claims is recomputed by the general path, which the optimizer never calls;
-random feasible neighbours must not be better; no candidate may beat the proved lower bound, whose polynomial is typed
-in proved_bound. None of these uses a gradient.
+random feasible neighbours must not be better; no candidate may beat the lower bound by the height of O, whose
+polynomial is typed in height_bound. None of these uses a gradient.
 """
 
 import math
 
 import numpy as np
 import pytest
-from proved_bound import least_by_height
+from height_bound import least_by_height
 from sizes import size
 
 import ninedof as nd
