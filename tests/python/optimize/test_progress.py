@@ -4,12 +4,12 @@ import itertools
 import math
 import os
 import signal
-import subprocess
 import sys
 import threading
-import time
+from time import perf_counter
 
 import pytest
+from interrupts import interrupter
 
 import ninedof as nd
 
@@ -146,67 +146,45 @@ def test_other_threads_run_meanwhile(no_forced_switch):
     assert result.starts_done < HUGE // 10
 
 
-# A job in the background ignores SIGINT, and so would its children: the child asks for Python's own handler.
-CHILD = """
-import signal
-import ninedof as nd
-signal.signal(signal.SIGINT, signal.default_int_handler)
-
-def report(done, total, best):
-    if not said:
-        said.append(1)
-        print("running", flush=True)
-
-said = []
-{setup}
-result = nd.optimize({study}, starts={starts}, progress=report, threads={threads})
-print("returned", flush=True)
-print(result.status, result.starts_done, result.condition_number, len(result.candidates), flush=True)
-"""
-UNBOUNDED = "nd.Study(variables=dict.fromkeys(['a1', 'a2', 'b1', 'b2', 'zp', 'zs'], (1e-3, float('inf'))))"
+UNBOUNDED = nd.Study(variables=dict.fromkeys(["a1", "a2", "b1", "b2", "zp", "zs"], (1e-3, math.inf)))
 
 
-def interrupt(starts=HUGE, study="nd.Study.paper()", threads="None", setup=""):
-    """Run a child, send SIGINT once it works; seconds until the call returned, and the words after."""
-    code = CHILD.format(study=study, starts=starts, threads=threads, setup=setup)
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as child:
-        watchdog = threading.Timer(60.0, child.kill)
-        watchdog.start()
-        try:
-            assert child.stdout.readline() == "running\n"
-            begin = time.perf_counter()
-            child.send_signal(signal.SIGINT)
-            assert child.stdout.readline() == "returned\n"
-            seconds = time.perf_counter() - begin
-            words = child.stdout.readline().split()
-            assert child.wait(timeout=60) == 0
-        finally:
-            child.kill()
-            watchdog.cancel()
-    return seconds, words
-
-
-@pytest.mark.parametrize("study", ["nd.Study.paper()", UNBOUNDED], ids=["paper", "unbounded"])
+@pytest.mark.parametrize("study", [nd.Study.paper(), UNBOUNDED], ids=["paper", "unbounded"])
 def test_interrupt_returns_the_best_so_far(study):
-    _, (status, done, kappa, candidates) = interrupt(study=study)
-    assert status == "stopped"
-    assert 0 < int(done) < HUGE
-    assert 2.5 < float(kappa) < LEAST * (1.0 + 1e-9)
-    assert int(candidates) >= 1
+    with interrupter() as progress:
+        result = nd.optimize(study, starts=HUGE, progress=progress)
+    assert progress.sent is not None
+    assert result.status == "stopped"
+    assert result.interrupted
+    assert 0 < result.starts_done < HUGE
+    assert 2.5 < result.condition_number < LEAST * (1.0 + 1e-9)
+    assert len(result.candidates) >= 1
 
 
 @pytest.mark.timing
 @pytest.mark.parametrize("threads", [1, 2])
 def test_interrupt_within_half_a_second(threads):
     """The aim is 0.2 s; the rest is room for a busy machine."""
-    assert min(interrupt(threads=threads)[0] for _ in range(2)) < 0.5
+    seconds = []
+    for _ in range(2):
+        with interrupter() as progress:
+            result = nd.optimize(nd.Study.paper(), starts=HUGE, threads=threads, progress=progress)
+            seconds.append(perf_counter() - progress.sent)
+        assert result.interrupted
+    assert min(seconds) < 0.5
 
 
 def test_own_signal_handler_is_called_and_decides():
     """A program with a SIGINT handler of its own, which raises nothing, is not stopped behind its back."""
-    setup = "signal.signal(signal.SIGINT, lambda *a: None)"
-    _, (status, done, *_) = interrupt(starts=3000, setup=setup)
-    assert (status, int(done)) == ("optimal", 3000)
+    calls = []
+    handler = signal.signal(signal.SIGINT, lambda *_: calls.append(1))
+    try:
+        with interrupter() as progress:
+            result = nd.optimize(nd.Study.paper(), starts=3000, threads=1, progress=progress)
+    finally:
+        signal.signal(signal.SIGINT, handler)
+    assert calls == [1]
+    assert (result.status, result.starts_done) == ("optimal", 3000)
 
 
 def test_an_interruption_at_the_very_end_is_reported():

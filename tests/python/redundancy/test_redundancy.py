@@ -55,7 +55,7 @@ def penalised(x, g, p, q, signs):
 def test_no_better_point_in_the_chamber(hexagonal):
     rng = np.random.default_rng(5)
     compared = 0
-    for _ in range(size(7, 12)):
+    for _ in range(size(4, 12)):
         g, p, q = random_case(rng, hexagonal)
         best = nd.best_internal_point(g, p, q)
         if best.status == "unbounded":
@@ -66,15 +66,16 @@ def test_no_better_point_in_the_chamber(hexagonal):
         around = np.concatenate([s + 3.0 * rng.normal(size=(4000, 3)), s + 0.3 * rng.normal(size=(4000, 3)), s[None]])
         signs, values = signs_and_values(g, p, q, around)
         inside = (signs == signs[-1]).all(axis=-1)
-        for k in np.argsort(np.where(inside, values, np.inf))[:3]:
+        near = size(1e-5, 1e-7)
+        for k in np.argsort(np.where(inside, values, np.inf))[: size(2, 3)]:
             end = minimize(
-                penalised, around[k], (g, p, q, signs[-1]), "Nelder-Mead", options={"xatol": 1e-7, "fatol": 1e-9}
+                penalised, around[k], (g, p, q, signs[-1]), "Nelder-Mead", options={"xatol": near, "fatol": 0.01 * near}
             )
             way = s + np.linspace(0.0, 1.0, 400)[:, None] * (end.x - s)
             if (signs_and_values(g, p, q, way)[0] == signs[-1]).all():  # else: the same signs, another chamber
                 compared += 1
                 assert end.fun >= best.value * (1.0 - 1e-6)
-    assert compared > size(8, 15)
+    assert compared >= size(4, 16)
 
 
 def test_o_moves_while_the_platform_stays(published):

@@ -2,13 +2,11 @@
 
 import importlib
 import json
-import os
 import re
-import signal
-import threading
 
 import numpy as np
 import pytest
+from interrupts import interrupted_on_entry
 from numpy.testing import assert_allclose
 
 import ninedof as nd
@@ -104,14 +102,14 @@ def test_the_command_names_invalid_options(tmp_path, capsys, arguments, words):
 
 def test_ctrl_c_before_the_first_level_leaves_a_record(tmp_path, capsys, monkeypatch):
     """All numbers are NaN, and the command ends as after any other interruption."""
-    search = nd.workspace
-
-    def interrupted(*arguments, **options):
-        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
-        return search(*arguments, **options | {"resolution": 128, "most_evaluations": 10**9})
-
-    monkeypatch.setattr(importlib.import_module("ninedof.cli.commands.workspace"), "find_workspace", interrupted)
-    code, out = run(["--condition", "6", "--internal-point", "best", "--json", "--out", str(tmp_path / "run")], capsys)
+    monkeypatch.setattr(
+        importlib.import_module("ninedof.cli.commands.workspace"),
+        "find_workspace",
+        lambda *arguments, **options: nd.workspace(*arguments, **options | {"resolution": 128}),
+    )
+    asked = ["--condition", "6", "--internal-point", "best", "--json", "--out", str(tmp_path / "run")]
+    with interrupted_on_entry("workspace"):
+        code, out = run(asked, capsys)
     assert code == 130
     numbers = json.loads(out.out)["workspace"]
     assert numbers["status"] == "stopped"

@@ -1,11 +1,10 @@
 """Progress and interruption of a search for a workspace."""
 
-import os
-import signal
-import threading
 from time import perf_counter
 
 import pytest
+from interrupts import interrupter
+from sizes import size
 
 import ninedof as nd
 
@@ -14,8 +13,8 @@ LEGS = {"leg_limits": (2.5, 6.5)}
 
 
 def test_progress_counts_up(published):
-    seen = []
-    found = nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-4, progress=lambda *told: seen.append(told))
+    seen, tolerance = [], size(3e-4, 1e-4)
+    found = nd.workspace(published, BOX, criteria=LEGS, tolerance=tolerance, progress=lambda *told: seen.append(told))
     assert seen
     done = [told[0] for told in seen]
     assert done == sorted(done)
@@ -32,9 +31,7 @@ def test_an_exception_of_progress_reaches_the_caller(published):
 
 
 def test_ctrl_c_returns_a_stopped_map(published):
-    timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
-    try:
+    with interrupter() as progress:
         found = nd.workspace(
             published,
             BOX,
@@ -44,9 +41,8 @@ def test_ctrl_c_returns_a_stopped_map(published):
             criteria=LEGS | {"condition_number": 6.0},
             tolerance=1e-6,
             most_evaluations=10**9,
+            progress=progress,
         )
-    finally:
-        timer.cancel()
     assert found.interrupted
     assert found.status == "stopped"
 
@@ -67,18 +63,18 @@ def test_an_interruption_at_the_end_is_not_lost(published):
 
 @pytest.mark.timing
 def test_ctrl_c_ends_the_finest_levels(published):
-    """Millions of cells are numbered and judged there; the summary takes a second for each million."""
-    sent = []
-
-    def interrupt():
-        sent.append(perf_counter())
-        os.kill(os.getpid(), signal.SIGINT)
-
-    timer = threading.Timer(4.0, interrupt)
-    timer.start()
-    try:
-        found = nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-7, most_evaluations=10**9)
-    finally:
-        timer.cancel()
+    """Very many cells are numbered and judged there; the summary takes a second for each million."""
+    enough = size(1_000_000, 4_000_000)
+    with interrupter() as interrupt:
+        found = nd.workspace(
+            published,
+            BOX,
+            criteria=LEGS,
+            tolerance=1e-7,
+            most_evaluations=10**9,
+            progress=lambda done, *_: done > enough and interrupt(),
+        )
+        seconds = perf_counter() - interrupt.sent
     assert found.status == "stopped"
-    assert perf_counter() - sent[0] < 12.0
+    assert found.evaluations > enough
+    assert seconds < 12.0

@@ -1,0 +1,68 @@
+"""SIGINT to this process while the core works: at an event, however busy the machine is."""
+
+import os
+import signal
+import sys
+import threading
+from contextlib import contextmanager
+from time import perf_counter
+
+from ninedof import _core
+
+
+class Interrupter:
+    """A progress callback: when it is called first, another thread sends SIGINT. Only the core calls it."""
+
+    def __init__(self):
+        self.sent = None
+        """When SIGINT was sent, by `perf_counter`; None before."""
+        self._event, self._over = threading.Event(), False
+        self._thread = threading.Thread(target=self._interrupt)
+
+    def __call__(self, *_):
+        self._event.set()
+
+    def _interrupt(self):
+        self._event.wait()
+        if not self._over:
+            self.sent = perf_counter()
+            os.kill(os.getpid(), signal.SIGINT)
+
+    def start(self):
+        self._thread.start()
+
+    def stop(self):
+        self._over = True
+        self._event.set()
+        self._thread.join()
+
+
+@contextmanager
+def interrupter():
+    """An `Interrupter` for the one call in the block."""
+    found = Interrupter()
+    found.start()
+    try:
+        yield found
+    finally:
+        found.stop()
+
+
+@contextmanager
+def interrupted_on_entry(name):
+    """Send SIGINT as soon as the core's function `name` gives the GIL away: before it has found anything."""
+    core, interval, found = getattr(_core, name), sys.getswitchinterval(), Interrupter()
+
+    def watched(*arguments):
+        sys.setswitchinterval(1000.0)  # the other thread does not run before
+        found()
+        return core(*arguments)
+
+    found.start()
+    setattr(_core, name, watched)
+    try:
+        yield
+    finally:
+        setattr(_core, name, core)
+        sys.setswitchinterval(interval)
+        found.stop()
