@@ -88,7 +88,7 @@ def states_at(cells, origin, points):
     return state
 
 
-def volume_of_balls(inside, outside, low, high, steps=600):
+def volume_of_balls(inside, outside, low, high, steps):
     """Volume of the points of a box inside every ball (centre, radius) and outside every other, exact along x."""
     y, z = (low[k] + (np.arange(steps) + 0.5) / steps * (high[k] - low[k]) for k in (1, 2))
     y, z = np.meshgrid(y, z, indexing="ij")

@@ -44,7 +44,7 @@ def test_leg_limits_give_balls(published, rotation):
         *(published.base_external - published.platform_external @ rotation.T),
         *(published.base_internal - rotation @ o),
     ]
-    exact = oracle.volume_of_balls([(c, 6.5) for c in centres], [(c, 2.5) for c in centres], *BOX)
+    exact = oracle.volume_of_balls([(c, 6.5) for c in centres], [(c, 2.5) for c in centres], *BOX, size(300, 600))
     assert found.status == "converged"
     assert found.error < 1e-3 * found.volume
     assert abs(found.volume - exact) <= found.error
@@ -55,13 +55,13 @@ def test_internal_legs_with_o_half_way_give_balls_of_twice_the_radius(published)
     found = nd.workspace(published, BOX, criteria={"leg_limits": ([0.0] * 6 + [3.4] * 3, [np.inf] * 6 + [4.4] * 3)})
     middle = published.platform_internal.mean(axis=0)
     centres = [2.0 * r - middle - published.base_internal.mean(axis=0) for r in published.base_internal]
-    exact = oracle.volume_of_balls([(c, 8.8) for c in centres], [(c, 6.8) for c in centres], *BOX)
+    exact = oracle.volume_of_balls([(c, 8.8) for c in centres], [(c, 6.8) for c in centres], *BOX, size(300, 600))
     assert abs(found.volume - exact) <= found.error < 1e-3 * found.volume
 
 
 def test_the_error_estimate_bounds_the_error(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0, "singularity_free": True}
-    best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=1e-4, resolution=20)
+    best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=size(3e-4, 1e-4), resolution=20)
     for tolerance in (3e-2, 1e-2, 1e-3):
         found = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=tolerance)
         assert found.error <= tolerance * found.volume
@@ -171,11 +171,13 @@ def test_pieces_below_and_above_the_base(published):
     """The robot is its own mirror image: two pieces of equal volume."""
     criteria = {"leg_limits": (3.0, 6.5)}
     box = ([-4.0, -4.0, -8.0], [4.0, 4.0, 8.0])
-    both = nd.workspace(published, box, criteria=criteria)
+    tolerance = size(3e-3, 1e-3)
+    both = nd.workspace(published, box, criteria=criteria, tolerance=tolerance)
     assert_allclose(both.pieces[0], both.pieces[1], rtol=1e-3)
     assert_allclose(both.pieces[:2].sum(), both.volume, rtol=1e-3)
     home = nd.Configuration.neutral(zp=5.4, zs=2.7)
-    above = nd.workspace(published, box, criteria=criteria | {"singularity_free": True}, home=home)
+    criteria["singularity_free"] = True
+    above = nd.workspace(published, box, criteria=criteria, home=home, tolerance=tolerance)
     assert above.volume <= both.pieces[0] + both.error + above.error
     assert above.cells.centre[above.cells.piece == 0][:, 2].min() > 0.0
 
@@ -234,18 +236,18 @@ def test_orientations_against_numpy(published, region):
 def test_reachable_and_inclusive_against_numpy(published):
     rng = np.random.default_rng(6)
     q = Rotation.from_rotvec(0.25 * rng.normal(size=(5, 3))).as_matrix()
-    criteria = {"leg_limits": (2.4, 6.6), "condition_number": 7.0}
+    asked = {"criteria": {"leg_limits": (2.4, 6.6), "condition_number": 7.0}, "tolerance": size(4e-3, 1e-3)}
     p = sampled(rng, size(10_000, 30_000))
     each = []
     for one in q:
         m = oracle.robots(published, p, one, oracle.half_way(published, p, one))
         each.append(oracle.legs_allowed(m, 2.4, 6.6) & (model.condition_number(m) <= 7.0))
     for archetype, allowed in (("reachable", np.any(each, axis=0)), ("inclusive", np.all(each, axis=0))):
-        found = nd.workspace(published, BOX, archetype=archetype, orientations=q, criteria=criteria)
+        found = nd.workspace(published, BOX, archetype=archetype, orientations=q, **asked)
         agrees(found, allowed, p)
-    one = nd.workspace(published, BOX, rotation=q[2], criteria=criteria)
+    one = nd.workspace(published, BOX, rotation=q[2], **asked)
     for archetype in ("reachable", "inclusive"):
-        same = nd.workspace(published, BOX, archetype=archetype, orientations=q[2:3], criteria=criteria)
+        same = nd.workspace(published, BOX, archetype=archetype, orientations=q[2:3], **asked)
         assert abs(same.volume - one.volume) <= same.error + one.error
 
 

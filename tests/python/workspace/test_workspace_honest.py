@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sizes import size
 
 import ninedof as nd
 
@@ -16,7 +17,7 @@ def shell(published, width):
     low[0], high[0] = 4.9, 4.9 + width
     joint = published.base_external[0] - published.platform_external[0]
     # Along z the shell is cut exactly; over x and y a midpoint rule.
-    n = 1000
+    n = size(400, 1000)
     x = -2.5 + 5.0 * (np.arange(n) + 0.5) / n
     across = ((x - joint[0]) ** 2)[:, None] + ((x - joint[1]) ** 2)[None, :]
 
@@ -29,7 +30,7 @@ def shell(published, width):
 @pytest.mark.parametrize("width", [1e-1, 1e-2, 3e-3, 1e-3])
 def test_thin_shells(published, width):
     criteria, truth = shell(published, width)
-    found = nd.workspace(published, BOX, criteria=criteria)
+    found = nd.workspace(published, BOX, criteria=criteria, most_evaluations=size(500_000, 2_000_000))
     assert abs(found.volume - truth) <= found.error + found.unseen
 
 
@@ -40,7 +41,8 @@ def expected(published):
 
 @pytest.mark.parametrize("half", [30.0, 100.0, 160.0, 1000.0])
 def test_boxes_much_larger_than_the_workspace(published, expected, half):
-    found = nd.workspace(published, ([-half] * 3, [half] * 3), criteria=LEGS, home=HOME)
+    box = ([-half] * 3, [half] * 3)
+    found = nd.workspace(published, box, criteria=LEGS, home=HOME, tolerance=size(5e-3, 1e-3))
     assert found.home_allowed
     assert found.status == nd.WorkspaceStatus.CONVERGED or half > 500.0
     assert abs(found.volume - expected.volume) <= found.error + expected.error
@@ -56,7 +58,7 @@ def test_nothing_found_is_not_nothing(published, method, few):
 
 
 def test_a_grid_errs_by_less_than_it_says(published):
-    reference = nd.workspace(published, BOX, criteria=LEGS, tolerance=2e-4)
+    reference = nd.workspace(published, BOX, criteria=LEGS, tolerance=size(5e-4, 2e-4))
     for resolution in (16, 32, 48):
         found = nd.workspace(published, BOX, criteria=LEGS, method="grid", resolution=resolution)
         assert abs(found.volume - reference.volume) <= found.error

@@ -100,9 +100,14 @@ def test_save_and_load(found, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["map", "sweep"])
-def test_damaged_files_are_rejected_by_name(published, found, tmp_path, kind):
-    swept = nd.sweep(published, HOME, {"x_p": (0.0, 1.0, 5)})
-    path = (found if kind == "map" else swept).save(tmp_path / "file")
+def test_damaged_files_are_rejected_by_name(published, tmp_path, kind):
+    small = {"resolution": 4, "tolerance": 0.5, "points": 100}
+    found = (
+        nd.workspace(published, BOX, criteria=LEGS, **small)
+        if kind == "map"
+        else nd.sweep(published, HOME, {"x_p": (0.0, 1.0, 5)})
+    )
+    path = found.save(tmp_path / "file")
     load = nd.WorkspaceMap.load if kind == "map" else nd.SweepResult.load
     whole = path.read_bytes()
     rng = np.random.default_rng(0)

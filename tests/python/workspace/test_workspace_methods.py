@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -18,7 +19,7 @@ TILTED = Rotation.from_rotvec([0.15, -0.1, 0.2]).as_matrix()
 def test_the_best_o_allows_all_poses_that_a_rule_allows(published):
     box = ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0])
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0}
-    options = {"criteria": criteria, "resolution": 6, "tolerance": 0.05}
+    options = {"criteria": criteria, "resolution": size(5, 6), "tolerance": 0.05}
     best = nd.workspace(published, box, internal_point="best", points=100, **options)
     for rule in (0.5, 0.6, [0.0, 0.0, 2.4]):
         other = nd.workspace(published, box, internal_point=rule, **options)
@@ -42,13 +43,15 @@ SOUGHT = {
 @pytest.mark.parametrize("case", SOUGHT)
 def test_continuation_of_o_is_as_good_as_a_search(published, case):
     options = SOUGHT[case] | {"criteria": {"leg_limits": (2.5, 6.5), "condition_number": 6.0}, "internal_point": "best"}
-    one, two = (nd.workspace(published, resolution=5, tolerance=0.2, points=100, threads=n, **options) for n in (1, 3))
+    fine = {"resolution": size(4 if case == "positions" else 3, 5), "tolerance": 0.2, "points": 100}
+    one, two = (nd.workspace(published, threads=n, **fine, **options) for n in (1, 3))
     assert one.volume == two.volume
     assert_array_equal(one.cells.condition_number, two.cells.condition_number)
     assert one.internal_point_audit == two.internal_point_audit
     assert one.internal_point_audit.poses > 32
     c = one.cells
-    x, kappa = c.centre[::9], c.condition_number[::9]
+    every = size(5, 9)
+    x, kappa = c.centre[::every], c.condition_number[::every]
     if case == "orientations":
         searched = nd.best_internal_point(
             published, [0.0, 0.0, 4.5], Rotation.from_rotvec(x).as_matrix(), limits=(2.5, 6.5)
@@ -69,8 +72,8 @@ def test_methods_agree_on_the_best_o(published):
         "criteria": {"leg_limits": (2.0, 7.0), "condition_number": 5.0},
         "internal_point": "best",
     }
-    tree = nd.workspace(published, resolution=6, tolerance=0.02, points=200, **options)
-    grid = nd.workspace(published, method="grid", resolution=12, **options)
+    tree = nd.workspace(published, resolution=size(5, 6), tolerance=0.02, points=size(100, 200), **options)
+    grid = nd.workspace(published, method="grid", resolution=size(8, 12), **options)
     sample = nd.workspace(published, method="sample", points=64, shifts=8, **options)
     assert grid.internal_point_audit.poses >= 32
     assert sample.internal_point_audit.poses == 0, "each is searched"
@@ -83,7 +86,7 @@ def test_methods_agree_on_the_best_o(published):
 
 def test_three_methods_agree(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 6.0}
-    tree = nd.workspace(published, BOX, criteria=criteria, tolerance=1e-4)
+    tree = nd.workspace(published, BOX, criteria=criteria, tolerance=size(1e-3, 1e-4))
     grid = nd.workspace(published, BOX, criteria=criteria, method="grid", resolution=48)
     sample = nd.workspace(published, BOX, criteria=criteria, method="sample", points=4096)
     assert abs(grid.volume - tree.volume) <= 3.0 * grid.error
@@ -106,7 +109,7 @@ def test_standard_error_of_a_sample_agrees_with_the_scatter_of_samples(published
 
 def test_error_is_inverse_to_the_number_of_poses(published):
     """The work grows with the area of the boundary."""
-    found = nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5)}, tolerance=2e-5)
+    found = nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5)}, tolerance=size(3e-4, 2e-5))
     _, evaluations, _, error = found.levels[2:].T
     slope = np.polyfit(np.log(evaluations - 25_000), np.log(error), 1)[0]
     assert slope < -0.8
@@ -114,7 +117,8 @@ def test_error_is_inverse_to_the_number_of_poses(published):
 
 def test_threads_and_units_do_not_change_the_result(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 6.0, "leg_clearance": 0.1}
-    one, two = (nd.workspace(published, BOX, criteria=criteria, threads=n) for n in (1, 2))
+    tolerance = size(5e-3, 1e-3)
+    one, two = (nd.workspace(published, BOX, criteria=criteria, tolerance=tolerance, threads=n) for n in (1, 2))
     assert one.volume == two.volume
     assert_array_equal(one.cells.limit, two.cells.limit)
     big = nd.Geometry.hexagonal(a1=0.0, a2=58.124, b1=29.062, b2=0.0)
@@ -123,6 +127,7 @@ def test_threads_and_units_do_not_change_the_result(published):
         np.multiply(10.0, BOX),
         criteria={"leg_limits": (25.0, 65.0), "condition_number": 6.0, "leg_clearance": 1.0},
         characteristic_length=10.0,
+        tolerance=tolerance,
     )
     assert_allclose(scaled.volume, 1000.0 * one.volume, rtol=1e-6)
     assert_allclose(scaled.conditioning_index, one.conditioning_index, rtol=1e-9)
