@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from design_oracle import TRIPLES, Oracle, differences, family_names, is_angle, joints
 from numpy.testing import assert_allclose
+from sizes import size
 
 import ninedof as nd
 from ninedof.verify.spacing import between_segments
@@ -122,8 +123,8 @@ def random_study(family, asked, limits, rng):
 
 
 def cases():
-    """Thirty designs a family: five seeds for each of the questions asked."""
-    for family, (k, asked), seed in itertools.product(FAMILIES, enumerate(ASKED), range(5)):
+    """Designs of each family: some seeds for each of the questions asked, each with both sets of limits."""
+    for family, (k, asked), seed in itertools.product(FAMILIES, enumerate(ASKED), range(size(2, 5))):
         if (family, asked[1].get("index")) != ("general", "six_legged"):
             rng = np.random.default_rng([FAMILIES.index(family), k, seed])
             yield family, *random_study(family, asked, LIMITS[(k + seed) % 2], rng)
@@ -281,7 +282,7 @@ def test_the_oracle_of_distances():
     rng = np.random.default_rng(5)
     ends = rng.normal(size=(4, 200, 3))
     ends[3, :20] = ends[2, :20] + 0.7 * (ends[1, :20] - ends[0, :20])  # parallel
-    t = np.linspace(0.0, 1.0, 121)[:, None, None]
+    t = np.linspace(0.0, 1.0, size(61, 121))[:, None, None]
     a, b, c, d = ends
     grid = np.linalg.norm((a + t * (b - a))[:, None] - (c + t * (d - c))[None], axis=-1).min(axis=(0, 1))
     exact = between_segments(a, b, c, d)

@@ -64,6 +64,12 @@ def legs(axes):
     return {letter: np.array(ends) for letter, ends in found.items()}
 
 
+def assert_can_be_drawn(figure):
+    """Every warning is an error, and no part is empty: what a file needs, at a third of its price."""
+    figure.draw_without_rendering()
+    assert np.isfinite(figure.get_tightbbox().get_points()).all()
+
+
 def curves(**options):
     zs, theta = np.linspace(1.5, 3.5, 400), np.radians(np.linspace(-20.0, 20.0, 81))
     return plot.DesignCurves(
@@ -213,12 +219,12 @@ def test_condition_curves_without_a_level_have_two_panels():
 @pytest.mark.parametrize(
     ("along_zs", "point"), [([math.inf, 4.0, 5.0], 4.0), ([math.inf] * 3, math.inf), ([4.0] * 3, 4.0)]
 )
-def test_singular_parts_leave_a_gap(along_zs, point, tmp_path):
+def test_singular_parts_leave_a_gap(along_zs, point):
     design = plot.DesignCurves("d", [1.0, 2.0, 3.0], along_zs, [-0.1, 0.1], [4.5, math.inf], (2.0, 0.0, point))
     figure = plot.condition_curves([design])
     assert not np.any(np.isinf(figure.axes[0].lines[0].get_ydata()))
     assert all(np.all(np.isfinite(axes.get_ylim())) for axes in figure.axes)
-    assert plot.save(figure, tmp_path, "condition")
+    assert_can_be_drawn(figure)
 
 
 def test_axes_show_the_low_part_of_the_curves():
@@ -257,8 +263,8 @@ def test_convergence_marks_runs_that_do_not_converge():
 
 
 @pytest.mark.parametrize("run", [[math.inf], [math.inf, math.inf], [3.0], [2.9999999]])
-def test_convergence_accepts_degenerate_runs(run, tmp_path):
-    assert plot.save(plot.convergence([run], [run], best=3.0), tmp_path, "convergence")
+def test_convergence_takes_degenerate_runs(run):
+    assert_can_be_drawn(plot.convergence([run], [run], best=3.0))
 
 
 @pytest.mark.parametrize(
@@ -318,10 +324,7 @@ def test_matplotlib_settings_are_restored():
     assert dict(matplotlib.rcParams) == before
 
 
-@pytest.mark.parametrize(
-    ("statement", "absent"),
-    [("import ninedof", "matplotlib"), ("from ninedof import plot", "matplotlib.pyplot")],
-)
-def test_imports_stay_light(statement, absent):
-    code = f"import sys; {statement}; sys.exit({absent!r} in sys.modules)"
+def test_imports_stay_light():
+    code = "import sys, ninedof; early = 'matplotlib' in sys.modules; from ninedof import plot"
+    code += "; sys.exit(early or 'matplotlib.pyplot' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

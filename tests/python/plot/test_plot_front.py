@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.patches import Polygon
+from sizes import size
 
 import ninedof as nd
 from ninedof import plot
@@ -145,25 +146,25 @@ def test_singular_poses_are_at_the_upper_edge():
 
 
 @functools.cache
-def figure_of(make):
-    """The figure, made once for the tests that do not change it."""
-    return make()
-
-
-@pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_nothing_is_outside_the_figure(make):
-    figure = figure_of(make)
+def drawn(name):
+    """The figure, made and drawn once for the tests that do not change it."""
+    figure = FIGURES[name]()
     figure.draw_without_rendering()
+    return figure
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_nothing_leaves_the_figure(name):
+    figure = drawn(name)
     low, high = figure.get_tightbbox().get_points()
     assert np.all(low > 0)
     assert np.all(high < figure.get_size_inches())
 
 
-@pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_texts_do_not_overlap(make):
-    """Titles, labels, ticks and legends of a figure do not overlap."""
-    figure = make()
-    figure.draw_without_rendering()
+@pytest.mark.parametrize("name", FIGURES)
+def test_no_words_on_words(name):
+    """Titles, labels, ticks and legends of a figure keep apart."""
+    figure = drawn(name)
     renderer = figure.canvas.get_renderer()
     texts = [t for axes in figure.axes if axes.axison for t in (axes.xaxis.label, axes.yaxis.label)]
     texts += [t for axes in figure.axes for t in (axes.title, axes._left_title)]
@@ -179,9 +180,11 @@ def test_texts_do_not_overlap(make):
         assert not any(legend.get_window_extent(renderer).overlaps(tick) for tick in ticks)
 
 
-@pytest.mark.parametrize("make", FIGURES.values(), ids=FIGURES)
-def test_files_are_whole_and_reproducible(make, tmp_path):
-    first, second = plot.save(figure_of(make), tmp_path / "a", "figure"), plot.save(make(), tmp_path / "b", "figure")
+@pytest.mark.parametrize("name", size(["front with plates", "singular pose", "many poses"], FIGURES))
+def test_files_are_whole_and_reproducible(name, tmp_path):
+    """Of figures with marks of every kind: a file costs several drawings."""
+    first = plot.save(drawn(name), tmp_path / "a", "figure")
+    second = plot.save(FIGURES[name](), tmp_path / "b", "figure")
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes()
     assert ElementTree.parse(first[1]).getroot().tag.endswith("svg")

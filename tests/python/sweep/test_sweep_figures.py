@@ -156,7 +156,10 @@ def test_sweeps_are_drawn(axes, name, tmp_path):
     found = nd.sweep(G, HOME, dict(list(over.items())[:axes]), name)
     figure = plot.sweep(found)
     assert isinstance(figure, Figure)
-    assert len(plot.save(figure, tmp_path, "sweep")) == 2
+    if axes == 2 and name == "condition_number":
+        assert len(plot.save(figure, tmp_path, "sweep")) == 2
+    else:  # a file costs more than all the rest
+        figure.draw_without_rendering()
     if axes == 1:
         assert len(lines(figure)) == (9 if name == "leg_lengths" else 1)
     else:
