@@ -6,6 +6,7 @@ import os
 import pickle
 import signal
 import socket
+import sys
 import threading
 import time
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -43,22 +44,34 @@ def test_threads(expected):
         assert asked(executor=pool)["condition_number"].tobytes() == expected
 
 
-def test_processes(expected):
+@pytest.fixture(scope="module", autouse=True)
+def _light_processes():
+    """A spawned process runs the main script again, here that of pytest, which it does not need."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delattr(sys.modules["__main__"], "__file__", raising=False)
+        yield
+
+
+@pytest.fixture(scope="module")
+def processes(_light_processes):
     with ProcessPoolExecutor(2, mp_context=SPAWN) as pool:
-        found = asked(["condition_number", "leg_lengths", work.slow], executor=pool)
+        yield pool
+
+
+def test_processes(processes, expected):
+    found = asked(["condition_number", "leg_lengths", work.slow], executor=processes)
     assert found["condition_number"].tobytes() == found["slow"].tobytes() == expected
     assert found["leg_lengths"].tobytes() == asked("leg_lengths")["leg_lengths"].tobytes()
 
 
-def test_designs_and_figures_by_processes():
+def test_designs_and_figures_by_processes(processes):
     """Closed form and one robot at a time, in another process as in this one."""
     held, over = {"a1": 0.3, "a2": 5.0, "b1": 3.0, "zp": 4.0}, {"b2": (0.0, 1.0, 9), "zs": (2.0, 3.0, 7)}
     here = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"])
     seven = nd.sweep_figure("7", 5)
-    with ProcessPoolExecutor(2, mp_context=SPAWN) as pool:
-        there = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"], executor=pool, chunk=10)
-        assert nd.sweep_figure("7", 5, executor=pool)["design"].tobytes() == seven["design"].tobytes()
-        many = nd.atlas(30_000, chunk=7000, executor=pool)
+    there = nd.sweep_designs(held, over, ["condition_number", "leg_ratio"], executor=processes, chunk=10)
+    assert nd.sweep_figure("7", 5, executor=processes)["design"].tobytes() == seven["design"].tobytes()
+    many = nd.atlas(30_000, chunk=7000, executor=processes)
     for name in here:
         assert there[name].tobytes() == here[name].tobytes()
     assert many["histogram"].tobytes() == nd.atlas(30_000)["histogram"].tobytes()
@@ -204,7 +217,7 @@ def test_what_is_no_executor_is_refused(executor, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def cluster():
+def cluster(_light_processes):
     distributed = pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
     with (
         distributed.LocalCluster(
@@ -296,11 +309,13 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
 
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
+    gc.freeze()  # only what is made from here on is looked through below
     with socket.create_server(("127.0.0.1", 0)) as silent:  # accepts connections and sends nothing
         address = address.replace("SILENT", str(silent.getsockname()[1]))
         with pytest.raises(SystemExit) as end:
             main(["sweep", "--over", "x_p=0:1:3", "--scheduler", address, "--out", str(out)])
     gc.collect()  # a client that was not closed would warn now
+    gc.unfreeze()
     assert end.value.code == 2
     err = capsys.readouterr().err
     assert err.startswith("ninedof: --scheduler: got ")
