@@ -14,6 +14,7 @@ from sweep_work import HOME, G
 
 import ninedof as nd
 from ninedof.design.indices import computed
+from ninedof.sweep import poses as placing
 from ninedof.sweep.axis import Axis, axes_of
 from ninedof.sweep.poses import best_block
 
@@ -183,23 +184,30 @@ def test_chunks_change_nothing_where_o_is_carried():
         assert found.tobytes() == whole.tobytes()
 
 
-# Blocks of 18 rows of x_p: two of them, in a long run three, the last one short.
-MANY = {"x_p": (-1.2, 1.2, size(21, 41)), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}
+# Blocks of 18 rows of x_p, or two in a quick run: three of them, the last one short.
+BLOCK = size(256, placing.BLOCK)
+MANY = {"x_p": (size(0.5, -1.2), 1.2, size(5, 41)), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, 37)}
+
+
+def with_the_best_o(**options):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(placing, "BLOCK", BLOCK)
+        return nd.sweep(G, TURNED, MANY, internal_point="best", **options)
 
 
 @pytest.fixture(scope="module")
 def whole():
-    return nd.sweep(G, TURNED, MANY, internal_point="best")["condition_number"]
+    found = with_the_best_o()
+    assert found.attributes["block"] == [size(2, 18), 3, 37]
+    return found["condition_number"]
 
 
 @pytest.mark.slow
 def test_chunks_threads_and_executors_change_nothing_where_o_is_best(whole):
     for options in ({"chunk": 1}, {"chunk": 3000, "threads": 1}, {"chunk": 100_000, "threads": 3}):
-        found = nd.sweep(G, TURNED, MANY, internal_point="best", **options)["condition_number"]
-        assert found.tobytes() == whole.tobytes()
+        assert with_the_best_o(**options)["condition_number"].tobytes() == whole.tobytes()
     with ThreadPoolExecutor(2) as pool:
-        found = nd.sweep(G, TURNED, MANY, internal_point="best", executor=pool)["condition_number"]
-    assert found.tobytes() == whole.tobytes()
+        assert with_the_best_o(executor=pool)["condition_number"].tobytes() == whole.tobytes()
 
 
 def test_a_sweep_with_the_best_o_is_resumed_after_a_block(tmp_path, whole):
@@ -208,11 +216,9 @@ def test_a_sweep_with_the_best_o_is_resumed_after_a_block(tmp_path, whole):
             raise InterruptedError
 
     with pytest.raises(InterruptedError):
-        nd.sweep(G, TURNED, MANY, internal_point="best", out=tmp_path, chunk=1, progress=stop)
+        with_the_best_o(out=tmp_path, chunk=1, progress=stop)
     rest = []
-    found = nd.sweep(G, TURNED, MANY, internal_point="best", out=tmp_path, progress=lambda done, *_: rest.append(done))[
-        "condition_number"
-    ]
+    found = with_the_best_o(out=tmp_path, progress=lambda done, *_: rest.append(done))["condition_number"]
     assert rest[-1] == found.size
     assert found.tobytes() == whole.tobytes()
 
@@ -228,7 +234,11 @@ def test_a_sweep_with_the_best_o_is_no_worse_than_a_search_at_each_pose(whole):
 
 @pytest.mark.parametrize(
     ("over", "size"),
-    [({"x_p": (0.0, 0.1, 5000)}, 2048), ({"x_p": [0.0, 0.1], "y_p": (0.0, 0.1, 3000)}, 2048), (MANY, 18 * 3 * 37)],
+    [
+        ({"x_p": (0.0, 0.1, 5000)}, 2048),
+        ({"x_p": [0.0, 0.1], "y_p": (0.0, 0.1, 3000)}, 2048),
+        (MANY | {"x_p": (0.0, 1.0, 21)}, 18 * 3 * 37),
+    ],
 )
 def test_blocks_of_the_best_o_depend_on_the_grid_alone(over, size):
     """Longer rows are cut, shorter ones joined; the attributes name the block."""

@@ -90,7 +90,7 @@ def test_figure_7_against_a_scan(seven, side, k):
 
     def least(size):
         study = nd.Study(
-            variables={first: ratio * size, second: size}, constraints={"radius_ratio": (None, 2.0)}, starts=16
+            variables={first: ratio * size, second: size}, constraints={"radius_ratio": (None, 2.0)}, starts=8
         )
         return nd.optimize(study).condition_number or np.inf
 
