@@ -10,6 +10,7 @@ from time import perf_counter
 
 import pytest
 from interrupts import interrupter
+from sizes import size
 
 import ninedof as nd
 
@@ -18,14 +19,14 @@ HUGE = 10**6  # starts: minutes of work
 
 
 def test_reports_rise_to_the_total():
-    seen = []
-    result = nd.optimize(nd.Study.paper(), starts=4000, progress=lambda *arguments: seen.append(arguments))
+    seen, starts = [], size(1500, 4000)
+    result = nd.optimize(nd.Study.paper(), starts=starts, progress=lambda *arguments: seen.append(arguments))
     assert result.status == "optimal"
     assert len(seen) > 1
     done, total, best = zip(*seen, strict=True)
-    assert set(total) == {4000}
+    assert set(total) == {starts}
     assert all(a < b for a, b in itertools.pairwise(done))
-    assert done[-1] == 4000
+    assert done[-1] == starts
     assert all(a >= b for a, b in itertools.pairwise(best))
     assert best[-1] == pytest.approx(result.condition_number, rel=1e-9)
     assert min(best) >= LEAST * (1.0 - 1e-9)  # an end that uses up the tolerance of a constraint is no record
@@ -91,7 +92,7 @@ def test_keyboard_interrupt_of_the_callback_returns_the_best_so_far():
 def test_callback_may_call_the_library():
     inner = []
     nd.optimize(
-        nd.Study.paper(), starts=3000, progress=lambda *a: inner.append(nd.optimize(nd.Study.paper(), starts=2))
+        nd.Study.paper(), starts=1000, progress=lambda *a: inner.append(nd.optimize(nd.Study.paper(), starts=2))
     )
     assert inner
     assert all(r.condition_number == pytest.approx(LEAST, rel=1e-9) for r in inner)

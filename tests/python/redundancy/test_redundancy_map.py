@@ -59,7 +59,7 @@ def test_as_good_as_single_searches(published, criterion, limits):
 
 def test_general_robots_and_axes_of_orientation():
     rng = np.random.default_rng(2)
-    for _ in range(3):
+    for _ in range(size(2, 3)):
         g = numpy_model.random_robots(rng, 1).at(0).geometry()
         tilt = np.stack(np.meshgrid(*2 * [np.linspace(-0.3, 0.3, 12)], [0.1], indexing="ij"), axis=-1)[:, :, 0]
         q = Rotation.from_rotvec(tilt.reshape(-1, 3)).as_matrix().reshape(12, 12, 1, 3, 3)
@@ -79,7 +79,8 @@ def test_general_robots_and_axes_of_orientation():
 def test_no_point_of_a_fine_grid_is_better(published):
     """All O in a box around the robot that a straight line without singularity reaches, by plain numpy."""
     best = nd.best_internal_map(published, plane(12))
-    ticks = [np.linspace(-2.5, 2.5, 26), np.linspace(-2.5, 2.5, 26), np.linspace(0.1, 3.9, 26)]
+    n = size(22, 26)
+    ticks = [np.linspace(-2.5, 2.5, n), np.linspace(-2.5, 2.5, n), np.linspace(0.1, 3.9, n)]
     box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
     for k in ((0, 0), (3, 7), (6, 6), (11, 4))[:: size(2, 1)]:
         s = best.configuration.internal_point[k]
@@ -88,7 +89,7 @@ def test_no_point_of_a_fine_grid_is_better(published):
             np.broadcast_to(best.configuration.rotation[k], (*box.shape, 3)),
             np.zeros(box.shape),
         )
-        signs = [dets(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, 30)]
+        signs = [dets(robots(published, where, s + t * (box - s))) for t in np.linspace(0.0, 1.0, size(20, 30))]
         reached = np.all([np.sign(x) == np.sign(signs[0]) for x in signs], axis=(0, 2))
         with np.errstate(all="ignore"):
             values = numpy_model.condition_number(robots(published, where, box))

@@ -49,7 +49,9 @@ STUDIES = {
     "frobenius": nd.Study(constraints=RATIO, objective={"index": "frobenius", "poses": FEW}),
     "speed": nd.Study(constraints=RATIO, objective={"index": "speed", "condition_limit": 4.5, "poses": FEW}),
     "hardware": nd.Study(
-        constraints=HARDWARE, objective={"box": {"half": [0.1, 0.1, 0.1], "unit": "zp"}}, starts=size(4, 8)
+        constraints=HARDWARE,
+        objective={"box": {"half": [0.1, 0.1, 0.1], "unit": "zp"}},
+        starts=size(2, 8),
     ),
     "mean leg": nd.Study(constraints=RATIO | {"footprint": (None, 3.0)}, characteristic_length="mean_leg"),
     "general": nd.Study(
