@@ -62,11 +62,28 @@ def test_a_wrong_number_ends_the_program(compare):
             require_agreement("wrong one", np.array(wrong), ours, 1)
 
 
+IN_ONE_PROCESS = """
+import comparison
+from concurrent.futures import Future
+class Here:
+    def __init__(self, *_, **__):
+        pass
+    def submit(self, function, *arguments):
+        future = Future()
+        future.set_result(function(*arguments))
+        return future
+    def shutdown(self):
+        pass
+comparison.runner.ProcessPoolExecutor = Here
+comparison.available_levels = lambda: ["base"]
+comparison.main(["--poses", "40", "--rounds", "1"])
+"""
+
+
 @pytest.mark.slow
 def test_the_script_runs_without_its_cpp_programs(tmp_path):
-    # Each level of instructions costs a process, and each of those imports the script: one level is enough here.
-    one_level = f"import sys; sys.path.insert(0, {str(BENCH)!r}); import comparison; "
-    one_level += "comparison.available_levels = lambda: ['base']; comparison.main(['--poses', '40', '--rounds', '1'])"
+    # Every method has a process of its own, one for each level of instructions: one level, and one process, will do.
+    one_level = f"import sys; sys.path.insert(0, {str(BENCH)!r}); {IN_ONE_PROCESS}"
     every_level = [str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
     command = [sys.executable, *size(["-c", one_level], every_level)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)

@@ -23,7 +23,12 @@ def test_the_readme_has_one_line_for_each_command(name):
     assert block.count("\n") == 1
 
 
-SMALLER = {"1_000_000": "1_000", "201)": "5)"}
+SMALLER = {
+    "1_000_000": "1_000",
+    "201)": "5)",
+    'objective={"poses": box})': 'objective={"poses": box}, starts=4)',
+    "nd.check(result)": "nd.check(result, perturbations=300)",
+}
 
 
 def test_the_python_of_the_readme_runs_as_written(capsys):
