@@ -4,6 +4,7 @@ import signal
 
 import pytest
 from hypothesis import HealthCheck, settings
+from sizes import size
 
 import ninedof as nd
 
@@ -16,7 +17,7 @@ settings.register_profile(
     derandomize=True,
     deadline=None,
     database=None,
-    max_examples=60,
+    max_examples=size(30, 60),
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("fixed")
