@@ -1,5 +1,6 @@
 """What all tests share: one hypothesis profile and the paper's robot."""
 
+import gc
 import signal
 
 import pytest
@@ -21,6 +22,12 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("fixed")
+
+
+def pytest_collection_finish(session):
+    """What is loaded by now stays to the end: no collection of garbage needs to look through it again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

@@ -309,13 +309,11 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
 
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
-    gc.freeze()  # only what is made from here on is looked through below
     with socket.create_server(("127.0.0.1", 0)) as silent:  # accepts connections and sends nothing
         address = address.replace("SILENT", str(silent.getsockname()[1]))
         with pytest.raises(SystemExit) as end:
             main(["sweep", "--over", "x_p=0:1:3", "--scheduler", address, "--out", str(out)])
     gc.collect()  # a client that was not closed would warn now
-    gc.unfreeze()
     assert end.value.code == 2
     err = capsys.readouterr().err
     assert err.startswith("ninedof: --scheduler: got ")
