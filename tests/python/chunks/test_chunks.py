@@ -67,7 +67,7 @@ def test_a_sweep_killed_many_times_is_resumed(tmp_path, expected, monkeypatch):
         while not any(mine.iterdir()) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.002)  # importing takes most of the time: wait for the first chunk
         try:
-            process.wait(moments.uniform(0.02, 0.05))  # of the 20 chunks six at most
+            process.wait(moments.uniform(0.04, 0.05))  # of the 20 chunks six at most
         except subprocess.TimeoutExpired:
             process.kill()
             kills += 1

@@ -181,11 +181,11 @@ def test_own_signal_handler_is_called_and_decides():
     handler = signal.signal(signal.SIGINT, lambda *_: calls.append(1))
     try:
         with interrupter() as progress:
-            result = nd.optimize(nd.Study.paper(), starts=3000, threads=1, progress=progress)
+            result = nd.optimize(nd.Study.paper(), starts=2000, threads=1, progress=progress)
     finally:
         signal.signal(signal.SIGINT, handler)
     assert calls == [1]
-    assert (result.status, result.starts_done) == ("optimal", 3000)
+    assert (result.status, result.starts_done) == ("optimal", 2000)
 
 
 def test_an_interruption_at_the_very_end_is_reported():

@@ -17,7 +17,7 @@ PUBLISHED = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs
 
 
 def solve(variables=None, constraints=None, **others):
-    options = {"starts": size(32, 64)} | others
+    options = {"starts": size(24, 64)} | others
     return nd.optimize(nd.Study(variables=variables or {}, constraints=constraints or {}, **options))
 
 

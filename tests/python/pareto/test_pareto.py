@@ -132,7 +132,7 @@ def test_two_indices():
 def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
     points = size(5, 9)
-    study = study.with_solver(size(5, study.starts))
+    study = study.with_solver(size(4, study.starts))
     found = pareto(study, against, points=points)
     assert len(objectives(found)) == points
     assert is_monotone(found)

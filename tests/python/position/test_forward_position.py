@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from reference_cases import REFERENCE, of_case, rotation
 from robots import any_pose
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -95,7 +96,7 @@ def test_reference_status(case):
 @pytest.mark.parametrize("hexagonal", [True, False])
 def test_the_generating_pose_is_among_the_modes(hexagonal):
     rng = np.random.default_rng(11)
-    for _ in range(1500):
+    for _ in range(size(600, 1500)):
         g, c = any_pose(rng, hexagonal)
         lengths = nd.leg_lengths(g, c)
         modes = nd.forward_position(g, lengths)

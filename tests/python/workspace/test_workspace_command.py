@@ -45,7 +45,7 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
 
 
 def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, capsys):
-    region = ["--archetype", "orientation", "--tilt-deg", "40", "--torsion-deg", "30", "--tolerance", "0.01"]
+    region = ["--archetype", "orientation", "--tilt-deg", "40", "--torsion-deg", "30", "--resolution", "8"]
     code, out = run([*region, "--legs", "2", "6.5", "--no-figures", "--out", str(tmp_path / "a")], capsys)
     assert code == 0
     assert "volume" in out.out
@@ -59,7 +59,7 @@ def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, cap
 
 
 def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, published):
-    at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --tolerance 0.01".split()
+    at = "--archetype orientation --angle-deg 40 --position 0.5 0 4 --lc 2 --resolution 8".split()
     code, out = run(
         [*at, "--legs", "2", "6.5", "--condition", "6", "--json", "--no-figures", "--out", str(tmp_path / "a")], capsys
     )
@@ -71,7 +71,7 @@ def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, publ
         region={"angle": np.radians(40.0)},
         criteria={"leg_limits": (2.0, 6.5), "condition_number": 6.0},
         characteristic_length=2.0,
-        tolerance=0.01,
+        resolution=8,
     )
     assert json.loads(out.out)["workspace"]["volume"] == expected.volume
     sample = ["--method", "sample", "--points", "500", "--seed", "3", "--legs", "2.5", "6.5"]

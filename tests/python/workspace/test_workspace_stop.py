@@ -64,7 +64,7 @@ def test_an_interruption_at_the_end_is_not_lost(published):
 @pytest.mark.timing
 def test_ctrl_c_ends_the_finest_levels(published):
     """Very many cells are numbered and judged there; the summary takes a second for each million."""
-    enough = size(1_000_000, 4_000_000)
+    enough = size(600_000, 4_000_000)
     with interrupter() as interrupt:
         found = nd.workspace(
             published,
