@@ -81,7 +81,7 @@ def test_no_feasible_neighbour_is_better(result):
     rng, study = np.random.default_rng(0), result.study
     for k, candidate in enumerate(result.candidates):
         every, small = 10.0 ** np.arange(-8.0, 0.0), [1e-7, 1e-6, 1e-5, 1e-4]
-        sizes = np.repeat(every, size(50, 250)) if k == 0 else np.repeat(small, size(15, 50))
+        sizes = np.repeat(every, size(30, 250)) if k == 0 else np.repeat(small, size(10, 50))
         points = [neighbour(study, candidate.variables, step, rng) for step in sizes]
         points = [p for p in points if p is not None]
         assert len(points) > 0.15 * len(sizes)

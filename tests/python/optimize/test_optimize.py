@@ -188,7 +188,7 @@ def test_two_runs_and_any_thread_count_give_the_same_bits():
     open_sides = dict.fromkeys(SIDES, (0.0, math.inf)) | dict.fromkeys(HEIGHTS, (0.05, math.inf))
     twist = nd.Study(variables={"theta_z": (-math.pi, math.pi)}, constraints={"radius_ratio": (None, 2.0)})
     for study in (nd.Study.paper(), twist, nd.Study(variables=open_sides)):
-        runs = [nd.optimize(study, starts=size(40, 100), threads=threads) for threads in (1, 1, 2, 3, None)]
+        runs = [nd.optimize(study, starts=size(20, 100), threads=threads) for threads in (1, 1, 2, 3, None)]
         assert all(bits(run) == bits(runs[0]) for run in runs)
 
 

@@ -131,7 +131,7 @@ def test_two_indices():
 @pytest.mark.parametrize("name", TRADED)
 def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
-    points = size(5, 9)
+    points = size(4, 9)
     study = study.with_solver(size(4, study.starts))
     found = pareto(study, against, points=points)
     assert len(objectives(found)) == points

@@ -59,7 +59,7 @@ def test_as_good_as_single_searches(published, criterion, limits):
 
 def test_general_robots_and_axes_of_orientation():
     rng = np.random.default_rng(2)
-    for _ in range(size(2, 3)):
+    for _ in range(size(1, 3)):
         g = numpy_model.random_robots(rng, 1).at(0).geometry()
         tilt = np.stack(np.meshgrid(*2 * [np.linspace(-0.3, 0.3, 12)], [0.1], indexing="ij"), axis=-1)[:, :, 0]
         q = Rotation.from_rotvec(tilt.reshape(-1, 3)).as_matrix().reshape(12, 12, 1, 3, 3)
@@ -82,7 +82,7 @@ def test_no_point_of_a_fine_grid_is_better(published):
     n = size(22, 26)
     ticks = [np.linspace(-2.5, 2.5, n), np.linspace(-2.5, 2.5, n), np.linspace(0.1, 3.9, n)]
     box = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
-    for k in ((0, 0), (3, 7), (6, 6), (11, 4))[:: size(2, 1)]:
+    for k in ((0, 0), (3, 7), (6, 6), (11, 4))[:: size(3, 1)]:
         s = best.configuration.internal_point[k]
         where = nd.Configuration(
             np.broadcast_to(best.configuration.position[k], box.shape),
@@ -265,7 +265,7 @@ def test_a_grid_of_one_pose_and_an_empty_grid(published):
 
 
 def test_same_bits_for_any_number_of_threads(published):
-    grid = plane(48)
+    grid = plane(size(32, 48))
     maps = [nd.best_internal_map(published, grid, limits=LIMITS, threads=n) for n in (1, 2, 5)]
     for other in maps[1:]:
         assert_array_equal(other.configuration.internal_point, maps[0].configuration.internal_point)

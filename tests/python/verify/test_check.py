@@ -96,7 +96,7 @@ def moved(result, **shifts):
 def test_an_optimum_passes(name):
     result = solved(name)
     assert result.status == "optimal"
-    found = check(result, perturbations=size(300, 1000))
+    found = check(result, perturbations=size(120, 1000))
     assert found.passed, found.report()
     assert found
     names = [finding.name for finding in found.findings]

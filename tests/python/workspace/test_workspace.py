@@ -77,7 +77,8 @@ def test_all_criteria_against_numpy(published):
         "leg_clearance": 1.7,
         "condition_number": 7.0,
     }
-    found = nd.workspace(published, BOX, criteria=criteria, home=HOME, rotation=TILTED)
+    asked = {"home": HOME, "rotation": TILTED, "tolerance": size(4e-3, 1e-3)}
+    found = nd.workspace(published, BOX, criteria=criteria, **asked)
     p = sampled(rng, size(10_000, 25_000))
     m = oracle.robots(published, p, TILTED, oracle.half_way(published, p, TILTED))
     home = model.robot(published, HOME)
@@ -99,7 +100,7 @@ def test_all_criteria_against_numpy(published):
     for name in ("leg_clearance", "base_cone"):
         assert found.limits(grouped=True)[name] > 0.01
         rest = {k: v for k, v in criteria.items() if k != name}
-        more = nd.workspace(published, BOX, criteria=rest, home=HOME, rotation=TILTED)
+        more = nd.workspace(published, BOX, criteria=rest, **asked)
         assert more.volume > found.volume + found.error
 
 

@@ -19,7 +19,7 @@ TILTED = Rotation.from_rotvec([0.15, -0.1, 0.2]).as_matrix()
 def test_the_best_o_allows_all_poses_that_a_rule_allows(published):
     box = ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0])
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0}
-    options = {"criteria": criteria, "resolution": size(5, 6), "tolerance": 0.05}
+    options = {"criteria": criteria, "resolution": size(4, 6), "tolerance": 0.05}
     best = nd.workspace(published, box, internal_point="best", points=100, **options)
     for rule in (0.5, 0.6, [0.0, 0.0, 2.4]):
         other = nd.workspace(published, box, internal_point=rule, **options)
