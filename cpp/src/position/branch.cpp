@@ -3,12 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
-#include "position/elimination.hpp"
-#include "position/null_space_rotations.hpp"
 #include "position/polish_rotation.hpp"
-#include "position/two_leg_rotations.hpp"
 
 namespace ninedof {
 namespace {
@@ -17,6 +15,7 @@ constexpr double void_leg = 1e-9;         // of the largest length: O this close
 constexpr double between = 1e-14;         // residual halfway between two copies of a double solution
 constexpr double double_rotation = 1e-4;  // rad: largest distance of two copies of a double solution
 constexpr double same_rotation = 1e-7;    // rad
+constexpr double cosine_rounding = 1e-7;  // rad: half the digits, since angles come from cosines
 constexpr double double_solution = 1e-6;  // separation below which the number of modes is uncertain
 
 /// Adds candidates to a branch, polished and without duplicates.
@@ -26,7 +25,7 @@ class Collector {
 
   /// Returns whether the candidate converged to a new rotation.
   bool add(const Mat3& candidate, Branch& out) const {
-    const PolishedRotation polished = polish_rotation(problem_, candidate, RotationResidual(problem_, candidate));
+    const PolishedRotation polished = polish_rotation(problem_, candidate);
     if (!polished.converged()) return false;
     for (int k = 0; k < out.count; ++k)
       if (same(out.mode[static_cast<std::size_t>(k)].rotation, polished.rotation)) return false;
@@ -76,6 +75,30 @@ std::optional<int> eliminate(const RotationProblem& problem, const Collector& co
   const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
   for (int k = 0; k < found.count; ++k) collector.add(found.rotation[static_cast<std::size_t>(k)], out);
   return found.reliable ? std::optional(found.count) : std::nullopt;
+}
+
+double angle(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Least angle between points of two circles on the unit sphere: angular radii a and b, angle `apart` between their
+/// centres.
+double least_angle(double apart, double a, double b) {
+  return std::max({0.0, apart - a - b, std::abs(a - b) - apart, apart + a + b - 2.0 * std::numbers::pi});
+}
+
+/// Whether some Q satisfies the equations of legs i and j. If the third leg has no direction, this decides between
+/// self-motion and no mode.
+bool two_legs_fit(const RotationProblem& problem, std::size_t i, std::size_t j) {
+  // Q w_i lies on a circle about d_i and Q w_j on one about d_j, with the angle of w_i and w_j between them. Circles
+  // are connected, so all angles between the least and the largest occur. The largest is pi minus the least to the
+  // opposite circle.
+  constexpr double pi = std::numbers::pi;
+  const double a = std::acos(std::clamp(problem.c[static_cast<Eigen::Index>(i)], -1.0, 1.0));
+  const double b = std::acos(std::clamp(problem.c[static_cast<Eigen::Index>(j)], -1.0, 1.0));
+  const double base = angle(problem.d[i], problem.d[j]), platform = angle(problem.w[i], problem.w[j]);
+  return platform >= least_angle(base, a, b) - cosine_rounding &&
+         platform <= pi - least_angle(pi - base, a, b) + cosine_rounding;
 }
 
 /// If O is on an external joint, the leg has no direction and its length does not depend on the rotation. The other

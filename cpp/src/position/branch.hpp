@@ -2,7 +2,7 @@
 /// One branch of the direct position problem: O fixed in both frames, all rotations that fit the external legs.
 
 #include "ninedof/position/assembly_modes.hpp"
-#include "position/internal_point.hpp"
+#include "position/rotation_problem.hpp"
 
 namespace ninedof {
 

@@ -5,7 +5,6 @@
 
 #include "ninedof/position/trilateration.hpp"
 #include "position/branch.hpp"
-#include "robot/leg_length_checks.hpp"
 
 namespace ninedof {
 namespace {
@@ -51,6 +50,29 @@ PositionObstacle external_obstacle(const std::array<bool, 3>& misfit) {
 }
 
 }  // namespace
+
+const char* to_string(PositionStatus status) {
+  switch (status) {
+    case PositionStatus::found: return "found";
+    case PositionStatus::tangent: return "tangent";
+    case PositionStatus::infeasible: return "infeasible";
+    case PositionStatus::self_motion: return "self_motion";
+  }
+  return "";
+}
+
+const char* to_string(PositionObstacle obstacle) {
+  switch (obstacle) {
+    case PositionObstacle::none: return "none";
+    case PositionObstacle::lower_legs: return "lower_legs";
+    case PositionObstacle::upper_legs: return "upper_legs";
+    case PositionObstacle::external_leg_1: return "external_leg_1";
+    case PositionObstacle::external_leg_2: return "external_leg_2";
+    case PositionObstacle::external_leg_3: return "external_leg_3";
+    case PositionObstacle::external_legs: return "external_legs";
+  }
+  return "";
+}
 
 AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
   require_leg_lengths(leg_lengths);

@@ -1,4 +1,9 @@
-#include "position/null_space_rotations.hpp"
+/// Declared in position/rotation_problem.hpp.
+///
+/// For a unit quaternion z each equation is a quadric, z^T K_i z = 0, and three quadrics in projective space meet in
+/// eight points. These are the eigenvectors of an 8x8 matrix, found in the null space of all products of the quadrics
+/// with quadratic monomials (Macaulay's matrix). Half turns, symmetric robots and coinciding joints are no special
+/// cases.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -8,6 +13,7 @@
 #include "math/linear/decompositions.hpp"
 #include "math/linear/householder.hpp"
 #include "position/quaternion_monomials.hpp"
+#include "position/rotation_problem.hpp"
 
 namespace ninedof {
 namespace {

@@ -6,9 +6,8 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/robot/legs.hpp"
-#include "position/internal_point.hpp"
 #include "position/polish_rotation.hpp"
-#include "robot/leg_length_checks.hpp"
+#include "position/rotation_problem.hpp"
 
 namespace ninedof {
 namespace {

@@ -1,9 +1,9 @@
-/// null_space_rotations.hpp where solutions merge, form a curve, or satisfy g = 0 for a form g of the method: against
+/// null_space_rotations where solutions merge, form a curve, or satisfy g = 0 for a form g of the method: against
 /// the rotations from which the problems were built.
 
 #include <doctest/doctest.h>
 
-#include "position/null_space_rotations.hpp"
+#include "position/rotation_problem.hpp"
 #include "support/rotation_problems.hpp"
 
 using namespace ninedof;

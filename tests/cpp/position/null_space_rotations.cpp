@@ -1,8 +1,8 @@
-/// null_space_rotations.hpp against the rotations from which the problems were built, against a scan of the circle of
+/// null_space_rotations against the rotations from which the problems were built, against a scan of the circle of
 /// rotations that solve the first equation (no quaternion, no linear algebra in it), and against symmetries. Where
 /// solutions merge or form a curve, see degenerate_rotations.cpp.
 
-#include "position/null_space_rotations.hpp"
+#include "position/rotation_problem.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "position/null_space_rotations.hpp"
+#include "position/rotation_problem.hpp"
 #include "position/polish_rotation.hpp"
 #include "support/support.hpp"
 

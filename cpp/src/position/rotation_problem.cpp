@@ -1,7 +1,9 @@
-#include "position/internal_point.hpp"
+#include "position/rotation_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "ninedof/math/error.hpp"
 
 namespace ninedof {
 namespace {
@@ -9,6 +11,13 @@ namespace {
 constexpr double cosine_slack = 1e-9;  // |c| above 1 by this much is rounding: O on the line of the leg
 
 }  // namespace
+
+void require_leg_lengths(const Vec9& lengths) {
+  for (const double length : lengths)
+    if (!(length >= 0.0) || !std::isfinite(length))
+      throw InvalidArgument("leg_lengths", format_number(length), "nine finite lengths >= 0");
+  if (lengths.isZero(0.0)) throw InvalidArgument("leg_lengths", "nine zeros", "at least one positive length");
+}
 
 ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths) {
   ScaledRotationProblem p;
