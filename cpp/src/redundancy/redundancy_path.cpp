@@ -6,8 +6,6 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
-#include "redundancy/search/multi_start.hpp"
-#include "redundancy/search/path_descent.hpp"
 #include "redundancy/search/pose_search.hpp"
 
 namespace ninedof {

@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <vector>
 
-#include "redundancy/search/warm_descent.hpp"
-
 namespace ninedof {
 namespace {
 
-constexpr double least_gain =
-    1e-9;  // of the criterion's logarithm: less is rounding and would be passed on without end
-
-bool has_point(const PoseResult& f) {
-  return f.point.status == InternalPointStatus::found || f.point.status == InternalPointStatus::stopped;
-}
+constexpr double least_gain = 1e-9;  // of the criterion's logarithm: less is rounding, passed on without end
 
 }  // namespace
 
 bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b) {
   if (b.signs.isZero()) return true;  // no result yet
-  if (a.signs != b.signs && (has_point(a) || has_point(b))) {
-    if (has_point(a) && has_point(b) && std::abs(a.value - b.value) <= least_gain) return false;
+  const bool of_a = has_point(a.point), of_b = has_point(b.point);
+  if (a.signs != b.signs && (of_a || of_b)) {
+    if (of_a && of_b && std::abs(a.value - b.value) <= least_gain) return false;
     return better(criterion, a.point, b.point);
   }
   return a.value < b.value - least_gain;

@@ -1,11 +1,12 @@
 #pragma once
-/// Newton's method on a sequence of ever less smoothed functions, from one start to one local minimum.
+/// Newton's method on a sequence of ever less smoothed functions, from one start to one local minimum; also over
+/// all poses of a path at once.
 
 #include <functional>
 #include <span>
+#include <stop_token>
 
-#include "redundancy/search/jet.hpp"
-#include "redundancy/search/scaled_pose.hpp"
+#include "redundancy/search/pose_objective.hpp"
 
 namespace ninedof {
 
@@ -42,5 +43,16 @@ bool settle(const ScaledPose& pose, const Smoothed& f, double epsilon, double en
 /// Minimises from `start`, where the function must be defined, for each epsilon in turn. The minimum is nearly linear
 /// in epsilon, so that each next start is extrapolated.
 Descent descend(const ScaledPose& pose, const Smoothed& f, const Vec3& start, std::span<const double> epsilons);
+
+/// One pose of a path: its objective, and O in the coordinates of its ScaledPose.
+struct PathPoint {
+  const PoseObjective* objective;
+  Vec3 x;
+};
+
+/// Minimises sum f_k(x_k) + coupling sum |s_(k+1) - s_k|^2, s in lengths, over all points at once, from points inside
+/// their chambers and limits. The Hessian is block tridiagonal, so that a step takes time proportional to the number of
+/// poses. False without convergence. Throws Stopped on a stop.
+bool minimize_path(std::span<PathPoint> points, double coupling, const std::stop_token& stop);
 
 }  // namespace ninedof

@@ -1,10 +1,9 @@
 #pragma once
-/// Local minima of one pose in one chamber, from many starts.
+/// Local minima of one pose in one chamber: from many starts, or from one start near a minimum.
 
 #include <vector>
 
 #include "redundancy/search/descent.hpp"
-#include "redundancy/search/pose_objective.hpp"
 
 namespace ninedof {
 
@@ -35,5 +34,9 @@ std::span<const double> final_epsilons();
 
 /// Searches the chamber of the objective from `start`, a point of it.
 Minima local_minima(const PoseObjective& objective, const Vec3& start);
+
+/// The minimum reached from `start`, a point of the chamber near it, such as the best point of a neighbouring pose: at
+/// most one, none where no point near the start keeps the limits.
+Minima warm_minimum(const PoseObjective& objective, const Vec3& start);
 
 }  // namespace ninedof

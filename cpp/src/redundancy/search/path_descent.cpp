@@ -1,4 +1,4 @@
-#include "redundancy/search/path_descent.hpp"
+/// Declared in redundancy/search/descent.hpp.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,6 +8,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/control.hpp"
+#include "redundancy/search/descent.hpp"
 
 namespace ninedof {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
-#include "redundancy/search/soft_condition.hpp"
 
 namespace ninedof {
 namespace {

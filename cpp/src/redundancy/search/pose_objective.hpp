@@ -1,13 +1,18 @@
 #pragma once
 /// The function minimised over O at one pose: the smoothed criterion plus a logarithmic barrier for every bound.
 
-#include "redundancy/search/jet.hpp"
+#include "ninedof/conditioning/sensitivity.hpp"
 #include "redundancy/search/scaled_pose.hpp"
 
 namespace ninedof {
 
 /// Lengths may break their limits by this much, in sizes of the robot.
 constexpr double limit_tolerance = 1e-10;
+
+/// The logarithm of the condition number, smoothed: epsilon log sum (sigma_k)^(1/epsilon) + epsilon log sum
+/// (sigma_k)^(-1/epsilon), at most 2 epsilon log 6 above log(sigma_1 / sigma_6). As a symmetric function of the singular
+/// values it is smooth in O even where they coincide. Every sigma must be positive.
+Jet soft_condition(const Points& at, const NineLegs& legs, const Spectrum& s, double epsilon);
 
 /// The criterion as a quantity to minimise (the logarithm of the condition number, minus the logarithm of the least
 /// |det|, the sum of squares) and the bounds, for one pose and one chamber.

@@ -96,10 +96,11 @@ InternalPoint internal_point(const PoseObjective& objective, const Minima& minim
   return out;
 }
 
+bool has_point(const InternalPoint& p) {
+  return p.status == InternalPointStatus::found || p.status == InternalPointStatus::stopped;
+}
+
 bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b) {
-  const auto has_point = [](const InternalPoint& p) {
-    return p.status == InternalPointStatus::found || p.status == InternalPointStatus::stopped;
-  };
   if (has_point(a) != has_point(b)) return has_point(a);
   return criterion == Criterion::singularity ? a.value > b.value : a.value < b.value;
 }

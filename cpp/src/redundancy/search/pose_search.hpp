@@ -46,7 +46,8 @@ PoseResult checked_pose(const Geometry& g, const Vec3& position, const Mat3& rot
 PoseResult search_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
                        const InternalPointProblem& problem, const std::optional<Vec3>& start);
 
-/// Whether `a` is the better of two results for one pose.
+/// Whether a search ended at a point, and whether `a` is the better of two results for one pose.
+bool has_point(const InternalPoint& p);
 bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b);
 
 }  // namespace ninedof

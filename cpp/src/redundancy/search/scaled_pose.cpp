@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "redundancy/search/cubic.hpp"
-
 namespace ninedof {
 namespace {
 
@@ -33,6 +31,42 @@ Jet log_volume(double volume, const Vec3& gradient, const Mat3& hessian) {
   out.gradient = gradient / volume;
   out.hessian = hessian / volume - out.gradient * out.gradient.transpose();
   return out;
+}
+
+double cubic(const std::array<double, 4>& c, double t) {
+  return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+}
+
+/// Zeros of the derivative, ascending; NaN where there is none.
+std::array<double, 2> turning_points(const std::array<double, 4>& c) {
+  const double a = 3.0 * c[3], half = c[2], b = c[1];  // a t^2 + 2 half t + b
+  const double root = std::sqrt(half * half - a * b);
+  const double sum = -(half + std::copysign(root, half));
+  const double one = sum / a, other = b / sum;
+  return {std::min(one, other), std::max(one, other)};
+}
+
+/// The zero in (low, high] of a cubic that is monotone there and changes sign: bisection down to neighbouring numbers.
+double between(const std::array<double, 4>& c, double low, double high) {
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (cubic(c, middle) * c[0] > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The first t in (0, most] where c0 + c1 t + c2 t^2 + c3 t^3 changes sign or touches zero; `most` where there is none.
+/// c0 must not be zero.
+double first_zero(const std::array<double, 4>& c, double most) {
+  double from = 0.0;
+  const auto turns = turning_points(c);
+  for (const double to : {turns[0], turns[1], most}) {
+    if (!(to > from) || to > most) continue;
+    if (!(cubic(c, to) * c[0] > 0.0)) return between(c, from, to);
+    from = to;
+  }
+  return most;
 }
 
 }  // namespace

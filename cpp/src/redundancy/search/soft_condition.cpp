@@ -1,9 +1,14 @@
-#include "redundancy/search/soft_condition.hpp"
+/// Declared in redundancy/search/pose_objective.hpp.
+///
+/// The Hessian is exact: second derivatives of M^T M, first derivatives between every two singular vectors, divided
+/// differences for singular values that nearly coincide.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+
+#include "redundancy/search/pose_objective.hpp"
 
 namespace ninedof {
 namespace {

@@ -1,4 +1,7 @@
-#include "redundancy/search/warm_descent.hpp"
+/// Declared in redundancy/search/multi_start.hpp.
+///
+/// A multi-start search begins with strong smoothing, which merges many starts. Here the first smoothing is only as
+/// strong as the distance to the minimum requires: the result stays near the start, and few steps are needed.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,6 +9,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "redundancy/search/multi_start.hpp"
 
 namespace ninedof {
 namespace {
