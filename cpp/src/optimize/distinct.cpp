@@ -50,14 +50,9 @@ bool represents(const Candidate& a, const Candidate& b) {
 
 /// Whether a run ended on an internal bound of an angle or of an "optimal" length: no optimum of the study.
 bool at_internal_bound(const PreparedProblem& p, const Candidate& c) {
-  const Eigen::VectorXd y = p.coordinates.coordinates(c.variables);
-  for (int k = 0; k < p.coordinates.size(); ++k) {
-    const Variable& v = p.coordinates.info(k);
-    if (v.kind != VariableKind::angle && !(v.kind == VariableKind::length && v.internal_bounds)) continue;
-    if (p.coordinates.internal_low(k) && y[k] - p.coordinates.low()[k] < 1e-6) return true;
-    if (p.coordinates.internal_high(k) && p.coordinates.high()[k] - y[k] < 1e-6) return true;
-  }
-  return false;
+  return near_internal_bound(p.coordinates, c.variables, 1e-6, [](const Variable& v) {
+    return v.kind == VariableKind::angle || (v.kind == VariableKind::length && v.internal_bounds);
+  });
 }
 
 bool acceptable(const PreparedProblem& p, const Candidate& c) {

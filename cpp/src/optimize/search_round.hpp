@@ -47,6 +47,18 @@ int start_count(const PreparedProblem& p, const Settings& s);
 SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
                       const Settings& s, const Control& control, Progress& progress);
 
+/// Whether a variable that `counts` is so near an internal bound, in solver coordinates.
+template <class Counts>
+bool near_internal_bound(const Coordinates& c, const Eigen::VectorXd& x, double near, const Counts& counts) {
+  const Eigen::VectorXd y = c.coordinates(x);
+  for (int k = 0; k < c.size(); ++k) {
+    if (!counts(c.info(k))) continue;
+    if (c.internal_low(k) && y[k] - c.low()[k] < near) return true;
+    if (c.internal_high(k) && c.high()[k] - y[k] < near) return true;
+  }
+  return false;
+}
+
 /// Distinct acceptable end points, best first: feasible, stationary, regular, and on no internal bound.
 std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round);
 

@@ -24,13 +24,9 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 bool reaches_size_limit(const PreparedProblem& p, const Candidate& best) {
-  const Eigen::VectorXd y = p.coordinates.coordinates(best.variables);
-  for (int k = 0; k < p.coordinates.size(); ++k) {
-    if (p.coordinates.info(k).internal_bounds || p.coordinates.info(k).kind == VariableKind::angle) continue;
-    if (p.coordinates.internal_high(k) && p.coordinates.high()[k] - y[k] < 1e-3) return true;
-    if (p.coordinates.internal_low(k) && y[k] - p.coordinates.low()[k] < 1e-3) return true;
-  }
-  return false;
+  return near_internal_bound(p.coordinates, best.variables, 1e-3, [](const Variable& v) {
+    return !v.internal_bounds && v.kind != VariableKind::angle;
+  });
 }
 
 /// Unbounded: the best design of every round is at its size limit, none is worse than the one before, and together they
@@ -70,6 +66,16 @@ std::string unbounded_reason(const std::vector<RoundBest>& rounds, const std::ve
 }
 
 }  // namespace
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::optimal: return "optimal";
+    case Status::unbounded: return "unbounded";
+    case Status::infeasible: return "infeasible";
+    case Status::stopped: return "stopped";
+  }
+  return "stopped";
+}
 
 std::vector<double> size_limits(const Problem& p) {
   const auto& info = design_family(p.family).variables();

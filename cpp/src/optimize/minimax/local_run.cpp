@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "optimize/polish/active_set.hpp"
-#include "optimize/polish/polish.hpp"
 
 namespace ninedof {
 namespace {

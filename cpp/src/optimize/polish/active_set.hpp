@@ -1,5 +1,6 @@
 #pragma once
-/// What is active at a point, and whether the point is stationary: the nonsmooth first-order test, without the solver.
+/// What is active at a point, whether the point is stationary (the nonsmooth first-order test, without the solver), and
+/// Newton's method on the active equations.
 
 #include <map>
 
@@ -9,7 +10,7 @@ namespace ninedof {
 
 /// Objective rows equal to their level, margins at zero, coordinates on a bound.
 struct ActiveSet {
-  std::vector<int> row_levels;             ///< indices into PreparedProblem::uses
+  std::vector<int> row_levels;             ///< indices into PreparedProblem::row_levels
   std::vector<int> margins;          ///< indices into PreparedProblem::margins
   std::vector<int> at_low, at_high;  ///< free coordinates
   bool order = false;                ///< zs has reached zp
@@ -37,6 +38,11 @@ struct Stationarity {
   std::map<std::string, double> prices;  ///< see Candidate::prices
 };
 Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a);
+
+/// Newton's method on the first-order conditions of the active set at `y`: active rows and margins as equations, second
+/// derivatives by differences of exact gradients. Returns the last point reached, inside the bounds; the caller judges
+/// it. Singular values about as close as `smoothing`, that of the problem `y` solves, are held equal.
+Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& y, double smoothing = 0.0);
 
 /// Names of what is in conflict at a point of least violation: the constraints violated most and the bounds that
 /// balance their gradients with positive weight.
