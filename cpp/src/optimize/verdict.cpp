@@ -24,9 +24,8 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 bool reaches_size_limit(const PreparedProblem& p, const Candidate& best) {
-  return near_internal_bound(p.coordinates, best.variables, 1e-3, [](const Variable& v) {
-    return !v.internal_bounds && v.kind != VariableKind::angle;
-  });
+  return near_internal_bound(p.coordinates, best.variables, 1e-3,
+                             [](const Variable& v) { return !v.internal_bounds && v.kind != VariableKind::angle; });
 }
 
 /// Unbounded: the best design of every round is at its size limit, none is worse than the one before, and together they

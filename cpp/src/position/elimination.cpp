@@ -113,7 +113,7 @@ RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivo
     const double sf = (x * x - y * y) * unit, cf = 2.0 * x * y * unit;
     Mat3 inner;
     inner << cf * cosine * cp - sf * sp, -cf * cosine * sp - sf * cp, cf * sine,  //
-        sf * cosine * cp + cf * sp, -sf * cosine * sp + cf * cp, sf * sine,       //
+        sf * cosine * cp + cf * sp, -sf * cosine * sp + cf * cp, sf * sine,  //
         -sine * cp, sine * sp, cosine;
     out.rotation[static_cast<std::size_t>(out.count++)].noalias() =
         (x_frame.lazyProduct(inner)).eval().lazyProduct(y_frame.transpose());

@@ -2,7 +2,7 @@
 /// Pairs of legs that can collide, and the distance between the axes of two legs.
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <utility>
 
 #include "ninedof/robot/points.hpp"
@@ -24,7 +24,7 @@ inline bool joints_coincide(const Vec3& x, const Vec3& y) {
 }
 
 /// Whether the legs of a pair share a joint; the twelve joints in the order of Points, each in the frame of its body.
-inline bool share_joint(const std::array<Vec3, 12>& joint, int pair) {
+inline bool share_joint(std::span<const Vec3, 12> joint, int pair) {
   const auto [a, b] = leg_pair(pair);
   const LegEnds one = leg_ends(a), two = leg_ends(b);
   const auto same = [&](int i, int j) {

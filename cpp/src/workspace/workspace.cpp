@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "workspace/cells/octree.hpp"
 #include "workspace/checks.hpp"
-#include "workspace/measures/inscribed.hpp"
-#include "workspace/measures/pieces.hpp"
+#include "workspace/measures/summary.hpp"
 #include "workspace/methods/sampling.hpp"
 
 namespace ninedof {

@@ -2,14 +2,13 @@
 /// rotations that solve the first equation (no quaternion, no linear algebra in it), and against symmetries. Where
 /// solutions merge or form a curve, see degenerate_rotations.cpp.
 
-#include "position/rotation_problem.hpp"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
 
 #include "math/rows_of.hpp"
+#include "position/rotation_problem.hpp"
 #include "support/rotation_problems.hpp"
 
 using namespace ninedof;

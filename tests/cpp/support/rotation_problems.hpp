@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "position/rotation_problem.hpp"
 #include "position/polish_rotation.hpp"
+#include "position/rotation_problem.hpp"
 #include "support/support.hpp"
 
 namespace support {

@@ -7,11 +7,11 @@
 
 #include "ninedof/math/rotation.hpp"
 #include "support/support.hpp"
+#include "workspace/cells/leaf.hpp"
 #include "workspace/cells/tetrahedra.hpp"
 #include "workspace/chart.hpp"
 #include "workspace/criteria/limits.hpp"
 #include "workspace/measures/near_points.hpp"
-#include "workspace/measures/pieces.hpp"
 #include "workspace/sequence.hpp"
 
 using namespace support;

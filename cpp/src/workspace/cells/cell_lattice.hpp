@@ -6,10 +6,10 @@
 /// cell.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "workspace/cells/best_points.hpp"
-#include "workspace/cells/point_store.hpp"
 
 namespace ninedof {
 
@@ -45,6 +45,23 @@ class KeyTable {
   void grow();
   std::vector<Slot> slots_;
   std::vector<std::uint64_t> keys_;
+};
+
+/// The margins of the points, by number. It grows without moving its elements: a copy of millions of points would take
+/// seconds that cannot be interrupted.
+class PointStore {
+ public:
+  const PointMargins& operator[](std::size_t number) const { return blocks_[number / block][number % block]; }
+  PointMargins& operator[](std::size_t number) { return blocks_[number / block][number % block]; }
+
+  /// Makes room for numbers below `size`.
+  void grow(std::size_t size) {
+    while (blocks_.size() * block < size) blocks_.push_back(std::make_unique<PointMargins[]>(block));
+  }
+
+ private:
+  static constexpr std::size_t block = 4096;
+  std::vector<std::unique_ptr<PointMargins[]>> blocks_;
 };
 
 /// The eight corners of a cell, bit 0 of the number for x, 1 for y, 2 for z, then its centre.

@@ -1,5 +1,5 @@
 #pragma once
-/// One cell of the octree, classified and measured by its corners and its centre.
+/// One cell of the octree, classified and measured by its corners and its centre; and the connected pieces of many.
 
 #include "workspace/cells/cell_lattice.hpp"
 
@@ -25,5 +25,10 @@ struct Leaf {
 /// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or
 /// if leg lengths prove it; else on the boundary.
 Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
+
+/// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their
+/// volumes. Cells are connected if an allowed corner lies on the face they share.
+std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
+                                const std::optional<Vec3>& home);
 
 }  // namespace ninedof

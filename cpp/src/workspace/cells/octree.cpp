@@ -5,7 +5,6 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/parallel.hpp"
-#include "workspace/measures/pieces.hpp"
 #include "workspace/methods/audit.hpp"
 
 namespace ninedof {

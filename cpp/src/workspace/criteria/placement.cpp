@@ -1,7 +1,5 @@
 #include "workspace/criteria/placement.hpp"
 
-#include <cmath>
-
 #include "ninedof/conditioning/conditioning.hpp"
 
 namespace ninedof {
@@ -17,6 +15,13 @@ Vec3 centroid(const Triple& t) {
 
 Placement::Placement(const Geometry& g, const InternalPointRule& rule, const WorkspaceCriteria& criteria)
     : g_(g), rule_(rule), lower_(centroid(g.base_internal())), upper_(centroid(g.platform_internal())) {
+  if (rule.kind == Kind::between || rule.kind == Kind::best) {
+    share_ = searched() ? 0.5 : rule.fraction;
+    arm_ = upper_;
+  } else if (rule.kind == Kind::platform) {
+    share_ = 1.0;
+    arm_ = rule.point;
+  }
   if (criteria.legs) problem_.limits = *criteria.legs;
   problem_.characteristic_length = criteria.characteristic_length;
 }
@@ -28,7 +33,7 @@ Vec3 Placement::point(const Vec3& p, const Mat3& q) const {
     case Kind::between:
     case Kind::best: break;
   }
-  return lower_ + (searched() ? 0.5 : rule_.fraction) * (p + q * upper_ - lower_);
+  return lower_ + share_ * (p + q * upper_ - lower_);
 }
 
 InternalPoint Placement::best(const PlatformPose& pose) const {
@@ -54,26 +59,6 @@ InternalPoint Placement::found_before(const PlatformPose& pose, const Vec3& s) c
           condition_number(g_, {pose.position, pose.rotation, s}, problem_.characteristic_length),
           InternalPointStatus::found,
           {}};
-}
-
-double Placement::speed_translating() const {
-  return rule_.kind == Kind::fixed ? 0.0 : rule_.kind == Kind::platform ? 1.0 : std::abs(rule_.fraction);
-}
-
-double Placement::speed_turning() const {
-  return rule_.kind == Kind::fixed      ? 0.0
-         : rule_.kind == Kind::platform ? rule_.point.norm()
-                                        : std::abs(rule_.fraction) * upper_.norm();
-}
-
-double Placement::relative_translating() const {
-  return rule_.kind == Kind::fixed ? 1.0 : rule_.kind == Kind::platform ? 0.0 : std::abs(1.0 - rule_.fraction);
-}
-
-double Placement::relative_turning(const Vec3& u_tilde) const {
-  return rule_.kind == Kind::fixed      ? u_tilde.norm()
-         : rule_.kind == Kind::platform ? 0.0
-                                        : (rule_.fraction * upper_ - u_tilde).norm();
 }
 
 }  // namespace ninedof

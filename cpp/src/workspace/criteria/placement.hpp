@@ -1,6 +1,7 @@
 #pragma once
 /// The rule of a workspace for the position of O.
 
+#include <cmath>
 #include <span>
 #include <stop_token>
 
@@ -27,16 +28,20 @@ class Placement {
   InternalPoint found_before(const PlatformPose& pose, const Vec3& s) const;
 
   /// Bounds on the speed of O, and of O relative to the joint u~, per unit of translation or per radian.
-  double speed_translating() const;
-  double speed_turning() const;
-  double relative_translating() const;
-  double relative_turning(const Vec3& u_tilde) const;
+  double speed_translating() const { return std::abs(share_); }
+  double speed_turning() const { return std::abs(share_) * arm_.norm(); }
+  double relative_translating() const { return std::abs(1.0 - share_); }
+  double relative_turning(const Vec3& u_tilde) const {
+    return rule_.kind == InternalPointRule::Kind::platform ? 0.0 : (share_ * arm_ - u_tilde).norm();
+  }
 
  private:
   const Geometry& g_;
   InternalPointRule rule_;
   InternalPointProblem problem_;
   Vec3 lower_, upper_;  // centroids, base and platform frame
+  double share_ = 0.0;  // O moves with this share of the platform's point `arm`, platform frame
+  Vec3 arm_ = Vec3::Zero();
 };
 
 }  // namespace ninedof

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
@@ -19,13 +20,6 @@ double size_of(const Geometry& g) {
   for (const Triple* t : {&g.base_external(), &g.base_internal(), &g.platform_external(), &g.platform_internal()})
     for (const Vec3& joint : *t) most = std::max(most, joint.norm());
   return most;
-}
-
-void keep_least(double margin, int limit, double& least, std::uint8_t& which) {
-  if (margin < least) {
-    least = margin;
-    which = static_cast<std::uint8_t>(limit);
-  }
 }
 
 }  // namespace
@@ -80,42 +74,43 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   signs_ = {at_home.n < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
 
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
-  const auto groups = [&](int count, double scale) {
-    for (int n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
+  const auto groups = [&](long count, double scale) {
+    for (long n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
   };
   if (criteria.legs)
     for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
       if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
-  groups(static_cast<int>(limited_legs_.size()), size_);
-  legs_alone_ = !chart_.has_region() && !placement_.searched();
+  groups(std::ssize(limited_legs_), size_);
   if (placement_.searched()) groups(1, size_);
   if (base_) groups(6, 1.0);
   if (platform_) groups(6, 1.0);
   if (criteria.leg_clearance) groups(1, size_);
   if (criteria.condition_number) groups(1, 1.0);
   if (criteria.singularity_free) groups(3, 1.0);
-  legs_alone_ = legs_alone_ && pose_groups_ == static_cast<int>(limited_legs_.size()) && pose_groups_ > 0;
+  legs_alone_ =
+      pose_groups_ > 0 && pose_groups_ == std::ssize(limited_legs_) && !chart_.has_region() && !placement_.searched();
   groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
 }
 
 double Margins::leg_speed() const {
+  const Placement& o = placement_;
+  const bool moves = chart_.positional();
+  const double turn = chart_.turning();
   double most = 0.0;
   for (const int leg : limited_legs_) {
     const auto i = static_cast<std::size_t>(leg % 3);
-    const double turn = chart_.turning();
-    const Vec3 &u = g_.platform_external()[i], &u_tilde = g_.platform_internal()[i];
-    const bool moves = chart_.positional();
-    most = std::max(
-        most, leg < 3   ? (moves ? 1.0 : turn * u.norm())
-              : leg < 6 ? (moves ? placement_.relative_translating() : turn * placement_.relative_turning(u_tilde))
-                        : (moves ? placement_.speed_translating() : turn * placement_.speed_turning()));
+    const double speed = leg < 3 ? (moves ? 1.0 : turn * g_.platform_external()[i].norm())
+                         : leg < 6
+                             ? (moves ? o.relative_translating() : turn * o.relative_turning(g_.platform_internal()[i]))
+                             : (moves ? o.speed_translating() : turn * o.speed_turning());
+    most = std::max(most, speed);
   }
   return most;
 }
 
 PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
-  if (chart_.positional()) return {x, domain_.rotations[r]};
-  return {domain_.position, chart_.rotation(x)};
+  return chart_.positional() ? PlatformPose{x, domain_.rotations[r]}
+                             : PlatformPose{domain_.position, chart_.rotation(x)};
 }
 
 void Margins::fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at) const {
@@ -186,7 +181,8 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   return m;
 }
 
-void Margins::judge(Block& b, long count, PointMargins* out) const {
+void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best, PointMargins* out) const {
+  fill(b, x, count, r, best);
   for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
@@ -194,36 +190,30 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
                        const BestAt& best) const {
   if (stop.stop_requested()) throw Stopped{};
   Block b(count);
-  if (!chart_.positional()) {
-    fill(b, x, count, 0, best);
-    judge(b, count, out);
+  if (!set_) {
+    judge(b, x, count, 0, best, out);
+    if (!chart_.has_region()) return;
     for (long k = 0; k < count; ++k) {
       out[k].margin[static_cast<std::size_t>(groups_ - 1)] = chart_.region_margin(x[k]);
       out[k].limit[static_cast<std::size_t>(groups_ - 1)] = limit::region;
     }
     return;
   }
-  if (!set_) {
-    fill(b, x, count, 0, best);
-    judge(b, count, out);
-    return;
-  }
-  // For a set of rotations, the margins of one rotation stand for all: the one whose least margin is greatest
-  // (reachable) or least (inclusive).
+  // One rotation of a set stands for all: that whose least margin is greatest (reachable) or least (inclusive).
   const bool some = domain_.archetype == Archetype::reachable;
   std::vector<PointMargins> now(static_cast<std::size_t>(count));
   for (std::size_t r = 0; r < domain_.rotations.size(); ++r) {
     if (stop.stop_requested()) throw Stopped{};
-    fill(b, x, count, r, best);
-    judge(b, count, now.data());
+    judge(b, x, count, r, best, now.data());
     for (long k = 0; k < count; ++k) {
       PointMargins& one = now[static_cast<std::size_t>(k)];
       double least = infinity;
       std::uint8_t which = 0;
-      for (int i = 0; i < pose_groups_; ++i) {
-        const auto n = static_cast<std::size_t>(i);
-        keep_least(one.margin[n] / scale_[n], one.limit[n], least, which);
-      }
+      for (std::size_t n = 0; n < static_cast<std::size_t>(pose_groups_); ++n)
+        if (const double margin = one.margin[n] / scale_[n]; margin < least) {
+          least = margin;
+          which = one.limit[n];
+        }
       one.margin[0] = least;
       one.limit[0] = which;
       PointMargins& all = out[k];
@@ -247,9 +237,8 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
 int Margins::violated(const PointMargins& m) const {
   double least = 0.0;
   int out = -1;
-  for (int i = 0; i < groups_; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const double scale = set_ || i >= pose_groups_ ? 1.0 : scale_[n];
+  for (std::size_t n = 0; n < static_cast<std::size_t>(groups_); ++n) {
+    const double scale = set_ || std::cmp_greater_equal(n, pose_groups_) ? 1.0 : scale_[n];
     if (!(m.margin[n] / scale >= least)) {
       least = m.margin[n] / scale;
       out = m.limit[n];

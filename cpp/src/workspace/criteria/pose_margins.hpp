@@ -75,7 +75,7 @@ class Margins {
  private:
   struct Block;
   void fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best) const;
-  void judge(Block& b, long count, PointMargins* out) const;
+  void judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best, PointMargins* out) const;
   PointMargins judge_one(const Block& b, long k) const;
 
   const Geometry& g_;

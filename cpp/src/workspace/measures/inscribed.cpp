@@ -1,11 +1,11 @@
-#include "workspace/measures/inscribed.hpp"
+/// Declared in workspace/measures/summary.hpp.
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/numbers.hpp"
 #include "workspace/measures/near_points.hpp"
-#include "workspace/measures/solid_box.hpp"
+#include "workspace/measures/summary.hpp"
 
 namespace ninedof {
 namespace {

@@ -1,7 +1,9 @@
-#include "workspace/measures/solid_box.hpp"
+/// Declared in workspace/measures/summary.hpp.
 
 #include <algorithm>
 #include <cmath>
+
+#include "workspace/measures/summary.hpp"
 
 namespace ninedof {
 namespace {

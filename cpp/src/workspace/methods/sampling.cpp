@@ -9,8 +9,7 @@
 #include "ninedof/math/parallel.hpp"
 #include "workspace/cells/best_points.hpp"
 #include "workspace/criteria/limits.hpp"
-#include "workspace/measures/inscribed.hpp"
-#include "workspace/measures/pieces.hpp"
+#include "workspace/measures/summary.hpp"
 #include "workspace/sequence.hpp"
 
 namespace ninedof {

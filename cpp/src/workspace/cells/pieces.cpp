@@ -1,7 +1,9 @@
-#include "workspace/measures/pieces.hpp"
+/// Declared in workspace/cells/leaf.hpp.
 
 #include <algorithm>
 #include <numeric>
+
+#include "workspace/cells/leaf.hpp"
 
 namespace ninedof {
 namespace {
