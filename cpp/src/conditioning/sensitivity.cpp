@@ -10,10 +10,6 @@
 namespace ninedof {
 namespace {
 
-constexpr std::size_t at_index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 /// Velocity of the upper end of leg k relative to its lower end.
 Vec3 relative_velocity(const Points& at, int k, const Vec3& omega, const Vec3& pdot, const Vec3& sdot) {
   const LegEnds ends = leg_ends(k);

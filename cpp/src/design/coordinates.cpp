@@ -119,7 +119,7 @@ Coordinates Coordinates::plain(const Problem& problem) {
 }
 
 bool Coordinates::scaled(int variable) const {
-  const VariableKind kind = all_[static_cast<std::size_t>(variable)].kind;
+  const VariableKind kind = all_[at_index(variable)].kind;
   return !plain_ && (kind == VariableKind::length || kind == VariableKind::coordinate);
 }
 

@@ -27,14 +27,14 @@ class Coordinates {
   const Eigen::VectorXd& high() const { return high_; }
 
   /// Full variable behind free coordinate `k`, and the coordinate of a full variable, or -1.
-  int variable(int k) const { return free_[static_cast<std::size_t>(k)]; }
+  int variable(int k) const { return free_[at_index(k)]; }
   int coordinate(int variable) const;
   /// Index of the characteristic length among the full variables, or -1.
   int length_variable() const { return length_variable_; }
-  const Variable& info(int k) const { return all_[static_cast<std::size_t>(variable(k))]; }
+  const Variable& info(int k) const { return all_[at_index(variable(k))]; }
   /// Whether an internal bound, not one of the study, limits free coordinate `k` from below, from above.
-  bool internal_low(int k) const { return internal_low_[static_cast<std::size_t>(k)]; }
-  bool internal_high(int k) const { return internal_high_[static_cast<std::size_t>(k)]; }
+  bool internal_low(int k) const { return internal_low_[at_index(k)]; }
+  bool internal_high(int k) const { return internal_high_[at_index(k)]; }
 
   /// All full variables and the auxiliary ones; bounds are met exactly.
   Eigen::VectorXd variables(const Eigen::VectorXd& y) const;

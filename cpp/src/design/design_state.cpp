@@ -6,14 +6,6 @@
 #include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
-namespace {
-
-constexpr std::size_t at_index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
-}  // namespace
-
 std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates) {
   std::vector<PoseSpec> specs{{}};
   for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {

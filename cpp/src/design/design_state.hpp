@@ -57,7 +57,7 @@ class DesignState {
   /// The evaluated poses: those of the objective, or the neutral one where there are none.
   int first_pose = 0, pose_count = 1;
   Eigen::Index columns() const { return jet_.cols(); }
-  const PoseState& pose(int k) const { return poses[static_cast<std::size_t>(k)]; }
+  const PoseState& pose(int k) const { return poses[at_index(k)]; }
 
   /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
   LegExtreme longest, shortest;

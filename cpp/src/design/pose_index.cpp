@@ -31,9 +31,8 @@ double frobenius(const PoseSpectrum& s, std::array<double, 6>& slope) {
     inverse_sum += multiplicity(s.closed, k) * std::exp(2.0 * (smallest - s.log_sigma[k]));
   }
   for (int k = 0; k < count; ++k)
-    slope[static_cast<std::size_t>(k)] =
-        multiplicity(s.closed, k) *
-        (std::exp(2.0 * (s.log_sigma[k] - largest)) / sum - std::exp(2.0 * (smallest - s.log_sigma[k])) / inverse_sum);
+    slope[at_index(k)] = multiplicity(s.closed, k) * (std::exp(2.0 * (s.log_sigma[k] - largest)) / sum -
+                                                      std::exp(2.0 * (smallest - s.log_sigma[k])) / inverse_sum);
   return largest - smallest + 0.5 * std::log(sum) + 0.5 * std::log(inverse_sum);
 }
 
@@ -102,8 +101,7 @@ void fill_index(Index index, const PoseSpectrum& s, int row, Eigen::VectorXd& va
     std::array<double, 6> slope{};
     value[row] = frobenius(s, slope);
     gradient.row(row).setZero();
-    for (Eigen::Index k = 0; k < s.gradient.rows(); ++k)
-      gradient.row(row) += slope[static_cast<std::size_t>(k)] * s.gradient.row(k);
+    for (Eigen::Index k = 0; k < s.gradient.rows(); ++k) gradient.row(row) += slope[at_index(k)] * s.gradient.row(k);
     return;
   }
   for (const int top : tops_of(s.closed)) {

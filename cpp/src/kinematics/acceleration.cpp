@@ -4,7 +4,6 @@
 
 #include "kinematics/closure.hpp"
 #include "kinematics/jacobian_blocks.hpp"
-#include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/robot/legs.hpp"

@@ -90,8 +90,8 @@ Vec3 internal_velocity(const Geometry& g, const Configuration& c, const Vec3& om
   Eigen::Matrix<double, 6, 3> rows;
   Vec6 wanted;
   for (Eigen::Index row = 0; row < 6; ++row) {
-    const Eigen::Index leg = order[static_cast<std::size_t>(row)];
-    const auto i = static_cast<std::size_t>(leg % 3);
+    const Eigen::Index leg = order[at_index(row)];
+    const auto i = at_index(leg % 3);
     const double root = std::sqrt(weights[leg] / weights[order[0]]);
     const bool upper = leg < 6;
     rows.row(row) = root * (upper ? k.e_tilde : k.e_hat)[i];

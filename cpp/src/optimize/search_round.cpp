@@ -61,7 +61,7 @@ Eigen::VectorXd with_zero_offsets(const PreparedProblem& p, const Eigen::VectorX
 /// Start `index` in solver coordinates: the warm ones first.
 Eigen::VectorXd start_at(const PreparedProblem& p, const Settings& s, int index) {
   const auto warm = static_cast<int>(s.warm.size());
-  return index < warm && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[static_cast<std::size_t>(index)])
+  return index < warm && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[at_index(index)])
                                                   : p.coordinates.start(index - warm, s.seed);
 }
 
@@ -70,19 +70,19 @@ void run_all(const PreparedProblem& p, int count, const std::function<Eigen::Vec
              const RunSettings& run_settings, const Settings& s, const Control& control, Progress* progress,
              SearchRound& round) {
   const std::size_t before = round.runs.size();
-  round.runs.resize(before + static_cast<std::size_t>(count));
+  round.runs.resize(before + at_index(count));
   parallel_for(count, 1, s.threads, [&](long first, long) {
     if (control.stop.stop_requested()) return;
     LocalRun run = run_from_start(p, start(static_cast<int>(first)), Formulation::minimax, run_settings, control.stop);
     if (progress != nullptr) progress->finished(run.end);
-    round.runs[before + static_cast<std::size_t>(first)] = std::make_unique<LocalRun>(std::move(run));
+    round.runs[before + at_index(first)] = std::make_unique<LocalRun>(std::move(run));
   });
 }
 
 /// The same from a list.
 void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts, const RunSettings& run_settings,
              const Settings& s, const Control& control, SearchRound& round) {
-  const auto at = [&](int k) { return starts[static_cast<std::size_t>(k)]; };
+  const auto at = [&](int k) { return starts[at_index(k)]; };
   run_all(p, static_cast<int>(starts.size()), at, run_settings, s, control, nullptr, round);
 }
 

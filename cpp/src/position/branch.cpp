@@ -28,9 +28,9 @@ class Collector {
     const PolishedRotation polished = polish_rotation(problem_, candidate);
     if (!polished.converged()) return false;
     for (int k = 0; k < out.count; ++k)
-      if (same(out.mode[static_cast<std::size_t>(k)].rotation, polished.rotation)) return false;
+      if (same(out.mode[at_index(k)].rotation, polished.rotation)) return false;
     if (out.count == static_cast<int>(out.mode.size())) return false;
-    out.mode[static_cast<std::size_t>(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
+    out.mode[at_index(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
     return true;
   }
 
@@ -73,7 +73,7 @@ int best_pivot(const Vec3& c) {
 /// Adds the modes found by elimination and returns their expected number, if elimination is reliable.
 std::optional<int> eliminate(const RotationProblem& problem, const Collector& collector, Branch& out) {
   const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
-  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[static_cast<std::size_t>(k)], out);
+  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[at_index(k)], out);
   return found.reliable ? std::optional(found.count) : std::nullopt;
 }
 
@@ -144,18 +144,17 @@ Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& ext
     // A family of solutions, possibly complex, possibly with isolated ones beside it. A real family is found from start
     // values all around, and its members are singular.
     for (const Mat3& start : cube_rotations()) collector.add(start, out);
-    for (int k = 0; k < out.count; ++k)
-      out.self_motion |= !(out.mode[static_cast<std::size_t>(k)].separation > double_solution);
+    for (int k = 0; k < out.count; ++k) out.self_motion |= !(out.mode[at_index(k)].separation > double_solution);
     if (out.self_motion) out.count = 0;
     out.certain = false;
     return out;
   }
   // Modes found by elimination are kept: they solve the equations. The number is confirmed if every nearly real
   // solution has become a separate mode, and elimination, if reliable, found the same number.
-  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[static_cast<std::size_t>(k)], out);
+  for (int k = 0; k < found.count; ++k) collector.add(found.rotation[at_index(k)], out);
   out.certain =
       found.reliable && out.count % 2 == 0 && out.count >= found.count && expected.value_or(out.count) == out.count;
-  for (int k = 0; k < out.count; ++k) out.certain &= out.mode[static_cast<std::size_t>(k)].separation > double_solution;
+  for (int k = 0; k < out.count; ++k) out.certain &= out.mode[at_index(k)].separation > double_solution;
   return out;
 }
 

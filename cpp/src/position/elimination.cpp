@@ -79,7 +79,7 @@ constexpr double rounding = 1e-14;
 }  // namespace
 
 RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot) {
-  const auto k1 = static_cast<std::size_t>(pivot), k2 = (k1 + 1) % 3, k3 = (k1 + 2) % 3;
+  const auto k1 = at_index(pivot), k2 = (k1 + 1) % 3, k3 = (k1 + 2) % 3;
   const auto c_of = [&](std::size_t k) { return problem.c[static_cast<Eigen::Index>(k)]; };
   const double cosine = c_of(k1), sine = std::sqrt(std::max(0.0, (1.0 - cosine) * (1.0 + cosine)));
   const Mat3 x_frame = frame(problem.d[k1], problem.d[k2]), y_frame = frame(problem.w[k1], problem.w[k2]);
@@ -99,7 +99,7 @@ RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivo
   RotationCandidates out;
   out.reliable = roots.certain;
   for (int k = 0; k < roots.count; ++k) {
-    const auto [x, y] = roots.root[static_cast<std::size_t>(k)];
+    const auto [x, y] = roots.root[at_index(k)];
     const double dv = value(d, x, y), n1v = value(n1, x, y), n2v = value(n2, x, y);
     const double length = std::sqrt(n1v * n1v + n2v * n2v);
     if (!(length > separated * size)) {
@@ -115,7 +115,7 @@ RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivo
     inner << cf * cosine * cp - sf * sp, -cf * cosine * sp - sf * cp, cf * sine,  //
         sf * cosine * cp + cf * sp, -sf * cosine * sp + cf * cp, sf * sine,  //
         -sine * cp, sine * sp, cosine;
-    out.rotation[static_cast<std::size_t>(out.count++)].noalias() =
+    out.rotation[at_index(out.count++)].noalias() =
         (x_frame.lazyProduct(inner)).eval().lazyProduct(y_frame.transpose());
   }
   return out;

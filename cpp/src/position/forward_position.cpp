@@ -38,7 +38,7 @@ Mat3 mirror(const Vec3& normal) {
 
 void append(AssemblyModes& out, const SidedPoint& s, const SidedPoint& o, const Mat3& rotation, double separation) {
   const Configuration c{s.point - rotation * o.point, rotation, s.point};
-  out.mode[static_cast<std::size_t>(out.count++)] = {c, s.side, o.side, separation};
+  out.mode[at_index(out.count++)] = {c, s.side, o.side, separation};
 }
 
 /// The external leg that fits in no branch, or else all three together.
@@ -107,7 +107,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
       self_motion |= branch.self_motion;
       for (std::size_t leg = 0; leg < 3; ++leg) misfit[leg] &= branch.misfit[leg];
       for (int k = 0; k < branch.count; ++k) {
-        const BranchMode& mode = branch.mode[static_cast<std::size_t>(k)];
+        const BranchMode& mode = branch.mode[at_index(k)];
         double_mode |= !(mode.separation >= meeting);
         append(out, s, o, mode.rotation, mode.separation);
         if (has_image)

@@ -67,7 +67,7 @@ Quadric quadric(const Vec3& d, const Vec3& w, double c) {
 Macaulay macaulay(const RotationProblem& p) {
   Macaulay out = Macaulay::Zero();
   for (int i = 0; i < 3; ++i) {
-    const auto joint = static_cast<std::size_t>(i);
+    const auto joint = at_index(i);
     const Quadric k = quadric(p.d[joint], p.w[joint], p.c[i]);
     for (int m = 0; m < 10; ++m)
       for (int t = 0; t < 10; ++t) out(quadratic_by_quadratic[m][t], 10 * i + m) = k[t];
@@ -87,7 +87,7 @@ std::optional<NullSpace> null_space(Macaulay a) {
     if (k == 0) first = norm;
     if (norm <= rank_gap * rank_gap * first) return {};
     pivot += k;
-    Reflection<36>& r = reflections[static_cast<std::size_t>(k)] = {a.col(pivot), k};
+    Reflection<36>& r = reflections[at_index(k)] = {a.col(pivot), k};
     a.col(pivot) = a.col(k);
     reflect(r, a, k + 1);
   }
@@ -128,8 +128,7 @@ Eigen::Vector4cd quaternion(const Eigen::Matrix<std::complex<double>, 16, 1>& v)
 }
 
 void add(const Vec4& z, RotationCandidates& out) {
-  out.rotation[static_cast<std::size_t>(out.count++)] =
-      Eigen::Quaterniond(z[0], z[1], z[2], z[3]).normalized().toRotationMatrix();
+  out.rotation[at_index(out.count++)] = Eigen::Quaterniond(z[0], z[1], z[2], z[3]).normalized().toRotationMatrix();
 }
 
 /// For each eigenvector x of the multiplication matrix, n x holds the values of all monomials at a solution, up to a

@@ -56,7 +56,7 @@ class WavefrontMap {
       const auto last = static_cast<long>(std::min(count, first + length));
       parallel_for(last - static_cast<long>(first), 8, settings_.threads, [&](long from, long to) {
         if (control_.stop.stop_requested()) return;
-        for (long n = from; n < to; ++n) work(first + static_cast<std::size_t>(n));
+        for (long n = from; n < to; ++n) work(first + at_index(n));
       });
       if (control_.stop.stop_requested()) return out_.complete = false;
       if (control_.progress)
@@ -78,12 +78,12 @@ class WavefrontMap {
       allowed_[k] = 1;
       results_[k] = {};
     });
-    const auto first = static_cast<std::size_t>(std::ranges::find(allowed_, 1) - allowed_.begin());
+    const auto first = at_index(std::ranges::find(allowed_, 1) - allowed_.begin());
     if (first < allowed_.size()) {
       const PlatformPose& pose = grid_.poses[first];
       unit_ = ScaledPose(geometry_, pose.position, pose.rotation, problem_).unit();
     }
-    done_ = static_cast<std::size_t>(std::ranges::count(allowed_, 0));
+    done_ = at_index(std::ranges::count(allowed_, 0));
     return whole;
   }
 
@@ -129,7 +129,7 @@ class WavefrontMap {
       if (!whole) return false;
       from.clear();
       for (std::size_t n = 0; n < ahead.size(); ++n) {
-        out_.followed += static_cast<std::size_t>(next[n].count);
+        out_.followed += at_index(next[n].count);
         if (next[n].count == 0 || !replaces(problem_.criterion, next[n].best, results_[ahead[n]])) continue;
         enter(ahead[n], next[n].best);
         from.push_back(ahead[n]);

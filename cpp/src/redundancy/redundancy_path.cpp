@@ -1,7 +1,6 @@
 #include "ninedof/redundancy/redundancy_path.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "math/numbers.hpp"
@@ -112,7 +111,7 @@ std::vector<std::size_t> best_sequence(std::span<const PathPose> path_poses, dou
     }
   }
   std::vector<std::size_t> out(path_poses.size());
-  out.back() = static_cast<std::size_t>(std::ranges::min_element(cost.back()) - cost.back().begin());
+  out.back() = at_index(std::ranges::min_element(cost.back()) - cost.back().begin());
   for (std::size_t k = path_poses.size() - 1; k > 0; --k) out[k - 1] = from[k][out[k]];
   return out;
 }

@@ -24,7 +24,7 @@ constexpr double sense_at(bool platform, int k) {
 /// Leg k of a body as a vector from its joint, base frame.
 inline Vec3 leg_from_joint(const Points& at, bool platform, int k) {
   const LegEnds ends = leg_ends(leg_at(platform, k));
-  return sense_at(platform, k) * (at[static_cast<std::size_t>(ends.to)] - at[static_cast<std::size_t>(ends.from)]);
+  return sense_at(platform, k) * (at[at_index(ends.to)] - at[at_index(ends.from)]);
 }
 
 /// Angle between a leg and an axis, 0 to pi; both in one frame, of any length.

@@ -27,9 +27,7 @@ inline bool joints_coincide(const Vec3& x, const Vec3& y) {
 inline bool share_joint(std::span<const Vec3, 12> joint, int pair) {
   const auto [a, b] = leg_pair(pair);
   const LegEnds one = leg_ends(a), two = leg_ends(b);
-  const auto same = [&](int i, int j) {
-    return joints_coincide(joint[static_cast<std::size_t>(i)], joint[static_cast<std::size_t>(j)]);
-  };
+  const auto same = [&](int i, int j) { return joints_coincide(joint[at_index(i)], joint[at_index(j)]); };
   // Leg a is external, from the base to the platform. An upper leg starts on the platform, all others on the base.
   return same(two.from < point_u ? one.from : one.to, two.from) || (b < 3 && same(one.to, two.to));
 }
@@ -61,7 +59,7 @@ inline Nearest nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 inline Nearest nearest(const Points& at, int pair) {
   const auto [a, b] = leg_pair(pair);
   const LegEnds one = leg_ends(a), two = leg_ends(b);
-  const auto point = [&](int k) -> const Vec3& { return at[static_cast<std::size_t>(k)]; };
+  const auto point = [&](int k) -> const Vec3& { return at[at_index(k)]; };
   return nearest(point(one.from), point(one.to), point(two.from), point(two.to));
 }
 

@@ -6,8 +6,8 @@ NineLegs nine_legs(const Points& at) {
   NineLegs out;
   for (int k = 0; k < 9; ++k) {
     const LegEnds ends = leg_ends(k);
-    Vec3& d = out.direction[static_cast<std::size_t>(k)];
-    d = at[static_cast<std::size_t>(ends.to)] - at[static_cast<std::size_t>(ends.from)];
+    Vec3& d = out.direction[at_index(k)];
+    d = at[at_index(ends.to)] - at[at_index(ends.from)];
     const double length = d.norm();
     out.length[k] = length;
     if (length > 0.0) d /= length;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <array>
 #include <cmath>
 
 #include "math/linear/decompositions.hpp"

@@ -1,6 +1,5 @@
 #include "singularity/unit_rows.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include "math/linear/negligible.hpp"

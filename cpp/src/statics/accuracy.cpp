@@ -24,7 +24,7 @@ template <class Visit>
 void for_each_joint(const Tolerances& t, const Visit& visit) {
   for (std::size_t k = 0; k < 9; ++k)
     for (const int joint : joints_of_leg[k])
-      if (joint >= 0) visit(static_cast<Eigen::Index>(k), t.joints[static_cast<std::size_t>(joint)]);
+      if (joint >= 0) visit(static_cast<Eigen::Index>(k), t.joints[at_index(joint)]);
 }
 
 /// Largest |columns * d| over the corners d of the box [-1, 1]^9: half of them, since d and -d give the same norm.

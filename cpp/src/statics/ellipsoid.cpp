@@ -1,7 +1,5 @@
 #include "ninedof/statics/ellipsoid.hpp"
 
-#include <cmath>
-
 #include "kinematics/rate_matrix.hpp"
 #include "math/linear/decompositions.hpp"
 #include "math/linear/least_squares.hpp"
@@ -13,7 +11,6 @@ namespace ninedof {
 namespace {
 
 using Mat96 = Eigen::Matrix<double, 9, 6>;
-using Mat93 = Eigen::Matrix<double, 9, 3>;
 
 /// X with |X t| the least norm of leg rates over all motions of O at the twist t. The conditioning matrix M has
 /// X^T X = M^T M, except if all internal legs lie in a plane: there M lacks a row.

@@ -75,12 +75,6 @@ std::vector<ConstraintInfo> constraint_table();
 /// The criteria of workspaces, in the order of limit_names().
 std::vector<ConstraintInfo> criterion_table();
 
-/// Names of all constraints.
-std::vector<std::string> constraint_names();
-
-/// What a constraint's limits measure. Throws InvalidArgument for an unknown name.
-LimitKind constraint_kind(const std::string& name);
-
 /// "ratio", "length", "angle" or "sign".
 const char* to_string(LimitKind kind);
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "ninedof/math/xyz.hpp"
 
@@ -21,6 +22,11 @@ using Mat93 = Eigen::Matrix<double, 9, 3>;
 
 /// One vector for each of the three legs of a kind; 9 doubles, joint after joint.
 using Triple = std::array<Vec3, 3>;
+
+/// A number of ours as an index into an array of the standard library.
+constexpr std::size_t at_index(std::ptrdiff_t k) {
+  return static_cast<std::size_t>(k);
+}
 
 EIGEN_ALWAYS_INLINE Xyz<double> xyz(const Vec3& v) {
   return {v[0], v[1], v[2]};

@@ -26,7 +26,7 @@ class BetweenPlates : public Constraint {
   }
   Form form() const override { return Form::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
-  int pose(const DesignState& v, int item) const { return v.first_pose + poses_[static_cast<std::size_t>(item / 2)]; }
+  int pose(const DesignState& v, int item) const { return v.first_pose + poses_[at_index(item / 2)]; }
   static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }
 
   double value(const DesignState& v, Side, int item) const override {

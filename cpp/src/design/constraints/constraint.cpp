@@ -64,7 +64,7 @@ void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out) 
 }
 
 double joint_radius(const DesignState& v, int joint) {
-  return v.blueprint.joint[static_cast<std::size_t>(joint)].head<2>().norm();
+  return v.blueprint.joint[at_index(joint)].head<2>().norm();
 }
 
 int widest_joint(const DesignState& v, int body) {
@@ -72,7 +72,7 @@ int widest_joint(const DesignState& v, int body) {
   int widest = begin;
   double most = -1.0;
   for (int k = begin; k < end; ++k) {
-    const double squared = v.blueprint.joint[static_cast<std::size_t>(k)].head<2>().squaredNorm();
+    const double squared = v.blueprint.joint[at_index(k)].head<2>().squaredNorm();
     if (squared <= most) continue;
     most = squared;
     widest = k;
@@ -81,7 +81,7 @@ int widest_joint(const DesignState& v, int body) {
 }
 
 void add_joint_radius(const DesignState& v, int joint, double scale, Row out) {
-  const Vec3& at = v.blueprint.joint[static_cast<std::size_t>(joint)];
+  const Vec3& at = v.blueprint.joint[at_index(joint)];
   const double radius = at.head<2>().norm();
   if (radius > 0.0) v.add_joint(joint, scale * Vec3(at.x() / radius, at.y() / radius, 0.0), out);
 }

@@ -2,7 +2,6 @@
 /// One limit as margins. A constraint defines the limited value; this base turns it into signed, relative margins.
 
 #include <memory>
-#include <string>
 
 #include "design/design_state.hpp"
 #include "math/numbers.hpp"

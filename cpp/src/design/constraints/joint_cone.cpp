@@ -22,7 +22,7 @@ class JointCone : public Constraint {
   double sense(int item) const { return sense_at(platform_, item % legs_at_body); }
 
   Vec3 direction(const DesignState& v, int pose, int item) const {
-    return sense(item) * v.pose(pose).legs.direction[static_cast<std::size_t>(leg(item))];
+    return sense(item) * v.pose(pose).legs.direction[at_index(leg(item))];
   }
   Mat3 frame(const DesignState& v, int pose) const {
     return platform_ ? v.pose(pose).rotation : Mat3(Mat3::Identity());
@@ -44,7 +44,7 @@ class JointCone : public Constraint {
     const int k = leg(item);
     const double length = v.pose(pose).legs.length[k];
     if (!(length > 0.0)) return;
-    const Vec3& e = v.pose(pose).legs.direction[static_cast<std::size_t>(k)];
+    const Vec3& e = v.pose(pose).legs.direction[at_index(k)];
     const Vec3 across = sense(item) * scale / length * (g - g.dot(e) * e);
     v.add_point(pose, leg_ends(k).to, across, out);
     v.add_point(pose, leg_ends(k).from, -across, out);

@@ -1,8 +1,6 @@
 /// joint_height: distance of every joint from the plane z = 0 of its body's frame. Declared in
 /// design/constraints/table.hpp.
 
-#include <cmath>
-
 #include "design/constraints/constraint.hpp"
 
 namespace ninedof {
@@ -17,7 +15,7 @@ class JointHeight : public Constraint {
   // Above and below apart: |z| itself has a kink at zero.
   int items(Side) const override { return 24; }
   static double height(const DesignState& v, int item) {
-    const double z = v.blueprint.joint[static_cast<std::size_t>(item % 12)].z();
+    const double z = v.blueprint.joint[at_index(item % 12)].z();
     return item < 12 ? z : -z;
   }
   double value(const DesignState& v, Side, int item) const override { return height(v, item) / unit(v); }

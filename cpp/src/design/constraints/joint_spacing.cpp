@@ -1,8 +1,6 @@
 /// joint_spacing: distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of
 /// that body from z. Declared in design/constraints/table.hpp.
 
-#include <array>
-
 #include "design/constraints/constraint.hpp"
 
 namespace ninedof {
@@ -23,7 +21,7 @@ class JointSpacing : public Constraint {
     return {body + a, body + a + 1 + left};
   }
   static Vec3 between(const DesignState& v, int a, int b) {
-    return v.blueprint.joint[static_cast<std::size_t>(a)] - v.blueprint.joint[static_cast<std::size_t>(b)];
+    return v.blueprint.joint[at_index(a)] - v.blueprint.joint[at_index(b)];
   }
   double body_unit(const DesignState& v, int joint) const {
     if (limit().of != Unit::radius) return unit(v);

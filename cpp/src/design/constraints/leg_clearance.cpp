@@ -19,7 +19,7 @@ class LegClearance : public Constraint {
 
   void learn(const std::vector<DesignState>& designs) override {
     for (int item = 0; item < leg_pairs; ++item) {
-      share_joint_[static_cast<std::size_t>(item)] =
+      share_joint_[at_index(item)] =
           std::ranges::all_of(designs, [&](const DesignState& v) { return share_joint(v.blueprint.joint, item); });
     }
   }
@@ -31,11 +31,11 @@ class LegClearance : public Constraint {
     return nearest(v.pose(v.first_pose + item / leg_pairs).at, item % leg_pairs);
   }
   double value(const DesignState& v, Side, int item) const override {
-    if (share_joint_[static_cast<std::size_t>(item % leg_pairs)]) return exempt;
+    if (share_joint_[at_index(item % leg_pairs)]) return exempt;
     return between_legs(v, item).apart.norm() / unit(v);
   }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
-    if (share_joint_[static_cast<std::size_t>(item % leg_pairs)]) return;
+    if (share_joint_[at_index(item % leg_pairs)]) return;
     const auto [a, b] = leg_pair(item % leg_pairs);
     const Nearest n = between_legs(v, item);
     const double distance = n.apart.norm(), u = unit(v);

@@ -61,16 +61,6 @@ std::vector<ConstraintInfo> criterion_table() {
   return rows_where([](const ConstraintRow& row) { return row.info.items != WorkspaceItems::none; });
 }
 
-std::vector<std::string> constraint_names() {
-  std::vector<std::string> names;
-  for (const ConstraintInfo& row : constraint_table()) names.emplace_back(row.name);
-  return names;
-}
-
-LimitKind constraint_kind(const std::string& name) {
-  return find(name).info.kind;
-}
-
 const char* to_string(LimitKind kind) {
   switch (kind) {
     case LimitKind::ratio: return "ratio";

@@ -19,7 +19,7 @@ class SingularityFree : public Constraint {
   enum Which { det_b, det_c, det_n };
 
   /// From O to joint `point`; zero without direction.
-  static Vec3 from_o(const PoseState& p, int point) { return p.at[static_cast<std::size_t>(point)] - p.at[point_s]; }
+  static Vec3 from_o(const PoseState& p, int point) { return p.at[at_index(point)] - p.at[point_s]; }
   static Vec3 direction(const Vec3& v) {
     const double length = v.norm();
     return length > 0.0 ? Vec3(v / length) : Vec3(Vec3::Zero());
@@ -71,7 +71,7 @@ class SingularityFree : public Constraint {
   /// Adds the derivatives of g . direction(to - from).
   static void add_direction(const DesignState& v, int pose, int from, int to, const Vec3& g, Row out) {
     const Points& at = v.pose(pose).at;
-    const Vec3 along = at[static_cast<std::size_t>(to)] - at[static_cast<std::size_t>(from)];
+    const Vec3 along = at[at_index(to)] - at[at_index(from)];
     const double length = along.norm();
     if (!(length > 0.0)) return;
     const Vec3 e = along / length, across = (g - g.dot(e) * e) / length;  // a unit vector can only turn

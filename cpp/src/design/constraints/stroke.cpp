@@ -14,11 +14,9 @@ class Stroke : public Spread {
 
  private:
   LegExtreme leg(const DesignState& v, int group, int k) const override { return {v.first_pose + k, group}; }
-  LegExtreme longest(const DesignState& v, int group) const override {
-    return {v.longest_of[static_cast<std::size_t>(group)], group};
-  }
+  LegExtreme longest(const DesignState& v, int group) const override { return {v.longest_of[at_index(group)], group}; }
   LegExtreme shortest(const DesignState& v, int group) const override {
-    return {v.shortest_of[static_cast<std::size_t>(group)], group};
+    return {v.shortest_of[at_index(group)], group};
   }
 };
 

@@ -100,7 +100,7 @@ RightSvd right_svd_6x6(const Mat6& input) {
   });
   RightSvd out;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const int from = order[static_cast<std::size_t>(k)];
+    const int from = order[at_index(k)];
     out.sigma[k] = scale * std::sqrt(w.squared_norms[from]);
     out.v.col(k) = w.columns.col(from).tail<6>() * std::sqrt(w.weights[from]);
   }

@@ -14,7 +14,7 @@ struct ConditionPair {
 };
 ConditionPair condition_pair(const PoseSpectrum& s, int row) {
   const auto count = s.bottoms().size();
-  const auto k = static_cast<std::size_t>(row);
+  const auto k = at_index(row);
   return {s.tops()[k / count], s.bottoms()[k % count]};
 }
 
@@ -23,27 +23,26 @@ void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, D
   out.margins.resize(count);
   out.margin_gradient.resize(count, p.coordinates.size());
   const auto spectrum_of = [&](int constraint) -> const PoseSpectrum& {
-    return out.spectra[static_cast<std::size_t>(-1 - constraint)];
+    return out.spectra[at_index(-1 - constraint)];
   };
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
+    const auto [constraint, row] = p.margins[at_index(k)];
     if (constraint < 0) {
       const PoseSpectrum& s = spectrum_of(constraint);
       const auto [top, bottom] = condition_pair(s, row);
       out.margins[k] = std::log(p.problem.objective.condition_limit) - (s.log_sigma[top] - s.log_sigma[bottom]);
-    } else out.margins[k] = p.constraints[static_cast<std::size_t>(constraint)]->margin(out.state, row);
+    } else out.margins[k] = p.constraints[at_index(constraint)]->margin(out.state, row);
     if (!(out.margins[k] > worst_margin)) out.margins[k] = worst_margin;
   }
   const auto differentiate = [&](Eigen::Index k) {
-    const auto [constraint, row] = p.margins[static_cast<std::size_t>(k)];
+    const auto [constraint, row] = p.margins[at_index(k)];
     out.margin_gradient.row(k).setZero();
     if (out.margins[k] <= worst_margin) return;
     if (constraint < 0) {
       const PoseSpectrum& s = spectrum_of(constraint);
       const auto [top, bottom] = condition_pair(s, row);
       out.margin_gradient.row(k) = s.gradient.row(bottom) - s.gradient.row(top);
-    } else
-      p.constraints[static_cast<std::size_t>(constraint)]->add_gradient(out.state, row, out.margin_gradient.row(k));
+    } else p.constraints[at_index(constraint)]->add_gradient(out.state, row, out.margin_gradient.row(k));
   };
   if (selection == nullptr)
     for (Eigen::Index k = 0; k < count; ++k) differentiate(k);
@@ -59,15 +58,14 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
   const Eigen::Index n = p.coordinates.size();
   const int poses = p.evaluated_poses();
   const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
-  out.spectra.resize(static_cast<std::size_t>(poses));
+  out.spectra.resize(at_index(poses));
   out.objective_rows.resize(p.rows);
   out.row_gradient.resize(p.rows, n);
   for (int k = 0; k < poses; ++k) {
-    PoseSpectrum& s = out.spectra[static_cast<std::size_t>(k)];
+    PoseSpectrum& s = out.spectra[at_index(k)];
     const int pose = out.state.first_pose + k;
-    if (p.closed[static_cast<std::size_t>(k)])
-      closed_spectrum(*p.family, out.state, p.pose_specs[static_cast<std::size_t>(pose)], machine, s);
-    else general_spectrum(out.state, pose, s, selection == nullptr || selection->poses[static_cast<std::size_t>(k)]);
+    if (p.closed[at_index(k)]) closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
+    else general_spectrum(out.state, pose, s, selection == nullptr || selection->poses[at_index(k)]);
     if (out.smoothing > 0.0 && p.has_kinks() && !s.closed)
       fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.objective_rows,
                       out.row_gradient);

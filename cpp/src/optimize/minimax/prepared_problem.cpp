@@ -55,7 +55,7 @@ void PreparedProblem::count_rows(Purpose purpose) {
   const Objective& o = problem.objective;
   const int poses = evaluated_poses();
   for (int k = 0; k < poses; ++k) {
-    const PoseSpec& spec = pose_specs[static_cast<std::size_t>(objective_poses > 0 ? k + 1 : 0)];
+    const PoseSpec& spec = pose_specs[at_index(objective_poses > 0 ? k + 1 : 0)];
     closed.push_back(on_axis(problem, spec.pose));
     first_row_.push_back(rows);
     rows += index_rows(o.index, closed.back());
@@ -78,23 +78,21 @@ void PreparedProblem::count_rows(Purpose purpose) {
   }
   std::vector<int> optimized_points;
   for (int k = 0; k < objective_poses; ++k)
-    if (optimizes_internal_point(problem.objective.poses[static_cast<std::size_t>(k)])) optimized_points.push_back(k);
+    if (optimizes_internal_point(problem.objective.poses[at_index(k)])) optimized_points.push_back(k);
   if (purpose == Purpose::solve && !optimized_points.empty())
     constraints.push_back(make_between_plates(std::move(optimized_points)));
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
   if (std::isfinite(o.condition_limit))
     for (int k = 0; k < poses; ++k)
-      for (int pair = 0; pair < pair_rows(closed[static_cast<std::size_t>(k)]); ++pair)
-        margins.push_back({-1 - k, pair});
+      for (int pair = 0; pair < pair_rows(closed[at_index(k)]); ++pair) margins.push_back({-1 - k, pair});
 }
 
 void PreparedProblem::learn_constraints(const Coordinates& within) {
   if (constraints.empty()) return;
   std::vector<DesignState> designs(probes);
   for (int k = 0; k < probes; ++k)
-    designs[static_cast<std::size_t>(k)].set(*family, within, problem.characteristic_length, {{}}, 0,
-                                             within.start(7 * k + 1, 12345));
+    designs[at_index(k)].set(*family, within, problem.characteristic_length, {{}}, 0, within.start(7 * k + 1, 12345));
   for (const auto& c : constraints) c->learn(designs);
 }
 
@@ -121,7 +119,7 @@ void PreparedProblem::drop_repeated_margins() {
   std::vector<std::size_t> kept_at;
   for (std::size_t k = 0; k < margins.size(); ++k) {
     const int constraint = margins[k].constraint;
-    const bool analytic = constraint < 0 || constraints[static_cast<std::size_t>(constraint)]->analytic();
+    const bool analytic = constraint < 0 || constraints[at_index(constraint)]->analytic();
     const bool repeated = analytic && std::ranges::any_of(kept_at, [&](std::size_t j) {
                             return margins[j].constraint == margins[k].constraint && same(j, k);
                           });
@@ -133,8 +131,8 @@ void PreparedProblem::drop_repeated_margins() {
 }
 
 const std::string& PreparedProblem::margin_name(int k) const {
-  const int constraint = margins[static_cast<std::size_t>(k)].constraint;
-  return constraint < 0 ? condition_limit_name : constraints[static_cast<std::size_t>(constraint)]->limit().name;
+  const int constraint = margins[at_index(k)].constraint;
+  return constraint < 0 ? condition_limit_name : constraints[at_index(constraint)]->limit().name;
 }
 
 bool PreparedProblem::has_kinks() const {
@@ -149,13 +147,13 @@ int PreparedProblem::pose_of(int row) const {
 }
 
 double PreparedProblem::margin_price(int k) const {
-  const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
-  return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->price_factor(row);
+  const auto [constraint, row] = margins[at_index(k)];
+  return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->price_factor(row);
 }
 
 double PreparedProblem::violation_factor(int k) const {
-  const auto [constraint, row] = margins[static_cast<std::size_t>(k)];
-  return constraint < 0 ? 1.0 : constraints[static_cast<std::size_t>(constraint)]->violation_factor(row);
+  const auto [constraint, row] = margins[at_index(k)];
+  return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->violation_factor(row);
 }
 
 void PreparedProblem::set_state(const Eigen::VectorXd& y, DesignState& state) const {

@@ -60,7 +60,7 @@ struct PreparedProblem {
   /// Whether the index has kinks where singular values meet: off the axis, and not in the Frobenius norm.
   bool has_kinks() const;
   /// First row of an evaluated pose, and the pose of a row.
-  int first_row(int pose) const { return first_row_[static_cast<std::size_t>(pose)]; }
+  int first_row(int pose) const { return first_row_[at_index(pose)]; }
   int pose_of(int row) const;
 
   /// The logarithm of the objective and its derivatives with respect to the levels.

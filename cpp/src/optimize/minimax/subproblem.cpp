@@ -52,11 +52,11 @@ std::vector<int> all_of(std::size_t count) {
 Eigen::VectorXd objective_gradient(const PreparedProblem& p, const DesignEvaluation& design,
                                    const Eigen::VectorXd& slopes) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(p.coordinates.size());
-  std::vector<bool> done(static_cast<std::size_t>(p.levels), false);
+  std::vector<bool> done(at_index(p.levels), false);
   for (const RowLevel& u : p.row_levels) {
-    if (done[static_cast<std::size_t>(u.level)] || design.objective_rows[u.row] < design.levels[u.level]) continue;
+    if (done[at_index(u.level)] || design.objective_rows[u.row] < design.levels[u.level]) continue;
     out += slopes[u.level] * design.row_gradient.row(u.row).transpose();
-    done[static_cast<std::size_t>(u.level)] = true;
+    done[at_index(u.level)] = true;
   }
   return out;
 }
@@ -78,12 +78,12 @@ void Subproblem::select_rows() {
 }
 
 void Subproblem::select_poses() {
-  selection_.poses.assign(static_cast<std::size_t>(p_.evaluated_poses()), false);
+  selection_.poses.assign(at_index(p_.evaluated_poses()), false);
   for (const int k : selection_.row_levels)
-    selection_.poses[static_cast<std::size_t>(p_.pose_of(p_.row_levels[static_cast<std::size_t>(k)].row))] = true;
+    selection_.poses[at_index(p_.pose_of(p_.row_levels[at_index(k)].row))] = true;
   for (const int k : selection_.margins) {
-    const int constraint = p_.margins[static_cast<std::size_t>(k)].constraint;
-    if (constraint < 0) selection_.poses[static_cast<std::size_t>(-1 - constraint)] = true;
+    const int constraint = p_.margins[at_index(k)].constraint;
+    if (constraint < 0) selection_.poses[at_index(-1 - constraint)] = true;
   }
 }
 
@@ -127,7 +127,7 @@ void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
   out.f_gradient.tail(p_.levels) = slopes;
   Eigen::Index row = 0;
   for (const int k : selection_.row_levels) {
-    const RowLevel& u = p_.row_levels[static_cast<std::size_t>(k)];
+    const RowLevel& u = p_.row_levels[at_index(k)];
     out.c[row] = design.objective_rows[u.row] - at[n + u.level];
     out.c_gradient.row(row).head(n) = design.row_gradient.row(u.row);
     out.c_gradient(row++, n + u.level) = -1.0;

@@ -6,7 +6,7 @@ namespace ninedof {
 
 Cluster::Cluster(const PreparedProblem& p, const DesignEvaluation& design, int pose, double tie) {
   const Index index = p.problem.objective.index;
-  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
+  const PoseSpectrum& s = design.spectra[at_index(pose)];
   // The closed form's pairs move together by symmetry, and the Frobenius form is smooth.
   if (s.closed || index == Index::frobenius) return;
   condition_ = index == Index::condition_number;
@@ -21,7 +21,7 @@ Cluster::Cluster(const PreparedProblem& p, const DesignEvaluation& design, int p
 
 std::vector<Eigen::RowVectorXd> cluster_block(const DesignEvaluation& design, int pose,
                                               const std::vector<int>& members) {
-  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
+  const PoseSpectrum& s = design.spectra[at_index(pose)];
   const PoseState& at = design.state.pose(design.state.first_pose + pose);
   std::vector<Eigen::RowVectorXd> out;
   for (std::size_t i = 0; i < members.size(); ++i)
@@ -62,14 +62,14 @@ Coalesced::Coalesced(const DesignEvaluation& reference, int pose, std::vector<in
 }
 
 Eigen::MatrixXd Coalesced::vectors(const DesignEvaluation& design) const {
-  const Mat6& twist = design.spectra[static_cast<std::size_t>(pose_)].general.twist;
+  const Mat6& twist = design.spectra[at_index(pose_)].general.twist;
   Eigen::MatrixXd out(6, size());
-  for (int k = 0; k < size(); ++k) out.col(k) = twist.col(members_[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < size(); ++k) out.col(k) = twist.col(members_[at_index(k)]);
   return out;
 }
 
 Coalesced::Entries Coalesced::at(const DesignEvaluation& design) const {
-  const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose_)];
+  const PoseSpectrum& s = design.spectra[at_index(pose_)];
   // Transport of the reference basis into the present subspace: the orthogonal matrix nearest to the overlap.
   const Eigen::MatrixXd turn = nearest_orthogonal(vectors(design).transpose() * basis_);
   const std::vector<Eigen::RowVectorXd> block = cluster_block(design, pose_, members_);
@@ -83,7 +83,7 @@ Coalesced::Entries Coalesced::at(const DesignEvaluation& design) const {
         for (int b = a; b < n; ++b, ++k) {
           const double weight = a == b ? turn(a, i) * turn(a, j) : turn(a, i) * turn(b, j) + turn(b, i) * turn(a, j);
           out.gradient.row(entry) += weight * block[k];
-          if (a == b) out.value[entry] += weight * s.log_sigma[members_[static_cast<std::size_t>(a)]];
+          if (a == b) out.value[entry] += weight * s.log_sigma[members_[at_index(a)]];
         }
     }
   return out;
@@ -94,7 +94,7 @@ std::vector<Coalesced> coalesced_groups(const PreparedProblem& p, const DesignEv
   std::vector<Coalesced> out;
   if (!p.has_kinks()) return out;
   for (const int pose : poses) {
-    const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(pose)];
+    const PoseSpectrum& s = design.spectra[at_index(pose)];
     if (s.closed) continue;
     std::vector<int> tops, bottoms;
     for (int k = 0; k < 6; ++k) {

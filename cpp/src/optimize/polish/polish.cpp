@@ -46,12 +46,12 @@ ActiveEquations::ActiveEquations(const PreparedProblem& p, const DesignEvaluatio
     : p_(&p), margins_(a.margins) {
   std::vector<int> poses;
   for (const int k : a.row_levels) {
-    const int pose = p.pose_of(p.row_levels[static_cast<std::size_t>(k)].row);
+    const int pose = p.pose_of(p.row_levels[at_index(k)].row);
     if (std::ranges::find(poses, pose) == poses.end()) poses.push_back(pose);
   }
   if (gap > 0.0) groups_ = coalesced_groups(p, design, poses, gap);
   for (const int k : a.row_levels) {
-    const RowLevel& u = p.row_levels[static_cast<std::size_t>(k)];
+    const RowLevel& u = p.row_levels[at_index(k)];
     const int pose = p.pose_of(u.row);
     const bool held = std::ranges::any_of(groups_, [&](const Coalesced& c) { return c.pose() == pose; });
     if (!held) {
@@ -66,7 +66,7 @@ ActiveEquations::ActiveEquations(const PreparedProblem& p, const DesignEvaluatio
 
 Equations ActiveEquations::at(const DesignEvaluation& design) const {
   std::size_t structure = 0;  // equations that say singular values coincide
-  for (const Coalesced& c : groups_) structure += static_cast<std::size_t>(c.size() * (c.size() + 1) / 2 - 1);
+  for (const Coalesced& c : groups_) structure += at_index(c.size() * (c.size() + 1) / 2 - 1);
   const auto count = static_cast<Eigen::Index>(plain_.size() + margins_.size() + pose_levels_.size() + structure);
   Equations out{Eigen::VectorXd(count), Eigen::MatrixXd(count, design.state.columns()), {}};
   Eigen::Index row = 0;
@@ -76,7 +76,7 @@ Equations ActiveEquations::at(const DesignEvaluation& design) const {
     out.level.push_back(level);
   };
   for (const int k : plain_) {
-    const RowLevel& u = p_->row_levels[static_cast<std::size_t>(k)];
+    const RowLevel& u = p_->row_levels[at_index(k)];
     add(design.objective_rows[u.row], design.row_gradient.row(u.row), u.level);
   }
   for (const int k : margins_) add(design.margins[k], design.margin_gradient.row(k), -1);
@@ -84,7 +84,7 @@ Equations ActiveEquations::at(const DesignEvaluation& design) const {
   for (const Coalesced& c : groups_) entries.push_back(c.at(design));
   for (const PoseLevel& r : pose_levels_) {
     // The largest less the smallest singular value, each the mean of its group where it is held equal.
-    const PoseSpectrum& s = design.spectra[static_cast<std::size_t>(r.pose)];
+    const PoseSpectrum& s = design.spectra[at_index(r.pose)];
     double top = s.log_sigma[0], bottom = s.log_sigma[5];
     Eigen::RowVectorXd top_gradient = s.gradient.row(0), bottom_gradient = s.gradient.row(5);
     for (std::size_t k = 0; k < groups_.size(); ++k) {
@@ -140,19 +140,19 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
   evaluate_design(p, y, design);
   const ActiveSet active = active_set(p, design, y, Contact::near);
   design.smoothing = 0.0;
-  std::vector<bool> held(static_cast<std::size_t>(n), false);
+  std::vector<bool> held(at_index(n), false);
   for (const int k : active.at_low) {
-    held[static_cast<std::size_t>(k)] = true;
+    held[at_index(k)] = true;
     y[k] = p.coordinates.low()[k];
   }
   for (const int k : active.at_high) {
-    held[static_cast<std::size_t>(k)] = true;
+    held[at_index(k)] = true;
     y[k] = p.coordinates.high()[k];
   }
   evaluate_design(p, y, design);
   std::vector<Eigen::Index> moving;
   for (int k = 0; k < n; ++k)
-    if (!held[static_cast<std::size_t>(k)]) moving.push_back(k);
+    if (!held[at_index(k)]) moving.push_back(k);
   const auto m = static_cast<Eigen::Index>(moving.size());
   const ActiveEquations equations(p, design, active, group_width * smoothing);
   const Eigen::Index levels = p.levels, unknowns = m + levels;
@@ -167,7 +167,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
     jacobian.leftCols(m) = g;
     Eigen::VectorXd miss = e.value;
     for (Eigen::Index k = 0; k < rows; ++k) {
-      const int level = e.level[static_cast<std::size_t>(k)];
+      const int level = e.level[at_index(k)];
       if (level < 0) continue;
       jacobian(k, m + level) = -1.0;
       miss[k] -= t[level];
@@ -180,7 +180,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
     Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(unknowns + rows, unknowns + rows);
     for (Eigen::Index k = 0; k < m; ++k) {
       Eigen::VectorXd near = y;
-      near[moving[static_cast<std::size_t>(k)]] += difference_step;
+      near[moving[at_index(k)]] += difference_step;
       evaluate_design(p, near, ahead);
       kkt.col(k).head(m) =
           (equations.at(ahead).gradient(Eigen::all, moving) - g).transpose() * multipliers / difference_step;
@@ -194,7 +194,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
     if (!kkt.allFinite() || !right.allFinite()) break;
     const Eigen::VectorXd move = least_norm(kkt, right).head(unknowns);
     if (!move.allFinite() || move.head(m).norm() > 0.1) break;  // not near an optimum after all
-    for (Eigen::Index k = 0; k < m; ++k) y[moving[static_cast<std::size_t>(k)]] += move[k];
+    for (Eigen::Index k = 0; k < m; ++k) y[moving[at_index(k)]] += move[k];
     y = y.cwiseMax(p.coordinates.low()).cwiseMin(p.coordinates.high());
     t += move.tail(levels);
     evaluate_design(p, y, design);

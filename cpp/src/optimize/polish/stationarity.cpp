@@ -34,10 +34,10 @@ struct Weights {
 Weights balance(const Columns& c, const Eigen::VectorXd& slopes, Eigen::Index n) {
   const Eigen::Index levels = slopes.size();
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + levels, c.count());
-  for (Eigen::Index k = 0; k < c.count(); ++k) system.col(k).head(n) = c.gradient[static_cast<std::size_t>(k)];
+  for (Eigen::Index k = 0; k < c.count(); ++k) system.col(k).head(n) = c.gradient[at_index(k)];
   const double heavy = std::max(1.0, system.cwiseAbs().maxCoeff());
   for (Eigen::Index k = 0; k < c.count(); ++k) {
-    const int level = c.level[static_cast<std::size_t>(k)];
+    const int level = c.level[at_index(k)];
     if (level >= 0) system(n + level, k) = heavy;
   }
   Eigen::VectorXd target = Eigen::VectorXd::Zero(n + levels);
@@ -45,9 +45,9 @@ Weights balance(const Columns& c, const Eigen::VectorXd& slopes, Eigen::Index n)
   Weights out{nonnegative_least_squares(system, target), {}};
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(levels);
   for (Eigen::Index k = 0; k < c.count(); ++k)
-    if (c.level[static_cast<std::size_t>(k)] >= 0) sums[c.level[static_cast<std::size_t>(k)]] += out.w[k];
+    if (c.level[at_index(k)] >= 0) sums[c.level[at_index(k)]] += out.w[k];
   for (Eigen::Index k = 0; k < c.count(); ++k) {
-    const int level = c.level[static_cast<std::size_t>(k)];
+    const int level = c.level[at_index(k)];
     if (level >= 0 && sums[level] > 0.0) out.w[k] *= slopes[level] / sums[level];
   }
   out.residual = system.topRows(n) * out.w;
@@ -64,7 +64,7 @@ Weights balance_clusters(const PreparedProblem& p, const DesignEvaluation& desig
   for (int pose = 0; pose < poses; ++pose) {
     std::vector<int> levels;
     for (const int k : a.row_levels) {
-      const RowLevel& u = p.row_levels[static_cast<std::size_t>(k)];
+      const RowLevel& u = p.row_levels[at_index(k)];
       const bool of_pose = u.row >= p.first_row(pose) && u.row < p.first_row(pose + 1);
       if (of_pose && std::ranges::find(levels, u.level) == levels.end()) levels.push_back(u.level);
     }
@@ -79,8 +79,7 @@ Weights balance_clusters(const PreparedProblem& p, const DesignEvaluation& desig
       Eigen::VectorXd g = cluster.steepest(now.residual);
       double best = infinity;
       for (Eigen::Index k = 0; k < columns.count(); ++k)
-        if (columns.level[static_cast<std::size_t>(k)] == level)
-          best = std::min(best, columns.gradient[static_cast<std::size_t>(k)].dot(now.residual));
+        if (columns.level[at_index(k)] == level) best = std::min(best, columns.gradient[at_index(k)].dot(now.residual));
       if (g.dot(now.residual) >= best - 1e-9 * now.residual.norm()) continue;
       columns.add(std::move(g), level);
       added = true;
@@ -114,13 +113,13 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
   if (least_possible(p, design)) return {};
   Columns columns;
   for (const int k : a.row_levels) {
-    const RowLevel& u = p.row_levels[static_cast<std::size_t>(k)];
+    const RowLevel& u = p.row_levels[at_index(k)];
     columns.add(design.row_gradient.row(u.row), u.level);
   }
   // Margins are relative to their limit: the weight times a factor of 1, or 0 for rows of auxiliary variables, is the
   // price.
   std::vector<std::pair<std::string, double>> named;  // and the factor from weight to price
-  const auto limited = static_cast<std::size_t>(columns.count());
+  const auto limited = at_index(columns.count());
   for (const int k : a.margins) {
     columns.add(-design.margin_gradient.row(k));
     named.emplace_back(p.margin_name(k), p.margin_price(k));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "math/numbers.hpp"
 #include "ninedof/math/rotation.hpp"

@@ -1,7 +1,5 @@
 #include "redundancy/search/pose_search.hpp"
 
-#include <cmath>
-
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"

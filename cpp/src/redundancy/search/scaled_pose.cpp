@@ -7,10 +7,6 @@
 namespace ninedof {
 namespace {
 
-constexpr std::size_t at_index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 double triple_product(const Vec3& a, const Vec3& b, const Vec3& c) {
   return a.dot(b.cross(c));
 }

@@ -33,14 +33,10 @@ class ScaledPose {
   const Vec6& low() const { return low_; }
   const Vec6& high() const { return high_; }
   /// The far end of internal leg k of those six.
-  const Vec3& joint(int k) const {
-    return at_[static_cast<std::size_t>(k < 3 ? point_u_tilde + k : point_r_hat + k - 3)];
-  }
+  const Vec3& joint(int k) const { return at_[at_index(k < 3 ? point_u_tilde + k : point_r_hat + k - 3)]; }
 
   /// Joint k of r1 r2 r3 u1 u2 u3.
-  const Vec3& external_joint(int k) const {
-    return at_[static_cast<std::size_t>(k < 3 ? point_r + k : point_u + k - 3)];
-  }
+  const Vec3& external_joint(int k) const { return at_[at_index(k < 3 ? point_r + k : point_u + k - 3)]; }
 
   /// All points with O at x.
   Points points(const Vec3& x) const;
@@ -61,9 +57,7 @@ class ScaledPose {
 
  private:
   /// Row i of the third volume: d_i x w_i = (r_i - x) x (u_i - x), of first degree in x.
-  Vec3 turning_row(int i, const Vec3& x) const {
-    return moment_[static_cast<std::size_t>(i)] + span_[static_cast<std::size_t>(i)].cross(x);
-  }
+  Vec3 turning_row(int i, const Vec3& x) const { return moment_[at_index(i)] + span_[at_index(i)].cross(x); }
 
   const Geometry& geometry_;
   Vec3 position_;

@@ -28,14 +28,14 @@ std::array<Leg, 6> internal_legs(const Points& at, const NineLegs& legs, const S
   const Mat36 omega = s.twist.topRows<3>() / s.characteristic_length;
   std::array<Leg, 6> out;
   for (int k = 3; k < 9; ++k) {
-    const auto place = static_cast<std::size_t>(k);
+    const auto place = at_index(k);
     Leg& leg = out[place - 3];
     leg.direction = legs.direction[place];
     leg.length = legs.length[k];
     for (int a = 0; a < 6; ++a) {
       Vec3 velocity = s.sdot.col(a);
       if (k < 6) {
-        const Vec3 lever = at[static_cast<std::size_t>(leg_ends(k).from)] - at[point_p];
+        const Vec3 lever = at[at_index(leg_ends(k).from)] - at[point_p];
         velocity -= s.twist.col(a).tail<3>() + omega.col(a).cross(lever);
       }
       leg.rate[a] = s.rates(k, a) / s.sigma[a];

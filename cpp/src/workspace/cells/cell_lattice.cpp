@@ -107,16 +107,16 @@ void CellLattice::evaluate(const Control& control, long expected, double volume)
   const long piece = std::max<long>(margins_.block() * 64, 1);
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
-    known_.grow(static_cast<std::size_t>(first + done + now));
+    known_.grow(at_index(first + done + now));
     parallel_for(now, margins_.block(), threads_, [&](long from, long to) {
-      const auto begin = static_cast<std::size_t>(first + done + from);
+      const auto begin = at_index(first + done + from);
       std::vector<Vec3> x;
       for (long n = from; n < to; ++n) x.push_back(point(static_cast<std::uint32_t>(first + done + n)));
       const BestAt best = [&](long k, std::size_t r, const PlatformPose& pose) {
-        const std::size_t n = begin + static_cast<std::size_t>(k);
+        const std::size_t n = begin + at_index(k);
         if (best_.mapped(n)) return best_.at(n, r, pose);
         const InternalPoint found =
-            best_.between(around(table_.key(static_cast<std::uint32_t>(n))), x[static_cast<std::size_t>(k)], r, pose);
+            best_.between(around(table_.key(static_cast<std::uint32_t>(n))), x[at_index(k)], r, pose);
         best_.keep(n, r, found.s);
         return found;
       };
@@ -180,9 +180,9 @@ std::vector<PointMargins> CellLattice::within(const std::vector<Cell>& cells, co
   if (stop.stop_requested()) throw Stopped{};
   std::vector<PointMargins> out(x.size());
   parallel_for(static_cast<long>(x.size()), margins_.block(), threads_, [&](long from, long to) {
-    const auto begin = static_cast<std::size_t>(from);
+    const auto begin = at_index(from);
     margins_.evaluate(&x[begin], to - from, &out[begin], stop, [&](long k, std::size_t r, const PlatformPose& pose) {
-      const std::size_t n = begin + static_cast<std::size_t>(k);
+      const std::size_t n = begin + at_index(k);
       return best_.between(around(cells[n], x[n]), x[n], r, pose);
     });
   });

@@ -59,7 +59,7 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
   const double reach = margins.leg_speed() * 0.5 * lattice.size(cell.level).norm();
   bool all_in = leaf.inside == 255, all_out = false;
   for (int g = 0; g < groups; ++g) {
-    const auto k = static_cast<std::size_t>(g);
+    const auto k = at_index(g);
     double least = centre.margin[k], most = least, mean = 0.0;
     for (const PointMargins* corner : corners) {
       least = std::min(least, corner->margin[k]);
@@ -83,7 +83,7 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
     std::vector<CutCell::Piece> pieces;
     cut.boundary(Vec3::Ones(), pieces);
     std::array<double, 64> area{};
-    for (const CutCell::Piece& piece : pieces) area[static_cast<std::size_t>(piece.limit)] += piece.area;
+    for (const CutCell::Piece& piece : pieces) area[at_index(piece.limit)] += piece.area;
     leaf.limit = static_cast<std::int16_t>(std::max_element(area.begin(), area.end()) - area.begin());
   } else if (leaf.state == CellState::boundary) {
     leaf.limit = static_cast<std::int16_t>(margins.violated(centre));

@@ -65,8 +65,7 @@ class OctreeBuilder {
     std::vector<Leaf> out(cells.size());
     parallel_for(static_cast<long>(cells.size()), 256, settings_.threads, [&](long from, long to) {
       if (control_.stop.stop_requested()) throw Stopped{};
-      for (auto n = static_cast<std::size_t>(from); n < static_cast<std::size_t>(to); ++n)
-        out[n] = leaf_of(cells[n], points[n], lattice_, m_);
+      for (auto n = at_index(from); n < at_index(to); ++n) out[n] = leaf_of(cells[n], points[n], lattice_, m_);
     });
     return out;
   }

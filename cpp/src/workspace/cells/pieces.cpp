@@ -103,8 +103,7 @@ std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const
       // The home pose is not allowed and connected with no cell: the first piece is empty.
       out.push_back(0.0);
     } else {
-      const auto first =
-          std::find(leaders.begin(), leaders.end(), sets.of(static_cast<std::size_t>(at - leaves.begin())));
+      const auto first = std::find(leaders.begin(), leaders.end(), sets.of(at_index(at - leaves.begin())));
       std::rotate(leaders.begin(), first, first + 1);
     }
   }

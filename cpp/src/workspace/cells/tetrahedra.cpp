@@ -22,7 +22,7 @@ struct Sorted {
 Sorted sorted(const int (&t)[4], unsigned inside) {
   Sorted out;
   int last = 4;
-  for (const int n : t) out.corner[static_cast<std::size_t>(((inside >> n) & 1U) != 0 ? out.allowed++ : --last)] = n;
+  for (const int n : t) out.corner[at_index(((inside >> n) & 1U) != 0 ? out.allowed++ : --last)] = n;
   return out;
 }
 
@@ -34,12 +34,12 @@ CutCell::CutCell(const Corners& corners, int groups) : corners_(corners), groups
 }
 
 const Crossing& CutCell::crossing(int from, int to) {
-  Crossing& c = edge_[static_cast<std::size_t>(8 * from + to)];
+  Crossing& c = edge_[at_index(8 * from + to)];
   if (c.limit >= 0) return c;
-  const PointMargins &a = *corners_[static_cast<std::size_t>(from)], &b = *corners_[static_cast<std::size_t>(to)];
+  const PointMargins &a = *corners_[at_index(from)], &b = *corners_[at_index(to)];
   c.t = 1.0;
   for (int g = 0; g < groups_; ++g) {
-    const auto n = static_cast<std::size_t>(g);
+    const auto n = at_index(g);
     if (b.margin[n] >= 0.0) continue;
     const double t = std::isfinite(a.margin[n]) ? a.margin[n] / (a.margin[n] - b.margin[n]) : 1.0;
     if (c.limit < 0 || t < c.t) c = {t, b.limit[n]};

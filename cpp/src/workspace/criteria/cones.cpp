@@ -16,7 +16,7 @@ Cones::Cones(const ConeLimit& limit, bool platform, const Points& home, const Ma
 std::array<Vec3, 6> Cones::directions(const Points& at, const Mat3& rotation) const {
   std::array<Vec3, 6> out;
   for (int k = 0; k < legs_at_body; ++k) {
-    Vec3& d = out[static_cast<std::size_t>(k)];
+    Vec3& d = out[at_index(k)];
     d = leg_from_joint(at, platform_, k);
     if (platform_) d = rotation.transpose() * d;
   }

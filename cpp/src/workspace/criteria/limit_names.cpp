@@ -11,7 +11,7 @@ namespace {
 constexpr std::array leg_names{"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
 
 std::string leg_name(int leg) {
-  return leg_names[static_cast<std::size_t>(leg)];
+  return leg_names[at_index(leg)];
 }
 
 /// Name of item `k` of a criterion.
@@ -25,7 +25,7 @@ std::string item_name(const ConstraintInfo& row, int k) {
       const auto [a, b] = leg_pair(k);
       return name + leg_name(a) + " " + leg_name(b);
     }
-    case WorkspaceItems::determinants: return std::array{"det N", "det B", "det C"}[static_cast<std::size_t>(k)];
+    case WorkspaceItems::determinants: return std::array{"det N", "det B", "det C"}[at_index(k)];
     case WorkspaceItems::itself:
     case WorkspaceItems::none: break;
   }

@@ -34,7 +34,7 @@ struct Margins::Block {
         kappa(size(count)),
         det(size(3 * count)),
         found(size(count), 1) {}
-  static std::size_t size(long n) { return static_cast<std::size_t>(n); }
+  static std::size_t size(long n) { return at_index(n); }
   std::vector<double> p, q, s, length, kappa, det;
   std::vector<char> found;  // whether there is an admissible O
   bool one_rotation = true;
@@ -75,7 +75,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
 
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
   const auto groups = [&](long count, double scale) {
-    for (long n = 0; n < count; ++n) scale_[static_cast<std::size_t>(pose_groups_++)] = scale;
+    for (long n = 0; n < count; ++n) scale_[at_index(pose_groups_++)] = scale;
   };
   if (criteria.legs)
     for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
@@ -98,7 +98,7 @@ double Margins::leg_speed() const {
   const double turn = chart_.turning();
   double most = 0.0;
   for (const int leg : limited_legs_) {
-    const auto i = static_cast<std::size_t>(leg % 3);
+    const auto i = at_index(leg % 3);
     const double speed = leg < 3 ? (moves ? 1.0 : turn * g_.platform_external()[i].norm())
                          : leg < 6
                              ? (moves ? o.relative_translating() : turn * o.relative_turning(g_.platform_internal()[i]))
@@ -113,7 +113,8 @@ PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
                              : PlatformPose{domain_.position, chart_.rotation(x)};
 }
 
-void Margins::fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at) const {
+void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best_at,
+                    PointMargins* out) const {
   b.one_rotation = chart_.positional();
   for (long k = 0; k < count; ++k) {
     const PlatformPose here = pose(x[k], r);
@@ -133,6 +134,7 @@ void Margins::fill(Block& b, const Vec3* x, long count, std::size_t r, const Bes
   if (!placement_.searched())
     batch::condition_numbers(g_, c, {&criteria_.characteristic_length, 0}, Norm::two, b.kappa.data());
   if (criteria_.singularity_free) batch::singularity_margins(g_, c, b.det.data());
+  for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
 PointMargins Margins::judge_one(const Block& b, long k) const {
@@ -175,15 +177,10 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   }
   if (criteria_.singularity_free)
     for (int d = 0; d < 3; ++d) {
-      const double margin = signs_[static_cast<std::size_t>(d)] * b.det[Block::size(3 * k + d)];
+      const double margin = signs_[at_index(d)] * b.det[Block::size(3 * k + d)];
       put(margin == 0.0 ? barely_outside : margin, limit::determinants + d);
     }
   return m;
-}
-
-void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best, PointMargins* out) const {
-  fill(b, x, count, r, best);
-  for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
 void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
@@ -194,22 +191,22 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
     judge(b, x, count, 0, best, out);
     if (!chart_.has_region()) return;
     for (long k = 0; k < count; ++k) {
-      out[k].margin[static_cast<std::size_t>(groups_ - 1)] = chart_.region_margin(x[k]);
-      out[k].limit[static_cast<std::size_t>(groups_ - 1)] = limit::region;
+      out[k].margin[at_index(groups_ - 1)] = chart_.region_margin(x[k]);
+      out[k].limit[at_index(groups_ - 1)] = limit::region;
     }
     return;
   }
   // One rotation of a set stands for all: that whose least margin is greatest (reachable) or least (inclusive).
   const bool some = domain_.archetype == Archetype::reachable;
-  std::vector<PointMargins> now(static_cast<std::size_t>(count));
+  std::vector<PointMargins> now(at_index(count));
   for (std::size_t r = 0; r < domain_.rotations.size(); ++r) {
     if (stop.stop_requested()) throw Stopped{};
     judge(b, x, count, r, best, now.data());
     for (long k = 0; k < count; ++k) {
-      PointMargins& one = now[static_cast<std::size_t>(k)];
+      PointMargins& one = now[at_index(k)];
       double least = infinity;
       std::uint8_t which = 0;
-      for (std::size_t n = 0; n < static_cast<std::size_t>(pose_groups_); ++n)
+      for (std::size_t n = 0; n < at_index(pose_groups_); ++n)
         if (const double margin = one.margin[n] / scale_[n]; margin < least) {
           least = margin;
           which = one.limit[n];
@@ -237,7 +234,7 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
 int Margins::violated(const PointMargins& m) const {
   double least = 0.0;
   int out = -1;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(groups_); ++n) {
+  for (std::size_t n = 0; n < at_index(groups_); ++n) {
     const double scale = set_ || std::cmp_greater_equal(n, pose_groups_) ? 1.0 : scale_[n];
     if (!(m.margin[n] / scale >= least)) {
       least = m.margin[n] / scale;

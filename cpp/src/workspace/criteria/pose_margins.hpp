@@ -26,7 +26,7 @@ struct PointMargins {
 
   bool allowed(int groups) const {
     for (int g = 0; g < groups; ++g)
-      if (!(margin[static_cast<std::size_t>(g)] >= 0.0)) return false;
+      if (!(margin[at_index(g)] >= 0.0)) return false;
     return true;
   }
 };
@@ -74,7 +74,6 @@ class Margins {
 
  private:
   struct Block;
-  void fill(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best) const;
   void judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best, PointMargins* out) const;
   PointMargins judge_one(const Block& b, long k) const;
 

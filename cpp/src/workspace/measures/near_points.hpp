@@ -15,7 +15,7 @@ class NearPoints {
 
  private:
   static constexpr int bins = 32;  // along each side
-  std::size_t bin(const int (&at)[3]) const { return static_cast<std::size_t>((at[2] * bins + at[1]) * bins + at[0]); }
+  std::size_t bin(const int (&at)[3]) const { return at_index((at[2] * bins + at[1]) * bins + at[0]); }
   void place(const Vec3& x, int (&at)[3]) const;
 
   Vec3 low_, size_;

@@ -16,7 +16,7 @@ class Raster {
   Raster(const std::vector<Leaf>& leaves, bool first_piece_alone, int resolution) {
     while ((resolution << (level_ + 1)) <= finest) ++level_;
     side_ = resolution << level_;
-    std::vector<double> share(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_ * side_), 0.0);
+    std::vector<double> share(at_index(side_) * at_index(side_ * side_), 0.0);
     for (const Leaf& leaf : leaves) {
       if (leaf.inside != 255 || leaf.state != CellState::inside || (first_piece_alone && leaf.piece != 0)) continue;
       const int up = leaf.cell.level - level_;
@@ -34,7 +34,7 @@ class Raster {
   bool full(int i, int j, int k) const { return full_[at(i, j, k)] != 0; }
 
  private:
-  std::size_t at(int i, int j, int k) const { return static_cast<std::size_t>((k * side_ + j) * side_ + i); }
+  std::size_t at(int i, int j, int k) const { return at_index((k * side_ + j) * side_ + i); }
   int level_ = 0, side_ = 0;
   std::vector<char> full_;
 };
@@ -48,7 +48,7 @@ struct CellBox {
 /// the histogram method).
 CellBox largest_of_cells(const Raster& r, const Vec3& size) {
   const int n = r.side();
-  const auto width = static_cast<std::size_t>(n);
+  const auto width = at_index(n);
   CellBox best{};
   std::vector<char> column(width * width);
   std::vector<int> height(width + 1), open(width + 1);
@@ -59,17 +59,17 @@ CellBox largest_of_cells(const Raster& r, const Vec3& size) {
       for (int j = 0; j < n; ++j) {
         std::size_t depth = 0;
         for (int i = 0; i <= n; ++i) {
-          const auto x = static_cast<std::size_t>(i);
+          const auto x = at_index(i);
           if (i < n) {
-            char& c = column[static_cast<std::size_t>(j) * width + x];
+            char& c = column[at_index(j) * width + x];
             c = c != 0 && r.full(i, j, k1);
             height[x] = c != 0 ? height[x] + 1 : 0;
           } else {
             height[x] = 0;
           }
           // `open` holds columns of rising height; a lower one ends the rectangles of the higher.
-          while (depth > 0 && height[static_cast<std::size_t>(open[depth - 1])] >= height[x]) {
-            const int tall = height[static_cast<std::size_t>(open[--depth])];
+          while (depth > 0 && height[at_index(open[depth - 1])] >= height[x]) {
+            const int tall = height[at_index(open[--depth])];
             const int from = depth == 0 ? 0 : open[depth - 1] + 1;
             const double volume = size.prod() * (i - from) * tall * (k1 - k0 + 1);
             if (tall > 0 && volume > best.volume) best = {{from, j - tall + 1, k0}, {i, j + 1, k1 + 1}, volume};

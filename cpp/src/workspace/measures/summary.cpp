@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "math/numbers.hpp"
 #include "workspace/cells/tetrahedra.hpp"
@@ -45,11 +44,11 @@ std::vector<double> percentiles(std::vector<std::pair<double, double>> values) {
     while (n + 1 < values.size() && before + values[n].second + 0.5 * values[n + 1].second < wanted)
       before += values[n++].second;
     const double here = before + 0.5 * values[n].second;
-    out[static_cast<std::size_t>(percent)] = values[n].first;
+    out[at_index(percent)] = values[n].first;
     if (n + 1 < values.size() && wanted > here) {
       const double next = before + values[n].second + 0.5 * values[n + 1].second;
       const double t = std::min(1.0, (wanted - here) / (next - here));
-      out[static_cast<std::size_t>(percent)] = (1.0 - t) * values[n].first + t * values[n + 1].first;
+      out[at_index(percent)] = (1.0 - t) * values[n].first + t * values[n + 1].first;
     }
   }
   return out;
@@ -81,7 +80,7 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
     crossings.clear();
     cell.boundary(size, pieces);
     cell.crossings(crossings);
-    for (const CutCell::Piece& piece : pieces) out.area[static_cast<std::size_t>(piece.limit)] += piece.area;
+    for (const CutCell::Piece& piece : pieces) out.area[at_index(piece.limit)] += piece.area;
     for (const Vec3& at : crossings) out.points.push_back(low + at.cwiseProduct(size));
   }
   return out;

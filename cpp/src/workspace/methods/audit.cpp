@@ -31,7 +31,7 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
     for (long n = first; n < std::min(first + slice, settings.points); ++n) {
       const auto which = static_cast<std::size_t>((static_cast<double>(n) + 0.5) * cells / poses);
       cell_.push_back(judged[which]);
-      in.push_back(roots[static_cast<std::size_t>(cell_.back())].cell);
+      in.push_back(roots[at_index(cell_.back())].cell);
       at.push_back(lattice.centre(in.back()) + (sequence_point(n, shift) - Vec3::Constant(0.5)).cwiseProduct(size));
     }
     const std::vector<PointMargins> known = lattice.within(in, at, control.stop);
@@ -61,7 +61,7 @@ Disagreement Audit::open(std::vector<Leaf>& leaves) const {
   for (std::size_t n = 0; n < at_.size(); ++n) {
     allowed += allowed_[n] != 0 ? 1 : 0;
     if (cell_[n] < 0) continue;
-    const auto at = static_cast<std::size_t>(cell_[n]);
+    const auto at = at_index(cell_[n]);
     Leaf& leaf = leaves[at];
     if (leaf.proved || leaf.inside == (allowed_[n] != 0 ? 255 : 0)) continue;
     leaf.state = CellState::boundary;
@@ -77,7 +77,7 @@ Disagreement Audit::open(std::vector<Leaf>& leaves) const {
 void Audit::descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice) {
   for (std::size_t n = 0; n < at_.size(); ++n) {
     if (cell_[n] < 0) continue;
-    const auto at = static_cast<std::size_t>(cell_[n]);
+    const auto at = at_index(cell_[n]);
     const Vec3 middle = lattice.centre(leaves[at].cell);
     int octant = 0;
     for (int k = 0; k < 3; ++k) octant |= (at_[n][k] >= middle[k] ? 1 : 0) << k;

@@ -28,11 +28,11 @@ std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
     parallel_for(now, m.block(), threads, [&](long from, long to) {
-      const auto first = static_cast<std::size_t>(done + from);
+      const auto first = at_index(done + from);
       BestAt best;
       if (mapped)
         best = [&](long k, std::size_t r, const PlatformPose& pose) {
-          return mapped->at(first + static_cast<std::size_t>(k), r, pose);
+          return mapped->at(first + at_index(k), r, pose);
         };
       m.evaluate(&x[first], to - from, &out[first], control.stop, best);
     });
@@ -82,7 +82,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
     std::vector<std::size_t> numbers(x.size());
     std::iota(numbers.begin(), numbers.end(), std::size_t{0});
     best.reserve(x.size());
-    const auto side = static_cast<std::size_t>(n);
+    const auto side = at_index(n);
     best.map(x, {side, side, side}, numbers, settings.threads, control.stop);
     map.internal_points = best.audit();
   }
@@ -100,8 +100,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   double undecided = 0.0;
   map.volume = 0.0;
   const auto counted = [&](const Leaf& l) { return l.inside != 0 && (!first_piece_alone || l.piece == 0); };
-  const std::size_t stride[] = {1, static_cast<std::size_t>(n),
-                                static_cast<std::size_t>(n) * static_cast<std::size_t>(n)};
+  const std::size_t stride[] = {1, at_index(n), at_index(n) * at_index(n)};
   for (std::size_t c = 0; c < leaves.size(); ++c) {
     Leaf& leaf = leaves[c];
     if (!counted(leaf)) continue;
@@ -119,7 +118,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         if (leaf.state != CellState::boundary) undecided += leaf.measure * leaf.measure;
         leaf.state = CellState::boundary;
         if (other.limit >= 0) {
-          surface.area[static_cast<std::size_t>(other.limit)] += area;
+          surface.area[at_index(other.limit)] += area;
           leaf.limit = other.limit;
         }
         surface.points.push_back(lattice.centre(leaf.cell) + 0.5 * way * size[axis] * Vec3::Unit(axis));
