@@ -28,8 +28,7 @@ double slope(const Mat6& m, double log_length) {
 }
 
 /// The sign change of f between a and b, f(a) <= 0 <= f(b), by the ITP method of Oliveira and Takahashi (ACM Trans.
-/// Math. Softw. 47, 2020). It converges as fast as the secant method, and where f jumps it needs hardly more steps than
-/// bisection.
+/// Math. Softw. 47, 2020): as fast as the secant method, and hardly slower than bisection where f jumps.
 template <class F>
 double sign_change(const F& f, double a, double at_a, double b, double at_b, double width) {
   const double most = std::ceil(std::log2(std::max(1.0, (b - a) / width))) + 1.0, start = b - a;

@@ -10,8 +10,7 @@
 namespace ninedof {
 namespace {
 
-/// Least difference of zp and zs in solver coordinates: at zero the upper internal legs would lie in the platform
-/// plane.
+/// Least zp - zs in solver coordinates: at zero the upper internal legs would lie in the platform plane.
 constexpr double order_gap = 1e-10;
 
 /// Half range of an angle without bounds: more than one turn, so that no optimum has to lie on an internal bound.

@@ -38,8 +38,7 @@ class Coordinates {
 
   /// All full variables and the auxiliary ones; bounds are met exactly.
   Eigen::VectorXd variables(const Eigen::VectorXd& y) const;
-  /// Free coordinates of a full set of variables, moved inside the bounds. auxiliary variables may be left out and are
-  /// then 0.
+  /// Free coordinates of a full set of variables, moved inside the bounds; auxiliary variables left out are 0.
   Eigen::VectorXd coordinates(const Eigen::VectorXd& x) const;
   /// dx/dy of each free coordinate at x.
   Eigen::VectorXd slopes(const Eigen::VectorXd& x) const;

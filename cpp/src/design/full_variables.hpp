@@ -1,6 +1,5 @@
 #pragma once
-/// The full set of variables: the family's, the characteristic length, offsets of the internal point at displaced
-/// poses.
+/// The full set of variables: the family's, the characteristic length, offsets of O at displaced poses.
 
 #include <array>
 #include <vector>

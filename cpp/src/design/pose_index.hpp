@@ -37,9 +37,8 @@ int index_rows(Index index, bool closed);
 /// Writes the rows of a pose to `value` and `gradient`, from row `row` on.
 void fill_index(Index index, const PoseSpectrum& s, int row, Eigen::VectorXd& value, Rows& gradient);
 
-/// The same for a pose off the axis, smoothed: the largest and smallest singular values are replaced by epsilon log sum
-/// exp(. / epsilon) of the logarithms, which stays smooth where singular values meet. One row; the others are set far
-/// below it.
+/// The same for a pose off the axis, smoothed: epsilon log sum exp(. / epsilon) of the logarithms in place of the
+/// largest and the smallest singular value. One row; the others are set far below it.
 void fill_soft_index(Index index, const PoseSpectrum& s, double epsilon, int row, Eigen::VectorXd& value,
                      Rows& gradient);
 

@@ -24,9 +24,8 @@ EIGEN_ALWAYS_INLINE Lanes internal_side(const Closure& legs, const Solution& v, 
   return legs.internal_length[i] * accelerations + rates * rates - speed_squared;
 }
 
-/// Right side for n_i.alpha + x_i.a_O from the second derivative of x_i.x_i = l_i^2:
-/// l lddot + ldot^2 - xdot.xdot - x_i.(omega x (omega x w_i))
-/// with xdot_i = v_O + omega x w_i.
+/// Right side for n_i.alpha + x_i.a_O from the second derivative of x_i.x_i = l_i^2, with xdot_i = v_O + omega x w_i:
+///     l lddot + ldot^2 - xdot.xdot - x_i.(omega x (omega x w_i))
 EIGEN_ALWAYS_INLINE double external_side(const Closure& legs, const Solution& v, double rate, double acceleration,
                                          std::size_t i) {
   const Xyz<double> turning = cross(v.angular, legs.w[i]);
@@ -57,8 +56,7 @@ Acceleration forward_acceleration(const Geometry& g, const Configuration& c, con
 
 Vec9 inverse_acceleration(const Geometry& g, const Configuration& c, const Velocity& v, const Acceleration& a) {
   const Legs k = legs(g, c);
-  // A leg x = l e has lddot = e.xddot + |e x xdot|^2 / l, the last term due to its rotation. 0/0 for a leg of zero
-  // length.
+  // A leg x = l e has lddot = e.xddot + |e x xdot|^2 / l, the last term from its turning; 0/0 at zero length.
   const auto stretch = [](const Vec3& e, double length, const Vec3& rate, const Vec3& acceleration) {
     return e.dot(acceleration) + e.cross(rate).squaredNorm() / length;
   };

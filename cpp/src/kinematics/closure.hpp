@@ -1,17 +1,14 @@
 #pragma once
-/// The three 3x3 systems from leg rates to velocities, and from leg accelerations to accelerations
-/// (docs/theory/velocity.md).
+/// The three 3x3 systems from leg rates to velocities and on to accelerations (docs/theory/velocity.md).
 ///
-/// They are the derivatives of the squared lengths x_i.x_i = l_i^2, y_i.y_i = q_i^2, z_i.z_i = r_i^2. These contain the
-/// leg vectors themselves and no unit vectors, so that a leg of zero length is no special case: it gives a row of zeros
-/// and a singular system.
+/// They are the derivatives of the squared lengths x_i.x_i = l_i^2, y_i.y_i = q_i^2, z_i.z_i = r_i^2. Without unit
+/// vectors a leg of zero length is no special case: it gives a row of zeros and a singular system.
 ///
 ///     z_i.sdot = r_i rdot_i
 ///     y_i.h    = q_i qdot_i              h = sdot - v_O,  v_O = pdot + omega x y: the platform point at O
 ///     n_i.omega = l_i ldot_i - x_i.v_O   n_i = w_i x x_i,  w_i from O to platform joint i
 ///
-/// The second derivatives have the same matrices, with sddot, k = sddot - a_O and alpha in place of sdot, h and omega,
-/// and other right sides.
+/// The second derivatives have the same matrices, for sddot, k = sddot - a_O and alpha, and other right sides.
 
 #include <array>
 
@@ -22,8 +19,7 @@
 
 namespace ninedof {
 
-/// Leg vectors and lengths. Lane 0 holds a lower internal leg, lane 1 the upper one with the same number: their two
-/// systems are solved together.
+/// Leg vectors and lengths. Lane 0 holds a lower internal leg, lane 1 the upper one: their systems are solved together.
 struct Closure {
   Xyz<double> y;                         ///< O seen from p
   std::array<Xyz<double>, 3> x, w;       ///< external legs; platform joints seen from O
@@ -74,8 +70,7 @@ class ClosureSolver {
     Xyz<double> angular;  ///< omega, or alpha
   };
 
-  /// `internal` holds the right sides of the rows z_i and y_i, `external` those of the rows n_i before x_i.v_O is
-  /// subtracted.
+  /// `internal`: right sides of the rows z_i and y_i; `external`: of n_i before x_i.v_O is subtracted.
   EIGEN_ALWAYS_INLINE Solution solve(const std::array<Lanes, 3>& internal,
                                      const std::array<double, 3>& external) const {
     const Xyz<Lanes> both = internal_.solve(internal[0], internal[1], internal[2]);

@@ -13,8 +13,7 @@ namespace ninedof {
 ///     [qdot] = [-E   C ] x,    det H = -det F det B.
 ///     [rdot]   [ 0   B ]
 ///
-/// The row of a leg of zero length is zero. Throws InvalidArgument unless the characteristic length is finite and
-/// positive.
+/// The row of a leg of zero length is zero. Throws InvalidArgument unless the length is finite and positive.
 Mat9 rate_matrix(const Geometry& g, const Configuration& c, double characteristic_length = 1.0);
 
 }  // namespace ninedof

@@ -70,8 +70,7 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
         result.candidates = std::move(candidates);
         result.runs_completed = round.done - round.runs_abandoned;
       }
-      // A larger size limit must not give a worse result by chance: the best design starts there too, as it is and
-      // stretched.
+      // A larger size limit must not give a worse result by chance: the best design starts there too, also stretched.
       further = {round_bests.back().best.variables};
       if (size_limit < sizes.back()) further.push_back(stretched(p, round_bests.back(), next_size(sizes, size_limit)));
     }

@@ -44,8 +44,7 @@ bool expensive(const PreparedProblem& p) {
   return p.objective_poses > 1 || p.has_kinks();
 }
 
-/// The same problem with s at its stated positions: fewer variables, and close enough to tell good starts from bad
-/// ones.
+/// The same problem with s where stated: fewer variables, and close enough to tell good starts from bad ones.
 Problem with_stated_internal_points(Problem problem) {
   for (Pose& pose : problem.objective.poses) pose.best_internal = false;
   return problem;

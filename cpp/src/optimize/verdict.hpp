@@ -5,8 +5,7 @@
 
 namespace ninedof {
 
-/// The largest sizes of variables without an effective upper bound, one round each; a single, irrelevant one where
-/// every variable has such a bound.
+/// The largest sizes of variables without an effective upper bound, one round each; a single one where all have bounds.
 std::vector<double> size_limits(const Problem& p);
 
 /// The best design of a round, and whether it has reached the size limit.
@@ -21,12 +20,10 @@ RoundBest round_best(const PreparedProblem& p, double size_limit, const Candidat
 /// least value; to stopped if the last one has reached its size limit and they do not.
 void detect_unbounded(const Problem& problem, std::vector<RoundBest> rounds, Result& result);
 
-/// Sets `result` to infeasible and returns true if 0 < zs < zp (eq. 9b) excludes every design: a height fixed at zero,
-/// zs_fraction of 1 or more.
+/// Sets `result` to infeasible, and returns true, if 0 < zs < zp (eq. 9b) excludes every design.
 bool detect_impossible_heights(const Problem& problem, Result& result);
 
-/// Where no start ended well: infeasible, with the limits in conflict; singular designs only; or not converged, with
-/// the best feasible design.
+/// Where no start ended well: infeasible, with the limits in conflict; singular only; or not converged, with the best.
 void explain_failure(const PreparedProblem& p, const SearchRound& round, const Settings& s, const Control& control,
                      Result& result);
 

@@ -81,18 +81,15 @@ double angle(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Least angle between points of two circles on the unit sphere: angular radii a and b, angle `apart` between their
-/// centres.
+/// Least angle between points of two circles of angular radii a and b on the unit sphere, their centres `apart`.
 double least_angle(double apart, double a, double b) {
   return std::max({0.0, apart - a - b, std::abs(a - b) - apart, apart + a + b - 2.0 * std::numbers::pi});
 }
 
-/// Whether some Q satisfies the equations of legs i and j. If the third leg has no direction, this decides between
-/// self-motion and no mode.
+/// Whether some Q fits legs i and j. If the third leg has no direction, it decides between self-motion and no mode.
 bool two_legs_fit(const RotationProblem& problem, std::size_t i, std::size_t j) {
-  // Q w_i lies on a circle about d_i and Q w_j on one about d_j, with the angle of w_i and w_j between them. Circles
-  // are connected, so all angles between the least and the largest occur. The largest is pi minus the least to the
-  // opposite circle.
+  // Q w_i lies on a circle about d_i and Q w_j on one about d_j, with the angle of w_i and w_j between them. All angles
+  // occur from the least to the largest, which is pi minus the least to the opposite circle.
   constexpr double pi = std::numbers::pi;
   const double a = std::acos(std::clamp(problem.c[static_cast<Eigen::Index>(i)], -1.0, 1.0));
   const double b = std::acos(std::clamp(problem.c[static_cast<Eigen::Index>(j)], -1.0, 1.0));

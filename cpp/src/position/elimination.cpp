@@ -70,8 +70,7 @@ PsiEquation psi_equation(const Vec3& d, const Vec3& w, double c, double cosine, 
           first_order(cosine * d[2] * w[2] - c, sine * d[0] * w[2], sine * d[1] * w[2])};
 }
 
-// |(n1, n2)| relative to the size of the coefficients. Below it cosine and sine of psi are inaccurate, because two
-// solutions nearly share phi.
+// Below this |(n1, n2)|, relative to the coefficients, psi is inaccurate: two solutions nearly share phi.
 constexpr double separated = 1e-6;
 // Error of the coefficients of the octic, relative to the squares they are summed from.
 constexpr double rounding = 1e-14;

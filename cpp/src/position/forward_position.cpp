@@ -86,8 +86,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
     return out;
   }
 
-  // If base and platform are planar, the mirror image of a mode in the base plane, with the platform reflected in its
-  // own plane, is a mode.
+  // If both bodies are planar, the mirror image of a mode in the base, the platform mirrored in itself, is a mode.
   const bool mirrored = in_plane(base, g.base_external()) && in_plane(platform, g.platform_external());
   const Mat3 base_mirror = mirror(base.e3), platform_mirror = mirror(platform.e3);
   const auto image = [](const SphereCentres& plate, const SidedPoint& p) -> SidedPoint {

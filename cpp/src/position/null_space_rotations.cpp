@@ -75,8 +75,7 @@ Macaulay macaulay(const RotationProblem& p) {
   return out;
 }
 
-/// Orthonormal basis of the orthogonal complement of the columns, by QR with column pivoting; none if their rank is
-/// below 27.
+/// Orthonormal basis of the complement of the columns, by QR with column pivoting; none if their rank is below 27.
 std::optional<NullSpace> null_space(Macaulay a) {
   std::array<Reflection<36>, rank> reflections;
   double first = 0.0;
@@ -119,8 +118,7 @@ std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4
   return inverse.triangularView<Eigen::Upper>() * s.topRightCorner<8, 8>();
 }
 
-/// The quaternion z at which z_k^3 z_j has the value v[4 k + j], up to a common factor. Its largest component is made
-/// 1, which makes it real where it can be.
+/// The quaternion z with z_k^3 z_j = v[4 k + j] up to a factor. Its largest component is 1: real where z can be.
 Eigen::Vector4cd quaternion(const Eigen::Matrix<std::complex<double>, 16, 1>& v) {
   Eigen::Index k = 0;
   Vec4(std::norm(v[0]), std::norm(v[5]), std::norm(v[10]), std::norm(v[15])).maxCoeff(&k);
@@ -150,8 +148,7 @@ bool add_real_solutions(const NullSpace& n, const Mat8& multiplied, RotationCand
     if (!z.real().allFinite() || !z.imag().allFinite())
       return false;  // the solution is unknown: no component to scale by
     if (!(z.imag().norm() < nearly_real * z.norm())) continue;
-    // Two real solutions close together may be computed as a conjugate pair: they then lie on both sides of its real
-    // part.
+    // Two real solutions close together may come as a conjugate pair: they lie on both sides of its real part.
     add(z.real() + z.imag(), out);
     if (pair) add(z.real() - z.imag(), out);
   }

@@ -5,8 +5,7 @@
 
 namespace ninedof {
 
-/// The equations at a rotation: residuals d_i . Q w_i - c_i and their derivative J with respect to a small rotation
-/// from the left, rows (Q w_i) x d_i.
+/// The residuals d_i . Q w_i - c_i and their derivative J by a small rotation from the left, rows (Q w_i) x d_i.
 struct RotationResidual {
   RotationResidual(const RotationProblem& problem, const Mat3& rotation);
 
@@ -33,8 +32,7 @@ struct PolishedRotation {
   bool converged() const { return residual() <= 1e-13; }
 };
 
-/// Newton's method on SO(3), with Levenberg steps where Newton's does not improve; no step is longer than half a
-/// radian.
+/// Newton's method on SO(3), with Levenberg steps where Newton's does not improve; steps up to half a radian.
 ///
 /// Usually four steps. At a double solution each step halves the error, until the residual is rounding and the rotation
 /// within about 1e-8 of the solution (1e-6 at a flat one), the accuracy that the data allow; hence the large limit on

@@ -42,8 +42,7 @@ Meeting meet(const SphereCentres& at, const Vec3& radii) {
   const double rho = std::sqrt(x * x + y * y);
   Meeting m;
   m.height2 = (r1 - rho) * (r1 + rho);
-  // Bounds for the rounding errors of x and y, and so of the squared height: large if the first sphere is much smaller
-  // than the others.
+  // Rounding errors of x, y and the squared height: large if the first sphere is much smaller than the others.
   const double dx = eps * (r1 * r1 + r2 * r2 + at.length * at.length) / at.length;
   const double dy = (eps * (r1 * r1 + r3 * r3 + at.i * at.i + at.j * at.j) + 2.0 * std::abs(at.i) * dx) / at.j;
   const double error = 2.0 * (std::abs(x) * dx + std::abs(y) * dy) + dx * dx + dy * dy;

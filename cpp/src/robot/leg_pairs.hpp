@@ -32,15 +32,13 @@ inline bool share_joint(std::span<const Vec3, 12> joint, int pair) {
   return same(two.from < point_u ? one.from : one.to, two.from) || (b < 3 && same(one.to, two.to));
 }
 
-/// The nearest points of two segments: the fractions `s` and `t` along them, and the vector from the second to the
-/// first.
+/// The nearest points of two segments: the fractions s and t along them, and the vector from second to first.
 struct Nearest {
   double s, t;
   Vec3 apart;
 };
 
-/// Of the segments from a to b and from c to d. The squared distance is convex in (s, t): its minimum is inside the
-/// unit square or on one of its four sides.
+/// Of a-b and c-d. The squared distance is convex in (s, t): least inside the unit square or on one of its sides.
 inline Nearest nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);

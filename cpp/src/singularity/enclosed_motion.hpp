@@ -24,8 +24,7 @@ struct Line {
   }
 };
 
-/// exp(t omega) v by Rodrigues' formula. v is a vector of the platform in base axes, its error beyond rounding
-/// `v_error`.
+/// exp(t omega) v by Rodrigues' formula; v is a vector of the platform in base axes, `v_error` beyond rounding.
 struct Turning {
   Turning(const Vec3& v, const Vec3& omega, double v_error = 0.0) : rate(omega.norm()), size(v.norm()), error(v_error) {
     const Vec3 axis = rate > 0.0 ? Vec3(omega / rate) : Vec3(Vec3::Zero());

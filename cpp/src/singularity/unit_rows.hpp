@@ -39,8 +39,7 @@ struct Span {
   Vec3 direction = Vec3::Zero();
 };
 
-/// The vectors that the three matrices are made of, base frame. Differences of points below the rounding of their
-/// coordinates have length zero.
+/// The vectors of the three matrices, base frame. Differences of points below the rounding of coordinates are zero.
 struct Spans {
   std::array<Span, 3> d, w;  ///< O -> base joint, O -> platform joint, of the external legs
   std::array<Span, 3> external, upper, lower;

@@ -20,8 +20,7 @@ Mat96 least_rates(const Geometry& g, const Configuration& c, double characterist
   return eliminate(h.rightCols<3>(), Mat96(h.leftCols<6>()));
 }
 
-/// {y : |X y| <= 1} from the singular values of X, descending, and its right singular vectors. Singular values below
-/// `threshold` are rounding.
+/// {y : |X y| <= 1} from the singular values of X, zero up to `threshold`, and its right singular vectors.
 template <int N>
 Ellipsoid<N> unit_ball_of(const Eigen::Matrix<double, N, 1>& sigma, const Eigen::Matrix<double, N, N>& v,
                           double threshold) {

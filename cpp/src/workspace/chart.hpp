@@ -21,8 +21,7 @@ class Chart {
   /// Whether the region is smaller than its box, and the distance of x from its boundary, positive inside.
   bool has_region() const { return !positional_; }
   double region_margin(const Vec3& x) const;
-  /// The first axis on which the faces of the box limit the workspace: 0 for positions, 2 (torsion), 3 (none) for
-  /// rotation vectors.
+  /// First axis on which faces of the box limit the workspace: 0 for positions, 2 (torsion), 3 (none) for vectors.
   int first_wall() const;
 
   /// Greatest rotation, in radians, per unit of the coordinates.

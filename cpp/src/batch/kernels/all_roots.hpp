@@ -1,9 +1,8 @@
 #pragma once
 /// All eigenvalues of B^T B for a bidiagonal B, in ascending order (docs/theory/kernels.md).
 ///
-/// The least root is found and subtracted, except for its rounding error, as a shift of the differential
-/// quotient-difference transform. Two more transforms separate the remainder, which is then the last quotient, and the
-/// root is deflated.
+/// The least root is subtracted, except for its rounding error, as a shift of the differential quotient-difference
+/// transform. Two more transforms separate the remainder, the last quotient then, and the root is deflated.
 
 #include "batch/kernels/extreme_roots.hpp"
 

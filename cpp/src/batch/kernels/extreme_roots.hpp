@@ -73,17 +73,15 @@ struct Root {
 
 constexpr int most_rounds = 40;  // usually four to six; up to thirty for a multiple root
 
-/// Iterates from x in the given direction. `last` is the step that led to x, 0 if x is only a bound: then at least two
-/// steps are made.
+/// Iterates from x in one direction. `last` is the step that led to x, 0 if x is only a bound: then two steps at least.
 template <int n, class P>
 NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction, P last) {
   typename P::Mask open = x >= 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     const P step = halley(characteristic<n>(q, e, x));
     x = select(open, x + direction * step, x);
-    // With cubic convergence the next step is this one times the cube of its ratio to the step before. With slow
-    // convergence, towards a multiple root, iterate until the steps are rounding. Converged lanes keep their root: it
-    // must not depend on the other lanes.
+    // With cubic convergence the next step is this one times the cube of its ratio to the step before; with slow
+    // convergence, to a multiple root, the steps end as rounding. Converged lanes must not depend on the others.
     open = open &
            ((square(square(step)) > 1e-15 * x * (square(last) * last)) | ((step > 0.1 * last) & (step > 4e-15 * x)));
     if (!any(open)) break;

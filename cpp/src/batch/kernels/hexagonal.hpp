@@ -37,8 +37,7 @@ NINEDOF_INLINE P hexagonal_condition(const P (&x)[6]) {
   const P l2 = square(lx) + square(ly) + square(zp), q2 = platform2 + upper2, r2 = base2 + lower2;
   const P stretch = 1.0 + upper2;
 
-  // One division in place of four: by l^2 stretch, and by the denominators of the internal legs along and across the
-  // axis.
+  // One division in place of four: by l^2 stretch, and by the denominators of the internal legs along and across z.
   const P legs = l2 * stretch, along = upper2 * r2 + lower2 * q2, across = platform2 * r2 + base2 * q2;
   const P both = along * across;
   const P inverse = 1.0 / (legs * both);

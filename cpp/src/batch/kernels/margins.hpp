@@ -12,8 +12,7 @@ struct Margins {
   typename P::Mask sure;  ///< whether no two points nearly coincide
 };
 
-/// Squared length of a difference of points, relative to the squared size of the coordinates, above which its direction
-/// is accurate.
+/// Squared length of a difference of points, relative to that of the coordinates, above which it has a direction.
 constexpr double clear_difference = 1e-26;
 
 /// The unit vector along a; `least` becomes the least squared length so far.

@@ -1,6 +1,5 @@
 #pragma once
-/// Least and greatest eigenvalue of B^T B from the coefficients of its characteristic polynomial
-/// (docs/theory/kernels.md).
+/// Extreme eigenvalues of B^T B from the coefficients of its characteristic polynomial (docs/theory/kernels.md).
 ///
 /// The coefficients are sums of products of the squares q_k and e_k of the entries of B, without cancellation. With
 /// them p, p' and p'' cost a third of the recurrence of extreme_roots.hpp. But the rounding errors of the coefficients,
@@ -77,8 +76,7 @@ struct Approach {
     x = select(open, x - step, x);
     slope = select(open, t.p1, slope);
     const P size = abs(step);
-    // With cubic convergence the next step is this one times the cube of its ratio to the step before. A step of the
-    // size of rounding is the last.
+    // Cubic convergence: the next step is this one times the cube of its ratio to the one before. Ends at rounding.
     open = open & (square(square(size)) > 1e-15 * x * (square(last) * last)) & (size > 1e-13 * x);
     last = size;
   }

@@ -75,8 +75,7 @@ class Constraint {
   int auxiliary_variable_ = -1, auxiliary_coordinate_ = -1;
 };
 
-/// Use of the rows: `solve` needs smooth rows; `evaluate`, the evaluation of one design, needs the smallest margin
-/// only.
+/// Use of the rows: `solve` needs smooth rows; `evaluate`, of one design, needs the smallest margin only.
 enum class Purpose { solve, evaluate };
 
 /// The constraint of a limit, for `poses` displaced poses (0: the neutral one alone). Valid limits only.
@@ -85,8 +84,7 @@ std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpo
 /// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.
 std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
 
-/// Distance of a joint from z in its body's frame, and the joint of a body (0 base, 6 platform, six joints each; -1 for
-/// both) that is farthest.
+/// Distance of a joint from z in its body's frame, and the joint of a body (0 base, 6 platform, -1 both) farthest off.
 double joint_radius(const DesignState& v, int joint);
 int widest_joint(const DesignState& v, int body);
 void add_joint_radius(const DesignState& v, int joint, double scale, Row out);

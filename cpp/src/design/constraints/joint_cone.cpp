@@ -1,6 +1,5 @@
-/// base_cone, platform_cone: angle between each leg at its joint of that body, pointing away from it, and an axis of
-/// that body: one that is given, or the direction of that leg at the neutral configuration. Declared in
-/// design/constraints/table.hpp.
+/// base_cone, platform_cone: angle of each leg, pointing away from its joint on that body, and an axis of the body:
+/// a given one, or the direction of that leg at the neutral configuration. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 #include "robot/joint_cones.hpp"

@@ -1,6 +1,5 @@
 #pragma once
-/// Limits on the spread of the lengths of a group of legs: the quotient or the difference of the longest and the
-/// shortest.
+/// Limits on the spread of the lengths of some legs: the quotient or the difference of the longest and the shortest.
 ///
 /// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
 /// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many

@@ -1,8 +1,7 @@
 #pragma once
 /// 3x3 systems by Cramer's rule over the number type: double for one system, Lanes for two side by side.
 ///
-/// Always inlined: the compiler overestimates the size of these few instructions, and without it forward velocity takes
-/// half as long again.
+/// Always inlined: the compiler overestimates its size, and forward velocity would take half as long again.
 
 #include <Eigen/Core>
 #include <cmath>

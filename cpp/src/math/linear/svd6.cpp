@@ -8,8 +8,7 @@
 namespace ninedof {
 namespace {
 
-/// Five rounds of three disjoint column pairs: each pair occurs once in a sweep, and the processor can overlap the
-/// three independent rotations of a round.
+/// Five rounds of three disjoint column pairs, each once in a sweep: the processor overlaps the rotations of a round.
 constexpr std::array<std::array<std::array<int, 2>, 3>, 5> rounds{{
     {{{0, 5}, {1, 4}, {2, 3}}},
     {{{0, 4}, {5, 3}, {1, 2}}},

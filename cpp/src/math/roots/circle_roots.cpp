@@ -43,8 +43,7 @@ bool in_noise(const Octic& b, double level) {
   return touches(b[0], b[1]) || touches(b[degree], b[degree - 1]);
 }
 
-/// De Casteljau subdivision at the middle: returns the left half, `b` becomes the right half. Only sums, and an exact
-/// power of two at the end.
+/// De Casteljau subdivision at the middle, by sums and exact powers of two: returns the left half, b keeps the right.
 Octic split_left(Octic& b) {
   Octic left;
   double scale = 1.0;
@@ -72,8 +71,7 @@ ValueSlope horner(const Octic& p, double x) {
   return {value, slope};
 }
 
-/// The root of p in [low, high], where p changes sign once, from the estimate `start`: Newton's method, or bisection
-/// where a step leaves the bracket.
+/// The only sign change of p in [low, high], from `start`: Newton's method, or bisection where a step leaves them.
 double refine(const Octic& p, double low, double high, double start, bool negative_below) {
   double x = start;
   for (int k = 0; k < most_refinements; ++k) {
@@ -99,9 +97,8 @@ CircleRoots circle_roots(const Octic& p, double error) {
     return out;
   }
   const double level = std::max(noise * largest, error);
-  // x in (0, infinity) maps to u = x / (1 + x) in (0, 1), where the coefficients divided by the binomials are the
-  // Bernstein coefficients. Negative x: the same with odd coefficients negated. Pieces below u = 1/2 are refined in x,
-  // those above in 1 / x.
+  // x in (0, infinity) maps to u = x / (1 + x) in (0, 1), where the coefficients over the binomials are the Bernstein
+  // coefficients; for negative x odd ones are negated. Pieces below u = 1/2 are refined in x, others in 1 / x.
   for (const double sign : {1.0, -1.0}) {
     Octic forward = p, backward;
     for (std::size_t k = 1; k <= degree; k += 2) forward[k] *= sign;

@@ -1,6 +1,5 @@
 #pragma once
-/// Real roots of a polynomial of degree eight on the projective line, that is, of a trigonometric polynomial of degree
-/// four on the circle.
+/// Real roots of an octic on the projective line, that is, of a trigonometric polynomial of degree four on the circle.
 
 #include <array>
 

@@ -1,7 +1,6 @@
 #pragma once
 /// A function of time with proved bounds: its Taylor coefficients at t, their rounding errors, and bounds on them over
-/// a window [t, t + h]. Sums and products propagate all three, so that a formula is written once and yields its own
-/// proof.
+/// a window [t, t + h]. Sums and products propagate all three: a formula is written once and yields its own proof.
 
 #include <Eigen/Geometry>
 #include <algorithm>

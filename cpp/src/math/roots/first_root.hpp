@@ -16,9 +16,8 @@ struct FirstRoot {
 
 namespace detail {
 
-/// Root of value - fall x - curvature x^2 / 2 for value >= 0, curvature >= 0: the distance over which a function stays
-/// positive that starts at `value` with a slope of at least -fall and a second derivative of at least -curvature. No
-/// cancellation.
+/// Root of value - fall x - curvature x^2 / 2 for value, curvature >= 0, without cancellation: how far a function stays
+/// positive that starts at `value` with a slope of at least -fall and a second derivative of at least -curvature.
 inline double safe_step(double value, double fall, double curvature) {
   const double root = std::sqrt(fall * fall + 2.0 * curvature * value);
   if (fall > 0.0) return 2.0 * value / (fall + root);
@@ -43,8 +42,7 @@ FirstRoot first_root(const Function& f, double most, double window) {
     if (!std::isfinite(here.at[0])) return {t, false};
     if (step == 0) sign = here.at[0] < 0.0 ? -1.0 : 1.0;
     const double value = sign * here.at[0], slope = sign * here.at[1], bend = 2.0 * sign * here.at[2];
-    // Taylor's remainder, x^3 max |f'''| / 6, is at most x^2 / 2 times 2 h max |f'''| / 6. The bound of f'' holds as
-    // well.
+    // Taylor's remainder, x^3 max |f'''| / 6, is at most x^2 / 2 times 2 h max |f'''| / 6. The bound of f'' holds too.
     const double most_bend = std::min(2.0 * here.bound[2], 2.0 * here.bound[3] * h + 2.0 * here.error[2] - bend);
     if (!std::isfinite(most_bend)) {
       window = 0.125 * h;

@@ -1,9 +1,8 @@
 #pragma once
 /// A problem as the solver sees it.
 ///
-/// Levels t, one for each number the objective is made of; objective rows f(y), each at most a level; margins m(y) >=
-/// 0. The objective is a smooth, increasing function of the levels, so that at a solution each level is the largest of
-/// its rows.
+/// Levels t, one for each number in the objective; objective rows f(y), each at most a level; margins m(y) >= 0.
+/// The objective is a smooth, increasing function of the levels: at a solution each is the largest of its rows.
 
 #include <algorithm>
 #include <memory>
@@ -22,8 +21,7 @@ struct RowLevel {
   int row, level;
 };
 
-/// A margin: a row of a constraint, or the limit on the condition number of pose k (constraint -1 - k, row of its
-/// pairs).
+/// A margin: a row of a constraint, or (constraint -1 - k) of the pairs that limit the condition number of pose k.
 struct MarginRow {
   int constraint, row;
 };

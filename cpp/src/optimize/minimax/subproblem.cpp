@@ -9,8 +9,7 @@ namespace {
 
 /// All rows are selected where there are no more than this.
 constexpr std::size_t few_rows = 150;
-/// Rows of the objective this far below their level, and margins this large, are not selected at first: logarithms of
-/// ratios.
+/// Rows this far below their level and margins this large, as logarithms of ratios, are not selected at first.
 constexpr double far_below = 0.2, large_margin = 0.1;
 /// Once a row that was not selected is violated, all rows this near are added, so many times at most.
 constexpr double near_active = 0.05;

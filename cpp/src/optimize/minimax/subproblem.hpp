@@ -13,8 +13,7 @@
 
 namespace ninedof {
 
-/// Violation up to which an iterate counts as feasible: well below that of Candidate::feasible, so that what it gains
-/// in the index is rounding.
+/// An iterate this feasible counts as such: well below Candidate::feasible, so that what it gains is rounding.
 constexpr double clearly_feasible = 1e-9;
 
 /// Called with the logarithm of the objective and the violation of each design a run evaluates.
@@ -29,8 +28,7 @@ class Subproblem {
   Subproblem(const PreparedProblem& p, Formulation formulation, std::stop_token stop, Observer observer)
       : p_(p), formulation_(formulation), stop_(std::move(stop)), observer_(std::move(observer)) {}
 
-  /// The end point of SLSQP from `from`, in solver coordinates. `smoothing`: see DesignEvaluation; `tolerance`:
-  /// relative, on objective and coordinates.
+  /// The end point of SLSQP from `from`, in solver coordinates; `tolerance` is relative, on objective and coordinates.
   Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, double tolerance, int max_evaluations);
 
   /// The feasible design of least objective that the last call evaluated, or its start. NLopt returns another one of

@@ -1,6 +1,5 @@
 #pragma once
-/// What is active at a point, whether the point is stationary (the nonsmooth first-order test, without the solver), and
-/// Newton's method on the active equations.
+/// What is active at a point, whether it is stationary (tested without the solver), and Newton's method from there.
 
 #include <map>
 
@@ -16,9 +15,8 @@ struct ActiveSet {
   bool order = false;                ///< zs has reached zp
 };
 
-/// Which coordinates count as on a bound: those exactly there, for the check of an end point, or those near it, which
-/// Newton's method moves there. A length of 1e-9 is not on its bound at 0; otherwise designs that keep shrinking would
-/// pass as optima.
+/// Which coordinates are on a bound: those exactly there, for checks, or those near it, which Newton's method moves
+/// there. A length of 1e-9 is not on its bound at 0; otherwise designs that keep shrinking would pass as optima.
 enum class Contact { exact, near };
 
 ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y,

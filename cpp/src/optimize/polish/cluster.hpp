@@ -1,7 +1,6 @@
 #pragma once
-/// Coinciding singular values: their joint derivative is a symmetric matrix. At a point each direction in it gives a
-/// row (Cluster); in a neighbourhood it gives smooth equations (Coalesced), after Overton (SIAM J. Matrix Anal. Appl. 9,
-/// 1988, 256-268).
+/// Singular values that coincide: their joint derivative is a symmetric matrix. Directions give rows (Cluster), its
+/// entries smooth equations (Coalesced), after Overton (SIAM J. Matrix Anal. Appl. 9, 1988, 256-268).
 
 #include "optimize/minimax/design_evaluation.hpp"
 
@@ -67,8 +66,7 @@ class Coalesced {
   Eigen::MatrixXd basis_;  ///< of the subspace at the reference, 6 x size
 };
 
-/// Groups of the largest, and of the smallest, of the given poses that lie within `gap` of the extreme one, in
-/// logarithms.
+/// Groups of the largest, and of the smallest, of each pose that lie within `gap` of the extreme one, in logarithms.
 std::vector<Coalesced> coalesced_groups(const PreparedProblem& p, const DesignEvaluation& design,
                                         const std::vector<int>& poses, double gap);
 

@@ -116,8 +116,7 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
     const RowLevel& u = p.row_levels[at_index(k)];
     columns.add(design.row_gradient.row(u.row), u.level);
   }
-  // Margins are relative to their limit: the weight times a factor of 1, or 0 for rows of auxiliary variables, is the
-  // price.
+  // Margins are relative to their limit: the price is the weight times 1, or 0 for rows of auxiliary variables.
   std::vector<std::pair<std::string, double>> named;  // and the factor from weight to price
   const auto limited = at_index(columns.count());
   for (const int k : a.margins) {

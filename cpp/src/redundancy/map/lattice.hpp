@@ -8,8 +8,7 @@ namespace ninedof {
 
 class Lattice {
  public:
-  /// About one point in `every` of a grid of this shape, the last axis running fastest; two or more along each axis of
-  /// two or more.
+  /// About one point in `every` of a grid of this shape, the last axis fastest; two or more along each axis of as many.
   Lattice(std::vector<std::size_t> shape, std::size_t every);
 
   /// Whether point k of the grid is on the lattice.

@@ -1,6 +1,5 @@
 #pragma once
-/// Newton's method on a sequence of ever less smoothed functions, from one start to one local minimum; also over
-/// all poses of a path at once.
+/// Newton's method on ever less smoothed functions: from one start to one local minimum, or over all poses of a path.
 
 #include <functional>
 #include <span>
@@ -36,8 +35,7 @@ struct Descent {
 /// The Newton step with the absolute values of the Hessian's eigenvalues: always a descent direction.
 Vec3 newton_step(const Jet& f);
 
-/// Minimises for one epsilon from d.x, where the function is d.at, until the decrement is below `enough` epsilons;
-/// false if O is lost.
+/// Minimises for one epsilon from d.x, with d.at there, until the decrement is below `enough` epsilons; false if lost.
 bool settle(const ScaledPose& pose, const Smoothed& f, double epsilon, double enough, Descent& d);
 
 /// Minimises from `start`, where the function must be defined, for each epsilon in turn. The minimum is nearly linear

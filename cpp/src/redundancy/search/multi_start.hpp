@@ -25,8 +25,7 @@ struct Minima {
   Vec3 nearest = Vec3::Zero();  ///< and where
 };
 
-/// Moves x, in the chamber but outside the limits, to where it breaks them least, and records that place. True if the
-/// limits are kept there.
+/// Moves x within its chamber to where it breaks the limits least and records that place; true if it keeps them there.
 bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima);
 
 /// The smoothings of a descent to a minimum, decreasing.

@@ -10,8 +10,8 @@ namespace ninedof {
 constexpr double limit_tolerance = 1e-10;
 
 /// The logarithm of the condition number, smoothed: epsilon log sum (sigma_k)^(1/epsilon) + epsilon log sum
-/// (sigma_k)^(-1/epsilon), at most 2 epsilon log 6 above log(sigma_1 / sigma_6). As a symmetric function of the singular
-/// values it is smooth in O even where they coincide. Every sigma must be positive.
+/// (sigma_k)^(-1/epsilon), at most 2 epsilon log 6 above log(sigma_1 / sigma_6). Symmetric in the singular values, it is
+/// smooth in O even where they coincide. Every sigma must be positive.
 Jet soft_condition(const Points& at, const NineLegs& legs, const Spectrum& s, double epsilon);
 
 /// The criterion as a quantity to minimise (the logarithm of the condition number, minus the logarithm of the least
@@ -35,16 +35,13 @@ class PoseObjective {
   /// The criterion without smoothing; infinite where singular.
   double exact(const Vec3& x) const;
 
-  /// Criterion and barriers smoothed by epsilon: the minimum lies within O(epsilon) of the exact one. False where x is
-  /// outside; `out` is then undefined.
+  /// Criterion and barriers smoothed: the minimum is O(epsilon) from the exact one. False outside, without `out`.
   bool soft(const Vec3& x, double epsilon, Jet& out) const;
 
-  /// A smoothed largest violation of the limits, with the barriers of the chamber: its minimum is an allowed point if
-  /// any is.
+  /// The smoothed largest violation, with the barriers of the chamber: its minimum is an allowed point if any is.
   bool soft_violation(const Vec3& x, double epsilon, Jet& out) const;
 
-  /// The bounds that x touches: within `contact` of a limit, in sizes of the robot, or of the logarithm of the
-  /// clearance.
+  /// The bounds that x touches: `contact` from a limit, in sizes of the robot, or from the logarithm of the clearance.
   ActiveBounds touched(const Vec3& x, double contact) const;
 
   /// The limits that x breaks most, all of those within `contact` of the worst.

@@ -37,8 +37,7 @@ struct PoseResult {
 };
 PoseResult pose_result(const PoseObjective& objective, const Minima& minima);
 
-/// The result as far as the pose alone decides it: missing, or infeasible for its external legs; `singular` if
-/// undecided.
+/// The result as far as the pose alone decides it: missing, or infeasible for external legs; `singular` if undecided.
 PoseResult checked_pose(const Geometry& g, const Vec3& position, const Mat3& rotation,
                         const InternalPointProblem& problem);
 

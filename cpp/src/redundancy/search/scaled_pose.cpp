@@ -52,8 +52,7 @@ double between(const std::array<double, 4>& c, double low, double high) {
   return low;
 }
 
-/// The first t in (0, most] where c0 + c1 t + c2 t^2 + c3 t^3 changes sign or touches zero; `most` where there is none.
-/// c0 must not be zero.
+/// The first t in (0, most] where the cubic, c0 other than zero, changes sign or touches zero; `most` if there is none.
 double first_zero(const std::array<double, 4>& c, double most) {
   double from = 0.0;
   const auto turns = turning_points(c);

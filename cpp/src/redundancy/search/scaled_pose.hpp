@@ -1,6 +1,5 @@
 #pragma once
-/// One pose of the platform in scaled coordinates: the fixed joints, and the singularity surfaces that O must not
-/// cross.
+/// One pose in scaled coordinates: the fixed joints, and the singularity surfaces that O must not cross.
 
 #include <array>
 
@@ -11,8 +10,7 @@
 
 namespace ninedof {
 
-/// Coordinates x of O have their origin at the middle of the joints and the robot's size as unit, so that one set of
-/// tolerances serves every robot.
+/// Coordinates of O from the middle of the joints, in sizes of the robot: one set of tolerances serves every robot.
 class ScaledPose {
  public:
   ScaledPose(const Geometry& g, const Vec3& position, const Mat3& rotation, const InternalPointProblem& problem);
@@ -41,8 +39,7 @@ class ScaledPose {
   /// All points with O at x.
   Points points(const Vec3& x) const;
 
-  /// det B, det C and det N of singularity.hpp times the lengths of the vectors that their rows are made of: of first,
-  /// first and third degree in x.
+  /// det B, det C and det N of singularity.hpp times the lengths of their vectors: of degree 1, 1 and 3 in x.
   Vec3 volumes(const Vec3& x) const;
 
   /// The three determinants, each in [-1, 1]; 0 where x is a joint.

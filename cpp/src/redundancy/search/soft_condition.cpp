@@ -15,8 +15,7 @@ namespace {
 
 constexpr double weightless = 1e-17;  // smaller terms are below the rounding of the sum
 
-/// One internal leg and, for each of the six singular vectors, its rate and the velocity across it, divided by the
-/// singular value.
+/// One internal leg, its rate and the velocity across it for each of six singular vectors, over the singular value.
 struct Leg {
   Vec3 direction;
   double length;

@@ -1,9 +1,8 @@
 #pragma once
 /// Cells of an octree on one integer lattice, and the margins at its points, each evaluated once.
 ///
-/// If the best O is sought, it is mapped over the corners of level 0. Any later point lies half way between two known
-/// points: the ends of an edge, two opposite corners of a face or of a cell, or a corner and the centre of a larger
-/// cell.
+/// If the best O is sought, it is mapped over the corners of level 0. Any later point lies half way between known ones:
+/// the ends of an edge, opposite corners of a face or cell, or a corner and the centre of a larger cell.
 
 #include <cstdint>
 #include <memory>
@@ -47,8 +46,7 @@ class KeyTable {
   std::vector<std::uint64_t> keys_;
 };
 
-/// The margins of the points, by number. It grows without moving its elements: a copy of millions of points would take
-/// seconds that cannot be interrupted.
+/// The margins of the points, by number. Elements never move: copying millions would take seconds without interruption.
 class PointStore {
  public:
   const PointMargins& operator[](std::size_t number) const { return blocks_[number / block][number % block]; }
@@ -78,8 +76,7 @@ class CellLattice {
   Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
   const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
 
-  /// Numbers the corners and centres of cells, to be evaluated next. The first call must be for all cells of level 0.
-  /// Throws Stopped.
+  /// Numbers the corners and centres of cells, to be evaluated next; first of all those of level 0. Throws Stopped.
   std::vector<NinePoints> points_of(const std::vector<Cell>& cells, const std::stop_token& stop = {});
   /// Evaluates the points numbered since the last call; `expected` and `volume` are reported. Throws Stopped.
   void evaluate(const Control& control, long expected, double volume);

@@ -31,11 +31,9 @@ class CutCell {
     double area;
     int limit;
   };
-  /// Appends the parts of the boundary: the area of each polygon is divided equally among its corners, each with its
-  /// limit.
+  /// Appends the boundary: the area of each polygon, divided equally among its corners, each with its limit.
   void boundary(const Vec3& size, std::vector<Piece>& out);
-  /// Appends the crossings of the three edges at corner 0, in units of the cell's sides; neighbours have the other
-  /// edges.
+  /// Appends the crossings of the three edges at corner 0, in sides of the cell; neighbours have the other edges.
   void crossings(std::vector<Vec3>& out);
 
  private:

@@ -39,8 +39,7 @@ class FreeDistance {
   NearPoints near_;
 };
 
-/// Moves the centre while the radius grows, in ever smaller steps. The centre never leaves its ball, so that it cannot
-/// cross the surface.
+/// Moves the centre while the radius grows, in ever smaller steps. It stays in its ball and cannot cross the surface.
 InscribedBall maximised(const FreeDistance& distance, InscribedBall ball, double step) {
   const double least = 1e-5 * step;
   step = std::min(step, 0.5 * ball.radius);

@@ -44,8 +44,7 @@ struct CellBox {
   double volume = 0.0;
 };
 
-/// For each range of layers: the columns that are full in all of them, and the largest rectangle of such columns (by
-/// the histogram method).
+/// For each range of layers the largest rectangle of columns that are full in all of them (by the histogram method).
 CellBox largest_of_cells(const Raster& r, const Vec3& size) {
   const int n = r.side();
   const auto width = at_index(n);

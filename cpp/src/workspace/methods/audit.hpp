@@ -1,6 +1,5 @@
 #pragma once
-/// Poses that check the classification of cells: a low-discrepancy sequence over the cells of level 0 that are not
-/// proved.
+/// Poses that check cells: a low-discrepancy sequence over the cells of level 0 that are not proved.
 
 #include "workspace/cells/octree.hpp"
 
@@ -22,8 +21,7 @@ class Audit {
   /// Marks every cell that one of the poses contradicts as boundary.
   Disagreement open(std::vector<Leaf>& leaves) const;
 
-  /// Assigns the poses to the children of divided cells; `rank` is the number of a cell among those, -1 for settled
-  /// ones.
+  /// Assigns poses to the children of divided cells; `rank` numbers the divided ones, -1 for settled ones.
   void descend(const std::vector<Leaf>& leaves, const std::vector<long>& rank, const CellLattice& lattice);
 
  private:
