@@ -1,14 +1,67 @@
-#include "design/constraints/spread.hpp"
+/// leg_ratio: longest over shortest leg, of all legs at all poses looked at. stroke: longest less shortest length of each
+/// leg over those poses; stroke_ratio: longest over shortest. Declared in design/constraints/table.hpp.
+///
+/// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
+/// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many
+/// legs, one auxiliary variable h for each group makes all margins smooth:
+///   phi(b) - h >= 0  for every b,    room + h - phi(a) >= 0  for every a.
 
 #include <cmath>
 
-namespace ninedof {
+#include "design/constraints/constraint.hpp"
 
-Spread::Spread(const Limit& limit, Measure measure, int groups, int count, Purpose purpose)
+namespace ninedof {
+namespace {
+
+class Spread : public Constraint {
+ public:
+  enum class Measure { ratio, difference };
+
+  /// One group of all legs, or one for each leg; a leg at each of `poses` poses is a member.
+  Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose);
+
+  double price_factor(int row) const override;
+  double violation_factor(int row) const override;
+  int auxiliary_count() const override { return way_ == Way::auxiliary ? groups_ : 0; }
+  double auxiliary_value(const DesignState& v, int group) const override;
+
+ private:
+  enum class Way { pairs, auxiliary, ruling };
+  static constexpr int few = 9;
+
+  int each() const;
+  int items(Side side) const override;
+  double item_margin(const DesignState& v, Side side, int item) const override;
+  void add_item_gradient(const DesignState& v, Side side, int item, Row out) const override;
+
+  /// Member `k` of a group, and its longest and shortest.
+  LegExtreme leg(const DesignState& v, int group, int k) const {
+    return each_leg_ ? LegExtreme{v.first_pose + k, group} : LegExtreme{v.first_pose + k / 9, k % 9};
+  }
+  LegExtreme longest(const DesignState& v, int group) const {
+    return each_leg_ ? LegExtreme{v.longest_of[at_index(group)], group} : v.longest;
+  }
+  LegExtreme shortest(const DesignState& v, int group) const {
+    return each_leg_ ? LegExtreme{v.shortest_of[at_index(group)], group} : v.shortest;
+  }
+
+  double room() const;
+  double phi(const DesignState& v, const LegExtreme& l) const;
+  void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const;
+  std::pair<LegExtreme, LegExtreme> pair(const DesignState& v, int group, int item) const;
+
+  Measure measure_;
+  bool each_leg_;
+  int groups_, count_;
+  Way way_;
+};
+
+Spread::Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose)
     : Constraint(limit),
       measure_(measure),
-      groups_(groups),
-      count_(count),
+      each_leg_(each_leg),
+      groups_(each_leg ? 9 : 1),
+      count_(each_leg ? poses : 9 * poses),
       way_(purpose == Purpose::evaluate || count < 2 ? Way::ruling
            : count <= few                            ? Way::pairs
                                                      : Way::auxiliary) {}
@@ -94,6 +147,17 @@ void Spread::add_item_gradient(const DesignState& v, Side side, int item, Row ou
   const double sign = k < count_ ? 1.0 : -1.0;
   add_phi(v, leg(v, group, k % count_), sign, out);
   out[auxiliary_coordinate() + group] -= sign;
+}
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_leg_ratio(const Limit& limit, int poses, Purpose purpose) {
+  return std::make_unique<Spread>(limit, Spread::Measure::ratio, false, std::max(poses, 1), purpose);
+}
+
+std::unique_ptr<Constraint> make_stroke(const Limit& limit, int poses, Purpose purpose) {
+  const auto measure = limit.name == "stroke_ratio" ? Spread::Measure::ratio : Spread::Measure::difference;
+  return std::make_unique<Spread>(limit, measure, true, std::max(poses, 1), purpose);
 }
 
 }  // namespace ninedof

@@ -31,27 +31,22 @@ int count_auxiliary(const Problem& problem) {
 }  // namespace
 
 PreparedProblem::PreparedProblem(const Problem& given, double size_limit)
-    : problem(given),
-      family(&design_family(given.family)),
-      coordinates(given, size_limit, count_auxiliary(given)),
-      pose_specs(ninedof::pose_specs(given, coordinates)),
-      objective_poses(static_cast<int>(given.objective.poses.size())) {
-  count_rows(Purpose::solve);
+    : PreparedProblem(given, Coordinates(given, size_limit, count_auxiliary(given)), Purpose::solve) {
   learn_constraints(coordinates);
   drop_repeated_margins();
 }
 
 PreparedProblem::PreparedProblem(const Problem& given)
-    : problem(given),
-      family(&design_family(given.family)),
-      coordinates(Coordinates::plain(given)),
-      pose_specs(ninedof::pose_specs(given, coordinates)),
-      objective_poses(static_cast<int>(given.objective.poses.size())) {
-  count_rows(Purpose::evaluate);
+    : PreparedProblem(given, Coordinates::plain(given), Purpose::evaluate) {
   learn_constraints(Coordinates(given, probe_size * given.unit()));
 }
 
-void PreparedProblem::count_rows(Purpose purpose) {
+PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpose purpose)
+    : problem(given),
+      family(&design_family(given.family)),
+      coordinates(std::move(solved)),
+      pose_specs(ninedof::pose_specs(given, coordinates)),
+      objective_poses(static_cast<int>(given.objective.poses.size())) {
   const Objective& o = problem.objective;
   const int poses = evaluated_poses();
   for (int k = 0; k < poses; ++k) {

@@ -65,7 +65,7 @@ struct PreparedProblem {
   double objective(const Eigen::VectorXd& levels, Eigen::VectorXd* slopes = nullptr) const;
 
  private:
-  void count_rows(Purpose purpose);
+  PreparedProblem(const Problem& problem, Coordinates solved, Purpose purpose);
   void learn_constraints(const Coordinates& within);
   void drop_repeated_margins();
 

@@ -77,18 +77,13 @@ bool lost(const ScaledPose& pose, Descent& d) {
     d.ending = Ending::away;
     return true;
   }
-  for (int k = 0; k < 6; ++k)
-    if ((d.x - pose.joint(k)).norm() < next_to_joint) {
-      d.ending = Ending::in_joint;
-      d.leg = k;
-      return true;
-    }
-  // det N has no limit there: its value depends on the direction in which O comes.
-  for (int k = 0; k < 6; ++k)
-    if ((d.x - pose.external_joint(k)).norm() < next_to_joint) {
-      d.ending = Ending::in_joint;
-      return true;
-    }
+  // Next to an external joint det N has no limit: its value depends on the direction in which O comes.
+  for (int k = 0; k < 12; ++k) {
+    if (!((d.x - (k < 6 ? pose.joint(k) : pose.external_joint(k - 6))).norm() < next_to_joint)) continue;
+    d.ending = Ending::in_joint;
+    if (k < 6) d.leg = k;
+    return true;
+  }
   return false;
 }
 

@@ -10,8 +10,8 @@ namespace ninedof {
 constexpr double limit_tolerance = 1e-10;
 
 /// The logarithm of the condition number, smoothed: epsilon log sum (sigma_k)^(1/epsilon) + epsilon log sum
-/// (sigma_k)^(-1/epsilon), at most 2 epsilon log 6 above log(sigma_1 / sigma_6). Symmetric in the singular values, it is
-/// smooth in O even where they coincide. Every sigma must be positive.
+/// (sigma_k)^(-1/epsilon), at most 2 epsilon log 6 above log(sigma_1 / sigma_6). Symmetric in the singular values,
+/// it is smooth in O even where they coincide. Every sigma must be positive.
 Jet soft_condition(const Points& at, const NineLegs& legs, const Spectrum& s, double epsilon);
 
 /// The criterion as a quantity to minimise (the logarithm of the condition number, minus the logarithm of the least

@@ -6,9 +6,28 @@
 #include "ninedof/redundancy/redundancy.hpp"
 #include "ninedof/robot/geometry.hpp"
 #include "ninedof/robot/points.hpp"
-#include "redundancy/search/jet.hpp"
 
 namespace ninedof {
+
+/// A function of O to second order: value, gradient and Hessian at one point.
+struct Jet {
+  double value = 0.0;
+  Vec3 gradient = Vec3::Zero();
+  Mat3 hessian = Mat3::Zero();
+
+  /// Adds `weight` times another.
+  void add(double weight, const Jet& other) {
+    value += weight * other.value;
+    gradient += weight * other.gradient;
+    hessian += weight * other.hessian;
+  }
+  /// Adds f(other), given f and its first two derivatives there.
+  void add_function(double f, double slope, double curvature, const Jet& other) {
+    value += f;
+    gradient += slope * other.gradient;
+    hessian += slope * other.hessian + curvature * (other.gradient * other.gradient.transpose());
+  }
+};
 
 /// Coordinates of O from the middle of the joints, in sizes of the robot: one set of tolerances serves every robot.
 class ScaledPose {
