@@ -62,9 +62,9 @@ Spread::Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Pu
       each_leg_(each_leg),
       groups_(each_leg ? 9 : 1),
       count_(each_leg ? poses : 9 * poses),
-      way_(purpose == Purpose::evaluate || count < 2 ? Way::ruling
-           : count <= few                            ? Way::pairs
-                                                     : Way::auxiliary) {}
+      way_(purpose == Purpose::evaluate || count_ < 2 ? Way::ruling
+           : count_ <= few                            ? Way::pairs
+                                                      : Way::auxiliary) {}
 
 int Spread::each() const {
   switch (way_) {

@@ -20,6 +20,9 @@ struct Leaf {
   double condition_number = 0.0;  ///< at the centre
   std::uint32_t worst_point = KeyTable::absent;  ///< of the lattice; absent for the centre
   std::int32_t piece = -1;
+
+  /// Whether it is of the workspace: of piece 0, or of any piece.
+  bool counts(bool first_piece_alone) const { return inside != 0 && (!first_piece_alone || piece == 0); }
 };
 
 /// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or

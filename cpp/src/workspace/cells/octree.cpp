@@ -131,13 +131,12 @@ class OctreeBuilder {
 
 void OctreeBuilder::measure(bool first_piece_alone, const Audit& audit) {
   if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
-  const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   double volume = 0.0, undecided = 0.0, change = 0.0;
   for (std::size_t n = 0; n < tree.leaves.size(); ++n) {
     const Leaf& leaf = tree.leaves[n];
-    if (counted(leaf)) volume += leaf.fraction * leaf.measure;
+    if (leaf.counts(first_piece_alone)) volume += leaf.fraction * leaf.measure;
     if (leaf.state != CellState::boundary) continue;
-    if (counted(leaf) || leaf.inside == 0) undecided += leaf.measure;
+    if (leaf.counts(first_piece_alone) || leaf.inside == 0) undecided += leaf.measure;
   }
   for (std::size_t p = 0; p < parents_.size(); ++p) {
     double held = 0.0;

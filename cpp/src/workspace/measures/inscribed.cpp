@@ -58,12 +58,18 @@ InscribedBall maximised(const FreeDistance& distance, InscribedBall ball, double
   return ball;
 }
 
-std::vector<char> allowed_at(const Margins& margins, const std::vector<Vec3>& x, const Control& control) {
-  std::vector<PointMargins> out(x.size());
-  margins.evaluate(x.data(), static_cast<long>(x.size()), out.data(), control.stop);
-  std::vector<char> allowed;
-  for (const PointMargins& m : out) allowed.push_back(m.allowed(margins.groups()));
-  return allowed;
+/// The greatest scale from `low` to `high`, by bisection, at which all points that `sample` gives are allowed.
+template <class Sample>
+double fitting_scale(const Margins& margins, const Control& control, double low, double high, const Sample& sample) {
+  const auto fits = [&](double scale) {
+    const std::vector<Vec3> x = sample(scale);
+    std::vector<PointMargins> out(x.size());
+    margins.evaluate(x.data(), static_cast<long>(x.size()), out.data(), control.stop);
+    return std::ranges::all_of(out, [&](const PointMargins& m) { return m.allowed(margins.groups()); });
+  };
+  if (fits(high)) return high;
+  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return low;
 }
 
 /// Evenly spread points of the unit sphere (Fibonacci lattice).
@@ -75,23 +81,18 @@ Vec3 ray(int n) {
 
 /// Shrinks a ball until sampled points of its surface are allowed.
 void shrink(InscribedBall& ball, const Margins& margins, const Control& control) {
-  double low = 0.9 * ball.radius, high = ball.radius;
-  const auto fits = [&](double radius) {
+  ball.radius = fitting_scale(margins, control, 0.9 * ball.radius, ball.radius, [&](double radius) {
     std::vector<Vec3> x;
     for (int n = 0; n < rays; ++n) x.push_back(ball.centre + radius * ray(n));
-    const std::vector<char> allowed = allowed_at(margins, x, control);
-    return std::ranges::all_of(allowed, [](char a) { return a != 0; });
-  };
-  if (fits(high)) return;
-  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  ball.radius = low;
+    return x;
+  });
 }
 
 /// Shrinks a box until sampled points of its faces are allowed.
 void shrink(InscribedBox& box, const Margins& margins, const Control& control) {
   constexpr int steps = 9;
   const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
-  const auto fits = [&](double scale) {
+  const double scale = fitting_scale(margins, control, 0.9, 1.0, [&](double tried) {
     std::vector<Vec3> x;
     for (int axis = 0; axis < 3; ++axis)
       for (int n = 0; n < 2 * steps * steps; ++n) {
@@ -99,31 +100,26 @@ void shrink(InscribedBox& box, const Margins& margins, const Control& control) {
         at[axis] = n % 2 == 0 ? -1.0 : 1.0;
         at[(axis + 1) % 3] = 2.0 * (n / 2 % steps) / (steps - 1) - 1.0;
         at[(axis + 2) % 3] = 2.0 * (n / 2 / steps) / (steps - 1) - 1.0;
-        x.push_back(middle + scale * at.cwiseProduct(half));
+        x.push_back(middle + tried * at.cwiseProduct(half));
       }
-    const std::vector<char> allowed = allowed_at(margins, x, control);
-    return std::ranges::all_of(allowed, [](char a) { return a != 0; });
-  };
-  double low = 0.9, high = 1.0;
-  if (fits(high)) return;
-  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  box = {middle - low * half, middle + low * half};
+    return x;
+  });
+  if (scale < 1.0) box = {middle - scale * half, middle + scale * half};
 }
 
 }  // namespace
 
 void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
               const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map) {
-  const auto counted = [&](const Leaf& leaf) { return !first_piece_alone || leaf.piece == 0; };
   const std::vector<Vec3> points = thinned(surface.points);
   const FreeDistance distance(margins.chart(), points);
   int coarsest = CellLattice::deepest;
   for (const Leaf& leaf : leaves)
-    if (leaf.inside == 255 && counted(leaf)) coarsest = std::min<int>(coarsest, leaf.cell.level);
+    if (leaf.inside == 255 && leaf.counts(first_piece_alone)) coarsest = std::min<int>(coarsest, leaf.cell.level);
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     const Leaf& leaf = leaves[n];
-    if (leaf.inside != 255 || !counted(leaf) || leaf.cell.level > coarsest + 1)
+    if (leaf.inside != 255 || !leaf.counts(first_piece_alone) || leaf.cell.level > coarsest + 1)
       continue;  // small cells are near the boundary
     const double radius = distance.at(lattice.centre(leaf.cell));
     if (radius > 0.0) found.emplace_back(radius, n);

@@ -10,10 +10,6 @@
 namespace ninedof {
 namespace {
 
-bool counted(const Leaf& leaf, bool first_piece_alone) {
-  return leaf.inside != 0 && (!first_piece_alone || leaf.piece == 0);
-}
-
 /// Allowed area of a leaf on the faces of the chart's box, by its corners there.
 double face_area(const Leaf& leaf, const Vec3& size, int resolution, int first_axis) {
   const std::uint32_t end = (static_cast<std::uint32_t>(resolution) << leaf.cell.level) - 1;
@@ -62,7 +58,7 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
   out.area.assign(limit::count, 0.0);
   std::vector<Cell> cut;
   for (const Leaf& leaf : tree.leaves) {
-    if (!counted(leaf, first_piece_alone)) continue;
+    if (!leaf.counts(first_piece_alone)) continue;
     if (leaf.inside != 255) cut.push_back(leaf.cell);
     const Chart& chart = margins.chart();
     // The ball of a rotation chart has its own margin; for tilt and torsion only the ends of the torsion are faces.
@@ -99,7 +95,7 @@ void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool
     cells.condition_number.push_back(leaf.condition_number);
     cells.piece.push_back(leaf.piece);
     const double weight = leaf.fraction * leaf.measure;
-    if (!counted(leaf, first_piece_alone) || !(weight > 0.0)) continue;
+    if (!leaf.counts(first_piece_alone) || !(weight > 0.0)) continue;
     held += weight;
     sum += leaf.conditioning;
     coarse += leaf.conditioning_coarse;

@@ -99,11 +99,10 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   surface.area.assign(limit::count, 0.0);
   double undecided = 0.0;
   map.volume = 0.0;
-  const auto counted = [&](const Leaf& l) { return l.inside != 0 && (!first_piece_alone || l.piece == 0); };
   const std::size_t stride[] = {1, at_index(n), at_index(n) * at_index(n)};
   for (std::size_t c = 0; c < leaves.size(); ++c) {
     Leaf& leaf = leaves[c];
-    if (!counted(leaf)) continue;
+    if (!leaf.counts(first_piece_alone)) continue;
     map.volume += leaf.measure;
     const std::uint32_t at[] = {leaf.cell.i, leaf.cell.j, leaf.cell.k};
     for (int axis = 0; axis < 3; ++axis)
@@ -114,7 +113,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
           continue;
         }
         Leaf& other = leaves[way < 0 ? c - stride[axis] : c + stride[axis]];
-        if (counted(other)) continue;
+        if (other.counts(first_piece_alone)) continue;
         if (leaf.state != CellState::boundary) undecided += leaf.measure * leaf.measure;
         leaf.state = CellState::boundary;
         if (other.limit >= 0) {
