@@ -10,13 +10,6 @@ constexpr std::array<int, 2> closed_tops{AxisPoint::axial_max, AxisPoint::transv
 constexpr std::array<int, 2> closed_bottoms{AxisPoint::axial_min, AxisPoint::transverse_min};
 constexpr std::array<int, 3> general_tops{0, 1, 2}, general_bottoms{5, 4, 3};
 
-std::span<const int> tops_of(bool closed) {
-  return closed ? std::span<const int>(closed_tops) : std::span<const int>(general_tops);
-}
-std::span<const int> bottoms_of(bool closed) {
-  return closed ? std::span<const int>(closed_bottoms) : std::span<const int>(general_bottoms);
-}
-
 /// Multiplicity of a singular value.
 double multiplicity(bool closed, int k) {
   return closed && k >= AxisPoint::transverse_max ? 2.0 : 1.0;
@@ -38,11 +31,11 @@ double frobenius(const PoseSpectrum& s, std::array<double, 6>& slope) {
 
 }  // namespace
 
-std::span<const int> PoseSpectrum::tops() const {
-  return tops_of(closed);
+std::span<const int> tops_of(bool closed) {
+  return closed ? std::span<const int>(closed_tops) : std::span<const int>(general_tops);
 }
-std::span<const int> PoseSpectrum::bottoms() const {
-  return bottoms_of(closed);
+std::span<const int> bottoms_of(bool closed) {
+  return closed ? std::span<const int>(closed_bottoms) : std::span<const int>(general_bottoms);
 }
 
 void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives) {

@@ -16,13 +16,13 @@ struct PoseSpectrum {
   Eigen::Matrix<double, 6, 1> log_sigma;
   Rows gradient;      ///< one row each
   Spectrum general;   ///< where log_sigma has all six
-
-  /// Entries that may be the largest, and the smallest.
-  std::span<const int> tops() const;
-  std::span<const int> bottoms() const;
   double log_max() const { return closed ? std::max(log_sigma[0], log_sigma[2]) : log_sigma[0]; }
   double log_min() const { return closed ? std::min(log_sigma[1], log_sigma[3]) : log_sigma[5]; }
 };
+
+/// Entries of log_sigma that may be the largest, and the smallest.
+std::span<const int> tops_of(bool closed);
+std::span<const int> bottoms_of(bool closed);
 
 /// All six singular values of the nine-legged robot at a pose; without `derivatives` the gradient is not computed.
 void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives = true);

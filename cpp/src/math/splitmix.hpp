@@ -5,11 +5,16 @@
 
 namespace ninedof {
 
-/// A number uniform in [0, 1) from any 64 bits: the last mixing step of splitmix64.
-inline double uniform_from(std::uint64_t z) {
+/// The last mixing step of splitmix64.
+inline std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  return z ^ (z >> 31);
+}
+
+/// A number uniform in [0, 1) from any 64 bits.
+inline double uniform_from(std::uint64_t z) {
+  return static_cast<double>(mixed(z) >> 11) * 0x1.0p-53;
 }
 
 }  // namespace ninedof

@@ -23,11 +23,6 @@ std::string join(const std::vector<std::string>& words) {
   return out;
 }
 
-bool reaches_size_limit(const PreparedProblem& p, const Candidate& best) {
-  return near_internal_bound(p.coordinates, best.variables, 1e-3,
-                             [](const Variable& v) { return !v.internal_bounds && v.kind != VariableKind::angle; });
-}
-
 /// Unbounded: the best design of every round is at its size limit, none is worse than the one before, and together they
 /// improve the index. (A variable without effect on the index may be at its limit by chance.)
 bool keeps_improving(const std::vector<RoundBest>& rounds) {
@@ -98,7 +93,10 @@ std::vector<double> size_limits(const Problem& p) {
 }
 
 RoundBest round_best(const PreparedProblem& p, double size_limit, const Candidate& best) {
-  return {size_limit, best, reaches_size_limit(p, best)};
+  const bool reached = near_internal_bound(p.coordinates, best.variables, 1e-3, [](const Variable& v) {
+    return !v.internal_bounds && v.kind != VariableKind::angle;
+  });
+  return {size_limit, best, reached};
 }
 
 void detect_unbounded(const Problem& problem, std::vector<RoundBest> rounds, Result& result) {

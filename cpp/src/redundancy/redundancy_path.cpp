@@ -52,25 +52,14 @@ class ChamberTracker {
   bool gap_ = false;
 };
 
-InternalPoint with_status(InternalPointStatus status) {
-  InternalPoint out;
-  out.status = status;
-  return out;
-}
-
 /// The local minima of a pose; where there are none, `out` says why.
 PathPose search_minima(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
                        ChamberTracker& chamber, InternalPoint& out) {
   PathPose found;
-  if (pose.position.hasNaN() || pose.rotation.hasNaN()) return found;
-  out.active = external_out_of_limits(g, pose.position, pose.rotation, problem);
-  if (!out.active.empty()) {
-    out.status = InternalPointStatus::infeasible;
-    return found;
-  }
+  out = checked_pose(g, pose.position, pose.rotation, problem).point;
+  if (out.status != InternalPointStatus::singular) return found;
   found.pose = std::make_unique<ScaledPose>(g, pose.position, pose.rotation, problem);
   found.objective = std::make_unique<PoseObjective>(*found.pose, problem);
-  out = with_status(InternalPointStatus::singular);
   for (const Vec3& x : chamber.starts(*found.pose, problem)) {
     found.objective->enter_chamber(x);
     Minima minima = local_minima(*found.objective, x);

@@ -12,15 +12,14 @@ namespace {
 using std::numbers::pi;
 using enum OrientationRegion::Chart;
 
-/// 2 (1 - cos t) / t^2 = (sin(t/2) / (t/2))^2 without cancellation.
-double haar_of_vector(double t) {
-  const double half = 0.5 * t;
-  const double ratio = half > 1e-4 ? std::sin(half) / half : 1.0 - half * half / 6.0;
-  return ratio * ratio;
-}
-
 double sinc(double t) {
   return t > 1e-4 ? std::sin(t) / t : 1.0 - t * t / 6.0;
+}
+
+/// 2 (1 - cos t) / t^2 = (sin(t/2) / (t/2))^2 without cancellation.
+double haar_of_vector(double t) {
+  const double ratio = sinc(0.5 * t);
+  return ratio * ratio;
 }
 
 }  // namespace

@@ -35,22 +35,6 @@ bool runs_v4() {
 }
 #endif
 
-}  // namespace
-
-const Table* table_of(const std::string& level) {
-  // No instruction of v2 helps these kernels.
-  if (level == "base" || level == "v2") return &base::level_table;
-#ifdef NINEDOF_HAS_v3
-  if (level == "v3" && runs_v3()) return &v3::level_table;
-#endif
-#ifdef NINEDOF_HAS_v4
-  if (level == "v4" && runs_v4()) return &v4::level_table;
-#endif
-  return nullptr;
-}
-
-namespace {
-
 const Table& choose() {
   const char* forced = std::getenv("NINEDOF_SIMD");
   if (forced == nullptr || *forced == '\0') {
@@ -66,6 +50,18 @@ const Table& choose() {
 }
 
 }  // namespace
+
+const Table* table_of(const std::string& level) {
+  // No instruction of v2 helps these kernels.
+  if (level == "base" || level == "v2") return &base::level_table;
+#ifdef NINEDOF_HAS_v3
+  if (level == "v3" && runs_v3()) return &v3::level_table;
+#endif
+#ifdef NINEDOF_HAS_v4
+  if (level == "v4" && runs_v4()) return &v4::level_table;
+#endif
+  return nullptr;
+}
 
 const Table& table() {
   static const Table& chosen = choose();

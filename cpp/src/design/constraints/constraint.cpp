@@ -4,10 +4,6 @@
 
 namespace ninedof {
 
-bool Constraint::has_low() const {
-  return limit_.low > 0.0;
-}
-
 std::pair<Side, int> Constraint::item_of(int row) const {
   const int high = has_high() ? items(Side::high) : 0;
   if (row < high) return {Side::high, row};

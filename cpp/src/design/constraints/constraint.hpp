@@ -62,7 +62,7 @@ class Constraint {
   virtual void add_item_gradient(const DesignState& v, Side side, int item, Row out) const;
 
   bool has_high() const { return limit_.high < infinity; }
-  bool has_low() const;
+  bool has_low() const { return limit_.low > 0.0; }
   double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }
   std::pair<Side, int> item_of(int row) const;
   /// The length that limits are fractions of. The second adds `scale` times its derivatives.

@@ -18,21 +18,45 @@ class Spread : public Constraint {
   enum class Measure { ratio, difference };
 
   /// One group of all legs, or one for each leg; a leg at each of `poses` poses is a member.
-  Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose);
+  Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose)
+      : Constraint(limit),
+        measure_(measure),
+        each_leg_(each_leg),
+        groups_(each_leg ? 9 : 1),
+        count_(each_leg ? poses : 9 * poses),
+        way_(purpose == Purpose::evaluate || count_ < 2 ? Way::ruling
+             : count_ <= few                            ? Way::pairs
+                                                        : Way::auxiliary) {}
 
-  double price_factor(int row) const override;
-  double violation_factor(int row) const override;
+  double price_factor(int row) const override {
+    const auto [side, item] = item_of(row);
+    return way_ == Way::auxiliary && side == Side::high && item % each() < count_ ? 0.0 : 1.0;
+  }
+  double violation_factor(int row) const override {
+    return way_ == Way::auxiliary && item_of(row).first == Side::high ? 2.0 : 1.0;
+  }
   int auxiliary_count() const override { return way_ == Way::auxiliary ? groups_ : 0; }
-  double auxiliary_value(const DesignState& v, int group) const override;
+  double auxiliary_value(const DesignState& v, int group) const override {
+    // In the middle between the bounds of h, whether they leave room or not.
+    return 0.5 * (phi(v, shortest(v, group)) + phi(v, longest(v, group)) - room());
+  }
 
  private:
   enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;
 
-  int each() const;
-  int items(Side side) const override;
-  double item_margin(const DesignState& v, Side side, int item) const override;
-  void add_item_gradient(const DesignState& v, Side side, int item, Row out) const override;
+  int each() const {
+    switch (way_) {
+      case Way::pairs: return count_ * (count_ - 1);
+      case Way::auxiliary: return 2 * count_;
+      case Way::ruling: return 1;
+    }
+    return 0;
+  }
+  int items(Side side) const override {
+    // At least: only the longest and the shortest leg count.
+    return side == Side::high ? groups_ * each() : groups_;
+  }
 
   /// Member `k` of a group, and its longest and shortest.
   LegExtreme leg(const DesignState& v, int group, int k) const {
@@ -45,109 +69,60 @@ class Spread : public Constraint {
     return each_leg_ ? LegExtreme{v.shortest_of[at_index(group)], group} : v.shortest;
   }
 
-  double room() const;
-  double phi(const DesignState& v, const LegExtreme& l) const;
-  void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const;
-  std::pair<LegExtreme, LegExtreme> pair(const DesignState& v, int group, int item) const;
+  double room() const { return measure_ == Measure::ratio ? std::log(limit().high) : 1.0; }
+  double phi(const DesignState& v, const LegExtreme& l) const {
+    if (measure_ == Measure::ratio) return std::log(v.length(l) / v.unit);
+    return v.length(l) / (limit().high * unit(v));
+  }
+  void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const {
+    const double length = v.length(l);
+    if (measure_ == Measure::ratio) {
+      if (length > 0.0) v.add_leg(l.pose, l.leg, scale / length, out);
+      return;
+    }
+    const double size = limit().high * unit(v);
+    v.add_leg(l.pose, l.leg, scale / size, out);
+    add_unit_gradient(v, -scale * length * limit().high / (size * size), out);
+  }
+  std::pair<LegExtreme, LegExtreme> pair(const DesignState& v, int group, int item) const {
+    if (way_ == Way::ruling) return {longest(v, group), shortest(v, group)};
+    const int a = item / (count_ - 1), b = item % (count_ - 1);
+    return {leg(v, group, a), leg(v, group, b < a ? b : b + 1)};
+  }
+
+  double item_margin(const DesignState& v, Side side, int item) const override {
+    if (side == Side::low) return phi(v, longest(v, item)) - phi(v, shortest(v, item)) - std::log(limit().low);
+    const int group = item / each(), k = item % each();
+    if (way_ != Way::auxiliary) {
+      const auto [a, b] = pair(v, group, k);
+      return room() - (phi(v, a) - phi(v, b));
+    }
+    const double h = v.x[auxiliary_variable() + group];
+    return k < count_ ? phi(v, leg(v, group, k)) - h : room() + h - phi(v, leg(v, group, k - count_));
+  }
+  void add_item_gradient(const DesignState& v, Side side, int item, Row out) const override {
+    if (side == Side::low) {
+      add_phi(v, longest(v, item), 1.0, out);
+      add_phi(v, shortest(v, item), -1.0, out);
+      return;
+    }
+    const int group = item / each(), k = item % each();
+    if (way_ != Way::auxiliary) {
+      const auto [a, b] = pair(v, group, k);
+      add_phi(v, a, -1.0, out);
+      add_phi(v, b, 1.0, out);
+      return;
+    }
+    const double sign = k < count_ ? 1.0 : -1.0;
+    add_phi(v, leg(v, group, k % count_), sign, out);
+    out[auxiliary_coordinate() + group] -= sign;
+  }
 
   Measure measure_;
   bool each_leg_;
   int groups_, count_;
   Way way_;
 };
-
-Spread::Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose)
-    : Constraint(limit),
-      measure_(measure),
-      each_leg_(each_leg),
-      groups_(each_leg ? 9 : 1),
-      count_(each_leg ? poses : 9 * poses),
-      way_(purpose == Purpose::evaluate || count_ < 2 ? Way::ruling
-           : count_ <= few                            ? Way::pairs
-                                                      : Way::auxiliary) {}
-
-int Spread::each() const {
-  switch (way_) {
-    case Way::pairs: return count_ * (count_ - 1);
-    case Way::auxiliary: return 2 * count_;
-    case Way::ruling: return 1;
-  }
-  return 0;
-}
-
-int Spread::items(Side side) const {
-  // At least: only the longest and the shortest leg count.
-  return side == Side::high ? groups_ * each() : groups_;
-}
-
-double Spread::price_factor(int row) const {
-  const auto [side, item] = item_of(row);
-  return way_ == Way::auxiliary && side == Side::high && item % each() < count_ ? 0.0 : 1.0;
-}
-
-double Spread::violation_factor(int row) const {
-  return way_ == Way::auxiliary && item_of(row).first == Side::high ? 2.0 : 1.0;
-}
-
-double Spread::room() const {
-  return measure_ == Measure::ratio ? std::log(limit().high) : 1.0;
-}
-
-double Spread::phi(const DesignState& v, const LegExtreme& l) const {
-  if (measure_ == Measure::ratio) return std::log(v.length(l) / v.unit);
-  return v.length(l) / (limit().high * unit(v));
-}
-
-void Spread::add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const {
-  const double length = v.length(l);
-  if (measure_ == Measure::ratio) {
-    if (length > 0.0) v.add_leg(l.pose, l.leg, scale / length, out);
-    return;
-  }
-  const double size = limit().high * unit(v);
-  v.add_leg(l.pose, l.leg, scale / size, out);
-  add_unit_gradient(v, -scale * length * limit().high / (size * size), out);
-}
-
-double Spread::auxiliary_value(const DesignState& v, int group) const {
-  // In the middle between the bounds of h, whether they leave room or not.
-  return 0.5 * (phi(v, shortest(v, group)) + phi(v, longest(v, group)) - room());
-}
-
-std::pair<LegExtreme, LegExtreme> Spread::pair(const DesignState& v, int group, int item) const {
-  if (way_ == Way::ruling) return {longest(v, group), shortest(v, group)};
-  const int a = item / (count_ - 1), b = item % (count_ - 1);
-  return {leg(v, group, a), leg(v, group, b < a ? b : b + 1)};
-}
-
-double Spread::item_margin(const DesignState& v, Side side, int item) const {
-  if (side == Side::low) return phi(v, longest(v, item)) - phi(v, shortest(v, item)) - std::log(limit().low);
-  const int group = item / each(), k = item % each();
-  if (way_ != Way::auxiliary) {
-    const auto [a, b] = pair(v, group, k);
-    return room() - (phi(v, a) - phi(v, b));
-  }
-  const double h = v.x[auxiliary_variable() + group];
-  return k < count_ ? phi(v, leg(v, group, k)) - h : room() + h - phi(v, leg(v, group, k - count_));
-}
-
-void Spread::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
-  if (side == Side::low) {
-    add_phi(v, longest(v, item), 1.0, out);
-    add_phi(v, shortest(v, item), -1.0, out);
-    return;
-  }
-  const int group = item / each(), k = item % each();
-  if (way_ != Way::auxiliary) {
-    const auto [a, b] = pair(v, group, k);
-    add_phi(v, a, -1.0, out);
-    add_phi(v, b, 1.0, out);
-    return;
-  }
-  const double sign = k < count_ ? 1.0 : -1.0;
-  add_phi(v, leg(v, group, k % count_), sign, out);
-  out[auxiliary_coordinate() + group] -= sign;
-}
 
 }  // namespace
 

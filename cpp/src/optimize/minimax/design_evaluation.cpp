@@ -13,9 +13,8 @@ struct ConditionPair {
   int top, bottom;
 };
 ConditionPair condition_pair(const PoseSpectrum& s, int row) {
-  const auto count = s.bottoms().size();
-  const auto k = at_index(row);
-  return {s.tops()[k / count], s.bottoms()[k % count]};
+  const auto tops = tops_of(s.closed), bottoms = bottoms_of(s.closed);
+  return {tops[at_index(row) / bottoms.size()], bottoms[at_index(row) % bottoms.size()]};
 }
 
 void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, DesignEvaluation& out) {

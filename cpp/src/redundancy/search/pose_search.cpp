@@ -35,8 +35,7 @@ InternalPoint unbounded(const LocalMinimum& local) {
   return out;
 }
 
-}  // namespace
-
+/// The limits of external legs that a pose breaks; they do not depend on O.
 ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                     const InternalPointProblem& problem) {
   const Vec9 length = leg_lengths(g, {position, rotation, position});
@@ -48,6 +47,8 @@ ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, con
   }
   return out;
 }
+
+}  // namespace
 
 bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x) {
   return (pose.determinants(x).cwiseAbs().array() > std::max(problem.clearance, on_singularity)).all();

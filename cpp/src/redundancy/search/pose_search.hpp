@@ -10,10 +10,6 @@
 
 namespace ninedof {
 
-/// The limits of external legs that a pose breaks; they do not depend on O.
-ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, const Mat3& rotation,
-                                    const InternalPointProblem& problem);
-
 /// Whether x is off every singularity, so that it lies in a chamber.
 bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "math/splitmix.hpp"
 #include "ninedof/math/parallel.hpp"
 
 namespace ninedof {
@@ -19,12 +20,6 @@ Index3 indices(std::uint64_t key) {
 
 std::uint64_t key_of(const Index3& at) {
   return at[0] | (at[1] << key_bits) | (at[2] << (2 * key_bits));
-}
-
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
 }
 
 }  // namespace
@@ -53,10 +48,6 @@ std::uint32_t KeyTable::add(std::uint64_t key) {
   return slots_[at].index;
 }
 
-std::uint32_t KeyTable::find(std::uint64_t key) const {
-  return slots_[place(key)].index;
-}
-
 CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
     : margins_(margins),
       best_(margins),
@@ -64,10 +55,6 @@ CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
       step_((margins.chart().high() - margins.chart().low()) / (resolution * static_cast<double>(2 << deepest))),
       resolution_(resolution),
       threads_(threads) {}
-
-Vec3 CellLattice::size(int level) const {
-  return step_ * static_cast<double>(2 << (deepest - level));
-}
 
 Vec3 CellLattice::centre(const Cell& c) const {
   const Vec3 index(static_cast<double>(c.i), static_cast<double>(c.j), static_cast<double>(c.k));

@@ -30,7 +30,7 @@ class KeyTable {
   /// The index of the key, which is added if it is new.
   std::uint32_t add(std::uint64_t key);
   /// The index of the key, or `absent`.
-  std::uint32_t find(std::uint64_t key) const;
+  std::uint32_t find(std::uint64_t key) const { return slots_[place(key)].index; }
   static constexpr std::uint32_t absent = 0xFFFFFFFFU;
   std::size_t size() const { return keys_.size(); }
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
@@ -71,7 +71,7 @@ class CellLattice {
 
   static constexpr int deepest = 10;
   Vec3 centre(const Cell& c) const;
-  Vec3 size(int level) const;
+  Vec3 size(int level) const { return step_ * static_cast<double>(2 << (deepest - level)); }
   Vec3 at(std::uint64_t key) const;
   Vec3 point(std::uint32_t index) const { return at(table_.key(index)); }
   const PointMargins& margins(std::uint32_t index) const { return known_[index]; }
