@@ -34,6 +34,12 @@ bool keeps_improving(const std::vector<RoundBest>& rounds) {
   return rounds.back().best.objective < rounds.front().best.objective * (1.0 - still_improving);
 }
 
+/// Whether a variable has no effective bound on a side that it needs.
+bool open_ended(const Problem& problem, VariableKind kind, const Bounds& b) {
+  return b.low < b.high && (!is_effective_bound(problem, b.high) ||
+                            (kind == VariableKind::coordinate && !is_effective_bound(problem, b.low)));
+}
+
 /// Variables without an effective bound that grow from round to round.
 std::vector<std::string> growing(const Problem& problem, const std::vector<RoundBest>& rounds) {
   std::vector<std::string> names;
@@ -41,9 +47,7 @@ std::vector<std::string> growing(const Problem& problem, const std::vector<Round
   for (std::size_t v = 0; v < info.size(); ++v) {
     const auto at = [&](const RoundBest& r) { return std::abs(r.best.variables[static_cast<Eigen::Index>(v)]); };
     const Bounds& b = problem.variables[v];
-    const bool open = !is_effective_bound(problem, b.high) ||
-                      (info[v].kind == VariableKind::coordinate && !is_effective_bound(problem, b.low));
-    bool grows = info[v].kind != VariableKind::angle && b.low < b.high && open;
+    bool grows = info[v].kind != VariableKind::angle && open_ended(problem, info[v].kind, b);
     for (std::size_t k = 1; grows && k < rounds.size(); ++k) grows = at(rounds[k]) > 1.5 * at(rounds[k - 1]);
     if (grows) names.push_back(info[v].name);
   }
@@ -78,11 +82,9 @@ std::vector<double> size_limits(const Problem& p) {
   for (std::size_t k = 0; k < info.size(); ++k) {
     if (info[k].kind == VariableKind::angle) continue;
     const Bounds& b = p.variables[k];
-    const bool coordinate = info[k].kind == VariableKind::coordinate;
-    const bool effective =
-        b.low == b.high || (is_effective_bound(p, b.high) && (!coordinate || is_effective_bound(p, b.low)));
-    open |= !effective;
-    size = std::max(size, effective ? std::abs(b.high) : std::abs(b.low) < 1e6 * p.unit() ? std::abs(b.low) : 0.0);
+    const bool without_end = open_ended(p, info[k].kind, b);
+    open |= without_end;
+    size = std::max(size, !without_end ? std::abs(b.high) : std::abs(b.low) < 1e6 * p.unit() ? std::abs(b.low) : 0.0);
   }
   std::vector<double> out;
   const double first = std::max(10.0 * size, 100.0 * p.unit());

@@ -11,12 +11,12 @@ Cluster::Cluster(const PreparedProblem& p, const DesignEvaluation& design, int p
   if (s.closed || index == Index::frobenius) return;
   condition_ = index == Index::condition_number;
   for (int k = 0; k < 6; ++k) {
-    if (s.log_sigma[0] - s.log_sigma[k] <= tie) tops_.push_back(k);
-    if (condition_ && s.log_sigma[k] - s.log_sigma[5] <= tie) bottoms_.push_back(k);
+    if (s.log_sigma[0] - s.log_sigma[k] <= tie) top_.members.push_back(k);
+    if (condition_ && s.log_sigma[k] - s.log_sigma[5] <= tie) bottom_.members.push_back(k);
   }
   if (!ambiguous()) return;
-  top_ = {tops_, cluster_block(design, pose, tops_)};
-  bottom_ = {bottoms_, cluster_block(design, pose, bottoms_)};
+  top_.entries = cluster_block(design, pose, top_.members);
+  bottom_.entries = cluster_block(design, pose, bottom_.members);
 }
 
 std::vector<Eigen::RowVectorXd> cluster_block(const DesignEvaluation& design, int pose,

@@ -18,7 +18,7 @@ class Cluster {
   Cluster(const PreparedProblem& p, const DesignEvaluation& design, int pose, double tie);
 
   /// Whether at least two singular values coincide.
-  bool ambiguous() const { return tops_.size() > 1 || bottoms_.size() > 1; }
+  bool ambiguous() const { return top_.members.size() > 1 || bottom_.members.size() > 1; }
 
   /// The row of derivatives of the index, among all directions, that points most against `along`.
   Eigen::VectorXd steepest(const Eigen::VectorXd& along) const;
@@ -31,7 +31,6 @@ class Cluster {
   };
   static Eigen::VectorXd extreme(const Block& b, const Eigen::VectorXd& along, double sign);
 
-  std::vector<int> tops_, bottoms_;
   Block top_, bottom_;
   bool condition_ = false;
 };

@@ -97,10 +97,10 @@ bool least_possible(const PreparedProblem& p, const DesignEvaluation& design) {
   return index != Index::speed && design.levels.maxCoeff() <= least + 1e-9;
 }
 
-/// Per cent of the objective for one per cent of a bound: the weight is per unit of the coordinate.
-double bound_price(const PreparedProblem& p, const DesignEvaluation& design, int coordinate, double weight) {
+/// Per cent of the objective for one per cent of a bound, per unit of weight.
+double bound_price(const PreparedProblem& p, const DesignEvaluation& design, int coordinate) {
   const double x = design.state.x[p.coordinates.variable(coordinate)];
-  return weight * std::abs(x) / p.coordinates.slopes(design.state.x)[coordinate];
+  return std::abs(x) / p.coordinates.slopes(design.state.x)[coordinate];
 }
 
 }  // namespace
@@ -123,15 +123,12 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
     columns.add(-design.margin_gradient.row(k));
     named.emplace_back(p.margin_name(k), p.margin_price(k));
   }
-  for (const int k : a.at_low) {
-    columns.add(-Eigen::VectorXd::Unit(n, k));
-    named.emplace_back(p.coordinates.internal_low(k) ? "" : p.coordinates.info(k).name, bound_price(p, design, k, 1.0));
-  }
-  for (const int k : a.at_high) {
-    columns.add(Eigen::VectorXd::Unit(n, k));
-    named.emplace_back(p.coordinates.internal_high(k) ? "" : p.coordinates.info(k).name,
-                       bound_price(p, design, k, 1.0));
-  }
+  const auto add_bound = [&](int k, const Eigen::VectorXd& outwards, bool internal) {
+    columns.add(outwards);
+    named.emplace_back(internal ? "" : p.coordinates.info(k).name, bound_price(p, design, k));
+  };
+  for (const int k : a.at_low) add_bound(k, -Eigen::VectorXd::Unit(n, k), p.coordinates.internal_low(k));
+  for (const int k : a.at_high) add_bound(k, Eigen::VectorXd::Unit(n, k), p.coordinates.internal_high(k));
   if (a.order) {
     columns.add(-p.coordinates.order().gradient);
     named.emplace_back("", 0.0);

@@ -4,14 +4,10 @@
 #include <vector>
 
 namespace ninedof {
-namespace {
-
-constexpr double least_gain = 1e-9;  // of the criterion's logarithm: less is rounding, passed on without end
-
-}  // namespace
 
 bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b) {
-  if (b.signs.isZero()) return true;  // no result yet
+  constexpr double least_gain = 1e-9;  // of the criterion's logarithm: less is rounding, passed on without end
+  if (b.signs.isZero()) return true;   // no result yet
   const bool of_a = has_point(a.point), of_b = has_point(b.point);
   if (a.signs != b.signs && (of_a || of_b)) {
     if (of_a && of_b && std::abs(a.value - b.value) <= least_gain) return false;

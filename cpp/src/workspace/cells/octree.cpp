@@ -113,8 +113,61 @@ class OctreeBuilder {
     return next;
   }
 
-  void measure(bool first_piece_alone, const Audit& audit);
-  std::optional<WorkspaceStatus> finished(int level);
+  void measure(bool first_piece_alone, const Audit& audit) {
+    if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
+    double volume = 0.0, undecided = 0.0, change = 0.0;
+    for (std::size_t n = 0; n < tree.leaves.size(); ++n) {
+      const Leaf& leaf = tree.leaves[n];
+      if (leaf.counts(first_piece_alone)) volume += leaf.fraction * leaf.measure;
+      if (leaf.state != CellState::boundary) continue;
+      if (leaf.counts(first_piece_alone) || leaf.inside == 0) undecided += leaf.measure;
+    }
+    for (std::size_t p = 0; p < parents_.size(); ++p) {
+      double held = 0.0;
+      bool any = !first_piece_alone;
+      for (std::size_t child = 0; child < 8; ++child) {
+        const Leaf& leaf = tree.leaves[tree.first_open + 8 * p + child];
+        held += leaf.fraction * leaf.measure;
+        any = any || leaf.piece == 0;
+      }
+      if (!any) continue;
+      change += held - parents_[p];
+    }
+    // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference
+    // of two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds
+    // of the estimate: two extrapolations may agree by chance.
+    const double better = parents_.empty() ? volume : volume + change / 3.0;
+    const double moved = std::abs(better - volume_);
+    error_ = parents_.empty()         ? 0.5 * undecided
+             : tree.levels.size() < 2 ? std::abs(change) / 3.0
+                                      : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
+    moved_ = tree.levels.size() < 2 ? 0.0 : moved;
+    error_ = tree.disagreement.coarse ? std::max(error_, undecided) : error_ + tree.disagreement.measure;
+    volume_ = std::clamp(better, 0.0, m_.chart().volume());
+    // For one piece of several the audit gives only an upper bound of the volume.
+    error_ = std::max(error_, audit.contradicts(volume_, first_piece_alone));
+    tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
+  }
+
+  std::optional<WorkspaceStatus> finished(int level) {
+    long open = 0;
+    for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
+      open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
+    if (open == 0) return WorkspaceStatus::converged;
+    if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_)
+      return WorkspaceStatus::converged;
+    if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
+      return WorkspaceStatus::limited;
+    // From level to level the error falls and the work grows by a factor of four.
+    long more = evaluations_a_cell * open;
+    expected_ = evaluations() + more;
+    for (double e = error_ / 4.0; e > settings_.tolerance * volume_ && expected_ < settings_.most_evaluations;
+         e /= 4.0) {
+      more *= 4;
+      expected_ += more;
+    }
+    return {};
+  }
 
   const Margins& m_;
   const WorkspaceSettings& settings_;
@@ -128,61 +181,6 @@ class OctreeBuilder {
   double moved_ = 0.0;  // last change of the extrapolated volume
   double volume_ = not_a_number, error_ = volume_;
 };
-
-void OctreeBuilder::measure(bool first_piece_alone, const Audit& audit) {
-  if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
-  double volume = 0.0, undecided = 0.0, change = 0.0;
-  for (std::size_t n = 0; n < tree.leaves.size(); ++n) {
-    const Leaf& leaf = tree.leaves[n];
-    if (leaf.counts(first_piece_alone)) volume += leaf.fraction * leaf.measure;
-    if (leaf.state != CellState::boundary) continue;
-    if (leaf.counts(first_piece_alone) || leaf.inside == 0) undecided += leaf.measure;
-  }
-  for (std::size_t p = 0; p < parents_.size(); ++p) {
-    double held = 0.0;
-    bool any = !first_piece_alone;
-    for (std::size_t child = 0; child < 8; ++child) {
-      const Leaf& leaf = tree.leaves[tree.first_open + 8 * p + child];
-      held += leaf.fraction * leaf.measure;
-      any = any || leaf.piece == 0;
-    }
-    if (!any) continue;
-    change += held - parents_[p];
-  }
-  // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference
-  // of two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds
-  // of the estimate: two extrapolations may agree by chance.
-  const double better = parents_.empty() ? volume : volume + change / 3.0;
-  const double moved = std::abs(better - volume_);
-  error_ = parents_.empty()         ? 0.5 * undecided
-           : tree.levels.size() < 2 ? std::abs(change) / 3.0
-                                    : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
-  moved_ = tree.levels.size() < 2 ? 0.0 : moved;
-  error_ = tree.disagreement.coarse ? std::max(error_, undecided) : error_ + tree.disagreement.measure;
-  volume_ = std::clamp(better, 0.0, m_.chart().volume());
-  // For one piece of several the audit gives only an upper bound of the volume.
-  error_ = std::max(error_, audit.contradicts(volume_, first_piece_alone));
-  tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
-}
-
-std::optional<WorkspaceStatus> OctreeBuilder::finished(int level) {
-  long open = 0;
-  for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
-    open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
-  if (open == 0) return WorkspaceStatus::converged;
-  if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_)
-    return WorkspaceStatus::converged;
-  if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
-    return WorkspaceStatus::limited;
-  // From level to level the error falls and the work grows by a factor of four.
-  long more = evaluations_a_cell * open;
-  expected_ = evaluations() + more;
-  for (double e = error_ / 4.0; e > settings_.tolerance * volume_ && expected_ < settings_.most_evaluations; e /= 4.0) {
-    more *= 4;
-    expected_ += more;
-  }
-  return {};
-}
 
 }  // namespace
 

@@ -6,12 +6,6 @@
 #include "workspace/sequence.hpp"
 
 namespace ninedof {
-namespace {
-
-constexpr long slice = 16384;
-constexpr double too_many = 0.05;  // cells are too coarse if more than this share of the allowed poses contradicts them
-
-}  // namespace
 
 void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Margins& m,
                   const WorkspaceSettings& settings, const Control& control) {
@@ -25,6 +19,7 @@ void Audit::begin(const std::vector<Leaf>& roots, CellLattice& lattice, const Ma
   for (const Leaf& root : roots)
     if (root.proved) volume_ += root.fraction * root.measure;
   // In slices, to save memory: only whether a pose is allowed is kept.
+  constexpr long slice = 16384;
   for (long first = 0; first < settings.points; first += slice) {
     std::vector<Cell> in;
     std::vector<Vec3> at;
@@ -70,6 +65,7 @@ Disagreement Audit::open(std::vector<Leaf>& leaves) const {
     if (counted[at] == 0) out.measure += leaf.measure;
     counted[at] = 1;
   }
+  constexpr double too_many = 0.05;  // a share of the allowed poses
   out.coarse = static_cast<double>(out.poses) > too_many * static_cast<double>(allowed);
   return out;
 }
