@@ -133,9 +133,9 @@ class OctreeBuilder {
       if (!any) continue;
       change += held - parents_[p];
     }
-    // The error falls by a factor of four from level to level, so that a third of the last change remains. The difference
-    // of two such extrapolations estimates the error. Parts of the change and of the difference before are lower bounds
-    // of the estimate: two extrapolations may agree by chance.
+    // The error falls by a factor of four from level to level, so that a third of the last change remains. It is
+    // estimated by the difference of two such extrapolations, and by no less than parts of the change and of the
+    // difference before: two extrapolations may agree by chance.
     const double better = parents_.empty() ? volume : volume + change / 3.0;
     const double moved = std::abs(better - volume_);
     error_ = parents_.empty()         ? 0.5 * undecided
