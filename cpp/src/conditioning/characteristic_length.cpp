@@ -1,8 +1,8 @@
 #include "ninedof/conditioning/characteristic_length.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "math/linear/jacobi_svd.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/math/error.hpp"
@@ -23,8 +23,8 @@ double platform_radius(const Geometry& g) {
 double slope(const Mat6& m, double log_length) {
   Mat6 scaled = m;
   scaled.leftCols<3>() *= std::exp(-log_length);
-  const Eigen::JacobiSVD<Mat6> svd(scaled, Eigen::ComputeFullV);
-  return svd.matrixV().col(5).head<3>().squaredNorm() - svd.matrixV().col(0).head<3>().squaredNorm();
+  const Mat6 v = jacobi_right_svd(scaled).v;
+  return v.col(5).head<3>().squaredNorm() - v.col(0).head<3>().squaredNorm();
 }
 
 /// The sign change of f between a and b, f(a) <= 0 <= f(b), by the ITP method of Oliveira and Takahashi (ACM Trans.

@@ -57,7 +57,7 @@ Spectrum spectrum(const Points& at, const NineLegs& legs, double lc) {
   Mat6 m;
   m.topRows<3>() = e.topRows<3>();
   m.bottomRows<3>().noalias() = null_space_part(c, b).lazyProduct(e.bottomRows<3>());
-  const RightSvd svd = right_svd_6x6(m);
+  const RightSvd<6> svd = right_svd_6x6(m);
   Spectrum out;
   out.sigma = svd.sigma;
   out.twist = svd.v;

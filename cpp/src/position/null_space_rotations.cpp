@@ -10,7 +10,7 @@
 #include <complex>
 #include <optional>
 
-#include "math/linear/decompositions.hpp"
+#include "math/linear/eigenvectors.hpp"
 #include "math/linear/householder.hpp"
 #include "position/quaternion_monomials.hpp"
 #include "position/rotation_problem.hpp"

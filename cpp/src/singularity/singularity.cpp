@@ -1,10 +1,9 @@
 #include "ninedof/singularity/singularity.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <cmath>
 
-#include "math/linear/decompositions.hpp"
+#include "math/linear/jacobi_svd.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
@@ -53,7 +52,12 @@ Velocity motion_from(const Vec3& omega, const Vec3& at_o, const Vec3& sdot, doub
   return {omega / length, (at_o + y.cross(omega)) / length, sdot / length};
 }
 
-using Svd = Eigen::JacobiSVD<Mat3>;
+/// The least-squares solution of least norm, from the decomposition of the matrix.
+Vec3 solve(const Svd<3>& svd, const Vec3& b) {
+  const Eigen::Index rank = svd.rank(3.0 * eps);
+  const auto scaled = svd.sigma.head(rank).asDiagonal().inverse() * (svd.u.leftCols(rank).transpose() * b);
+  return svd.v.leftCols(rank) * scaled.eval();
+}
 
 }  // namespace
 
@@ -80,12 +84,12 @@ SingularityReport singularity(const Geometry& g, const Configuration& c) {
   }
   const Spans k = spans(g, c);
   const UnitRows rows = unit_rows(k);
-  constexpr unsigned full = Eigen::ComputeFullU | Eigen::ComputeFullV;
-  const Svd svd_n(rows_of(rows.n), full), svd_b(rows_of(rows.b), full), svd_c(rows_of(rows.c), full);
+  const Svd<3> svd_n = jacobi_svd(rows_of(rows.n)), svd_b = jacobi_svd(rows_of(rows.b)),
+               svd_c = jacobi_svd(rows_of(rows.c));
 
   SingularityReport out;
   out.margins = margins_of(rows);
-  out.sigma = {svd_n.singularValues()[2], svd_b.singularValues()[2], svd_c.singularValues()[2]};
+  out.sigma = {svd_n.sigma[2], svd_b.sigma[2], svd_c.sigma[2]};
   out.mechanism = weakest(out.sigma);
   if (has_leg_of_zero_length(k, out.mechanism)) {
     const Vec3 unknown = Vec3::Constant(not_a_number);
@@ -94,17 +98,17 @@ SingularityReport singularity(const Geometry& g, const Configuration& c) {
   }
   Vec3 omega, at_o = Vec3::Zero(), sdot = Vec3::Zero();
   if (out.mechanism == Mechanism::n) {
-    omega = svd_n.matrixV().col(2);
+    omega = svd_n.v.col(2);
   } else {
     // The upper legs keep their lengths because v_O = sdot (B) or C v_O = 0 (C). The external legs keep theirs if
     // N' omega = -E_e v_O with rows w_i x e_i and e_i; here row i is multiplied by l_i / (|d_i| |w_i|).
-    at_o = (out.mechanism == Mechanism::b ? svd_b : svd_c).matrixV().col(2);
+    at_o = (out.mechanism == Mechanism::b ? svd_b : svd_c).v.col(2);
     if (out.mechanism == Mechanism::b) sdot = at_o;
     Vec3 pull;
     for (std::size_t i = 0; i < 3; ++i)
       pull[static_cast<Eigen::Index>(i)] =
           -(k.external[i].length / k.d[i].length / k.w[i].length) * k.external[i].direction.dot(at_o);
-    omega = svd_n.solve(pull);
+    omega = solve(svd_n, pull);
   }
   out.motion = motion_from(omega, at_o, sdot, platform_reach(k), c);
   return out;
@@ -132,7 +136,7 @@ std::vector<Vec9> uncontrolled_motions(const Geometry& g, const Configuration& c
     h.block<3, 3>(row + 3, 6) = upper;
     h.block<3, 3>(row + 6, 6) = lower;
   }
-  const auto [sigma, v] = right_svd(h);
+  const auto [sigma, v] = jacobi_right_svd(h);
   std::vector<Vec9> out;
   for (Eigen::Index n = 8; n >= 0 && sigma[n] <= tolerance; --n) {
     const Vec9 x = v.col(n);

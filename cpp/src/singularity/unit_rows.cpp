@@ -1,7 +1,6 @@
 #include "singularity/unit_rows.hpp"
 
-#include <Eigen/SVD>
-
+#include "math/linear/jacobi_svd.hpp"
 #include "math/linear/negligible.hpp"
 #include "ninedof/robot/legs.hpp"
 
@@ -53,7 +52,7 @@ UnitRows unit_rows(const Spans& k) {
 
 bool regular(const Mat3& rows) {
   if (!rows.allFinite()) return false;
-  const Vec3 sigma = rows.jacobiSvd().singularValues();
+  const Vec3 sigma = jacobi_svd(rows).sigma;
   return sigma[2] > negligible * sigma[0];
 }
 

@@ -1,7 +1,7 @@
 #include "ninedof/statics/ellipsoid.hpp"
 
 #include "kinematics/rate_matrix.hpp"
-#include "math/linear/decompositions.hpp"
+#include "math/linear/jacobi_svd.hpp"
 #include "math/linear/least_squares.hpp"
 #include "math/linear/negligible.hpp"
 #include "math/linear/svd6.hpp"
@@ -51,7 +51,7 @@ Ellipsoid<N> polar(const Ellipsoid<N>& e) {
 Ellipsoid<6> velocity_ellipsoid(const Geometry& g, const Configuration& c, double characteristic_length) {
   const Mat96 x = least_rates(g, c, characteristic_length);
   if (x.hasNaN()) return no_ellipsoid<6>();
-  const RightSvd svd = right_svd_6x6(triangular_factor(x));
+  const RightSvd<6> svd = right_svd_6x6(triangular_factor(x));
   return unit_ball_of<6>(svd.sigma, svd.v, negligible * svd.sigma[0]);
 }
 
@@ -63,7 +63,7 @@ Ellipsoid<3> velocity_ellipsoid(const Geometry& g, const Configuration& c, Twist
   const Mat93 part_columns = rotation ? x.leftCols<3>() : x.rightCols<3>();
   const Mat93 other = rotation ? x.rightCols<3>() : x.leftCols<3>();
   // The other part takes the value that minimizes the leg rates.
-  const TallSvd<3> svd = right_svd(eliminate(other, part_columns));
+  const RightSvd<3> svd = jacobi_right_svd(eliminate(other, part_columns));
   return unit_ball_of<3>(svd.sigma, svd.v, negligible * part_columns.norm());
 }
 

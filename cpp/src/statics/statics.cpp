@@ -1,9 +1,9 @@
 #include "ninedof/statics/statics.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "kinematics/rate_matrix.hpp"
+#include "math/linear/jacobi_svd.hpp"
 #include "math/linear/least_squares.hpp"
 #include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
@@ -31,16 +31,6 @@ Scaled scaled_rates(const Geometry& g, const Configuration& c) {
   return {length, rate_matrix(g, c, length)};
 }
 
-/// H^T = U S V^T with its rank; the last columns of U are the free motions, those of V the self-stresses.
-struct RankedSvd {
-  explicit RankedSvd(const Mat9& transposed) : svd(transposed, Eigen::ComputeFullU | Eigen::ComputeFullV) {
-    svd.setThreshold(negligible);
-    rank = svd.rank();
-  }
-  Eigen::JacobiSVD<Mat9> svd;
-  Eigen::Index rank;
-};
-
 Load load_from(const Vec9& v, double length) {
   return {length * v.head<3>(), v.segment<3>(3), v.tail<3>()};
 }
@@ -64,15 +54,16 @@ LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load
   const Mat9 transposed = h.transpose();
   if (const auto forces = solve_regular(transposed, wanted, surely_regular)) return {*forces, {}};
 
-  const auto [svd, rank] = RankedSvd(transposed);
-  Vec9 along = svd.matrixU().transpose() * wanted;  // components of the load along the motions
+  const Svd<9> svd = jacobi_svd(transposed);  // the last columns of U are the free motions
+  const Eigen::Index rank = svd.rank(negligible);
+  Vec9 along = svd.u.transpose() * wanted;  // components of the load along the motions
   Vec9 lost = Vec9::Zero();
   for (Eigen::Index k = rank; k < 9; ++k) {
-    if (std::abs(along[k]) > rounding * wanted.norm()) lost -= along[k] * svd.matrixU().col(k);
+    if (std::abs(along[k]) > rounding * wanted.norm()) lost -= along[k] * svd.u.col(k);
     along[k] = 0.0;
   }
-  along.head(rank).array() /= svd.singularValues().head(rank).array();
-  Vec9 forces = svd.matrixV() * along;
+  along.head(rank).array() /= svd.sigma.head(rank).array();
+  Vec9 forces = svd.v * along;
   for (Eigen::Index k = 0; k < 9; ++k)
     if (h.row(k).isZero(0.0)) forces[k] = 0.0;  // a leg of zero length: exactly zero
   return {forces, load_from(lost, length)};
@@ -81,8 +72,8 @@ LegForces leg_forces(const Geometry& g, const Configuration& c, const Load& load
 SelfStress self_stress(const Geometry& g, const Configuration& c) {
   const Mat9 h = scaled_rates(g, c).h;
   if (!h.allFinite()) return SelfStress::Constant(9, 1, not_a_number);
-  const auto [svd, rank] = RankedSvd(h.transpose());
-  SelfStress out = svd.matrixV().rightCols(9 - rank);
+  const Svd<9> svd = jacobi_svd(Mat9(h.transpose()));
+  SelfStress out = svd.v.rightCols(9 - svd.rank(negligible));
   for (Eigen::Index k = 0; k < out.cols(); ++k) {
     Eigen::Index largest = 0;
     out.col(k).cwiseAbs().maxCoeff(&largest);

@@ -178,7 +178,7 @@ TEST_SUITE("svd6") {
       }
       if (n % 6 > 1 && n % 6 < 5) m = with_singular_values(random, sigma);
       CAPTURE(n);
-      const RightSvd svd = right_svd_6x6(m);
+      const RightSvd<6> svd = right_svd_6x6(m);
       CHECK(descending(svd.sigma));
       CHECK(error(svd.sigma, singular_values_6x6(m)) <= 8.0 * eps);
       CHECK((svd.v.transpose() * svd.v - Mat6::Identity()).cwiseAbs().maxCoeff() <= 16.0 * eps);

@@ -9,50 +9,78 @@
 namespace ninedof {
 namespace {
 
-/// b := Q^T b with the first `count` reflections of a QR factorization. The same steps as householderQ() of Eigen,
-/// which also instantiates a blocked form for 48 columns or more, at seconds of compile time each.
-template <class Factors, class Coefficients, class B>
-void apply_transposed_q(const Factors& qr, const Coefficients& h, Eigen::Index count, B& b) {
-  Eigen::Matrix<double, 1, B::ColsAtCompileTime> workspace(b.cols());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Index rows = b.rows() - k;
-    b.bottomRightCorner(rows, b.cols())
-        .applyHouseholderOnTheLeft(qr.template block<Eigen::Dynamic, 1>(k + 1, k, rows - 1, 1), h[k], workspace.data());
+using Index = Eigen::Index;
+using Vector = Eigen::Ref<Eigen::VectorXd>;
+
+/// A factorization of Eigen's without its size, so that what follows is compiled once for each storage order. The same
+/// steps as Eigen's, which also instantiates blocked forms for 48 columns or more, at seconds of compile time each.
+template <int Order>
+struct Factors {
+  Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Order>, 0, Eigen::OuterStride<>> packed;
+  const double* tau;
+  Index rank;
+};
+
+template <class Matrix>
+auto factors(const Matrix& packed, const double* tau, Index rank) {
+  constexpr int order = Matrix::IsRowMajor ? Eigen::RowMajor : Eigen::ColMajor;
+  return Factors<order>{
+      {packed.data(), packed.rows(), packed.cols(), Eigen::OuterStride<>(packed.outerStride())}, tau, rank};
+}
+
+/// (first, rest) := (1 - tau h h^T) (first, rest) with h = (1, essential).
+template <class Essential>
+void reflect(const Essential& essential, double tau, double& first, Vector rest) {
+  if (tau == 0.0) return;
+  const double along = essential.dot(rest) + first;
+  first -= tau * along;
+  rest -= along * (tau * essential);
+}
+
+/// The first entries of b := R^-1 Q^T b, as many as the rank.
+template <int Order>
+void solve_triangular(const Factors<Order>& f, Vector b) {
+  for (Index k = 0; k < f.rank; ++k) {
+    const Index below = b.size() - k - 1;
+    reflect(f.packed.col(k).tail(below), f.tau[k], b[k], b.tail(below));
   }
+  f.packed.topLeftCorner(f.rank, f.rank).template triangularView<Eigen::Upper>().solveInPlace(b.head(f.rank));
 }
 
 template <class Qr, class B>
 auto solve_pivoted(const Qr& qr, B b) {
-  const Eigen::Index pivots = qr.nonzeroPivots();
+  const Index rank = qr.nonzeroPivots();
   Eigen::Matrix<double, Qr::ColsAtCompileTime, 1> out(qr.cols());
   out.setZero();
-  if (pivots == 0) return out;
-  apply_transposed_q(qr.matrixQR(), qr.hCoeffs(), pivots, b);
-  qr.matrixQR().topLeftCorner(pivots, pivots).template triangularView<Eigen::Upper>().solveInPlace(b.topRows(pivots));
-  for (Eigen::Index i = 0; i < pivots; ++i) out[qr.colsPermutation().indices()[i]] = b[i];
+  if (rank == 0) return out;
+  solve_triangular(factors(qr.matrixQR(), qr.hCoeffs().data(), rank), b);
+  for (Index i = 0; i < rank; ++i) out[qr.colsPermutation().indices()[i]] = b[i];
   return out;
 }
 
-/// a P = Q [T 0] Z: steps of Eigen's complete orthogonal decomposition, without its blocked products.
+/// y := Z^T (y of the first `rank` entries, 0), the last step of a P = Q [T 0] Z.
+template <int Order>
+void complete(const Factors<Order>& f, const double* tau_z, Vector y) {
+  const Index free = y.size() - f.rank;
+  for (Index k = 0; k < f.rank && free > 0; ++k) {
+    std::swap(y[k], y[f.rank - 1]);
+    reflect(f.packed.row(k).tail(free).transpose(), tau_z[k], y[f.rank - 1], y.tail(free));
+    std::swap(y[k], y[f.rank - 1]);
+  }
+}
+
 template <class A, class B>
 auto solve_least_norm(const A& a, B b) {
   const Eigen::CompleteOrthogonalDecomposition<A> d(a);
-  const Eigen::Index rank = d.rank(), cols = d.cols();
-  Eigen::Matrix<double, A::ColsAtCompileTime, 1> y(cols);
+  Eigen::Matrix<double, A::ColsAtCompileTime, 1> y(d.cols()), out(d.cols());
   y.setZero();
-  if (rank == 0) return y;
-  apply_transposed_q(d.matrixQTZ(), d.hCoeffs(), rank, b);
-  y.topRows(rank) =
-      d.matrixT().topLeftCorner(rank, rank).template triangularView<Eigen::Upper>().solve(b.topRows(rank));
-  double workspace = 0.0;
-  for (Eigen::Index k = 0; k < rank && rank < cols; ++k) {
-    std::swap(y[k], y[rank - 1]);
-    y.middleRows(rank - 1, cols - rank + 1)
-        .applyHouseholderOnTheLeft(d.matrixQTZ().row(k).tail(cols - rank).adjoint(), d.zCoeffs()[k], &workspace);
-    std::swap(y[k], y[rank - 1]);
-  }
-  y = d.colsPermutation() * y;
-  return y;
+  if (d.rank() == 0) return y;
+  const auto f = factors(d.matrixQTZ(), d.hCoeffs().data(), d.rank());
+  solve_triangular(f, b);
+  y.head(d.rank()) = b.head(d.rank());
+  complete(f, d.zCoeffs().data(), y);
+  for (Index i = 0; i < d.cols(); ++i) out[d.colsPermutation().indices()[i]] = y[i];
+  return out;
 }
 
 template <int Kept>
@@ -60,7 +88,9 @@ Eigen::Matrix<double, 9, Kept> eliminated(const Mat93& free, const Eigen::Matrix
   Eigen::ColPivHouseholderQR<Mat93> qr(free);
   qr.setThreshold(negligible);
   Eigen::Matrix<double, 9, Kept> x = kept;
-  apply_transposed_q(qr.matrixQR(), qr.hCoeffs(), 3, x);
+  Eigen::Matrix<double, 1, Kept> workspace;
+  for (Index k = 0; k < 3; ++k)
+    x.bottomRows(9 - k).applyHouseholderOnTheLeft(qr.matrixQR().col(k).tail(8 - k), qr.hCoeffs()[k], workspace.data());
   x.topRows(qr.rank()).setZero();
   return x;
 }

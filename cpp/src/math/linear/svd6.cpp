@@ -85,7 +85,7 @@ Vec6 singular_values_6x6(const Mat6& input) {
   return sigma;
 }
 
-RightSvd right_svd_6x6(const Mat6& input) {
+RightSvd<6> right_svd_6x6(const Mat6& input) {
   const double scale = input.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (scale == 0.0) return {Vec6::Zero(), Mat6::Identity()};
   if (!std::isfinite(scale)) return {Vec6::Constant(scale), Mat6::Constant(scale - scale)};
@@ -97,7 +97,7 @@ RightSvd right_svd_6x6(const Mat6& input) {
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return w.squared_norms[a] > w.squared_norms[b] || (w.squared_norms[a] == w.squared_norms[b] && a < b);
   });
-  RightSvd out;
+  RightSvd<6> out;
   for (Eigen::Index k = 0; k < 6; ++k) {
     const int from = order[at_index(k)];
     out.sigma[k] = scale * std::sqrt(w.squared_norms[from]);

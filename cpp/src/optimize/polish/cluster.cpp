@@ -1,6 +1,7 @@
 #include "optimize/polish/cluster.hpp"
 
-#include "math/linear/decompositions.hpp"
+#include "math/linear/eigenvectors.hpp"
+#include "math/linear/jacobi_svd.hpp"
 
 namespace ninedof {
 
