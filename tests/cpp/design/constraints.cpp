@@ -274,7 +274,7 @@ TEST_SUITE("constraints") {
     CHECK(refuses("constraints", [] { Limit{.name = "radius", .high = 2.0}.validate(); }));
     const std::string known = message_of([] { Limit{.name = "?", .high = 2.0}.validate(); });
     for (const ConstraintInfo& row : constraint_table())
-      CHECK(known.find("\"" + std::string(row.name) + "\"") != std::string::npos);
+      CHECK(known.find(std::string("\"").append(row.name).append("\"")) != std::string::npos);
     CHECK(refuses("of", [] { unit_from("metre"); }));
     CHECK(unit_from("length") == Unit::length);
     CHECK(unit_from("zp") == Unit::zp);
