@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.table import Table
 
 from ninedof.cli.screen import Screen
-from ninedof.workspace import WorkspaceMap
+from ninedof.design.indices import INDICES, Index
+from ninedof.workspace import IndexStatistics, WorkspaceMap
 
 SHOWN = 8  # limits in the table
 
@@ -34,10 +36,21 @@ def workspace_table(found: WorkspaceMap) -> Table:
     table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
     table.add_row("condition number: 95 %", f"{found.percentiles[95]:.4f}")
     table.add_row("condition number: worst", f"{found.worst_condition_number:.4f}")
+    for name, over in found.indices.items():
+        known = INDICES[name]
+        for label, *values in _rows(known, over):
+            table.add_row(f"{label}: mean, least, greatest", "  ".join(f"{value:.5g}" for value in values))
     table.add_section()
     for name, share in list(found.limits().items())[:SHOWN]:
         table.add_row(f"boundary by {name.replace('_', ' ')}", f"{100.0 * share:.1f} %")
     return table
+
+
+def _rows(index: Index, over: IndexStatistics) -> Iterator[tuple[Any, ...]]:
+    if not index.components:
+        yield index.words, over.mean, over.least, over.greatest
+    else:
+        yield from zip(index.components, over.mean, over.least, over.greatest, strict=True)
 
 
 def sentences(found: WorkspaceMap) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""The table of indices: what objectives, sweeps and `ninedof evaluate` can compute of a design, each written once.
+"""The table of indices: what objectives, sweeps, workspaces and `ninedof evaluate` can compute, each written once.
 
 A new index is one row here, its words in docs/sweeps.md and its reference in the tests. An objective needs a gradient
 too: the row then names the index of the core (`Index` in ninedof/design/objective.hpp) that has it.

@@ -11,13 +11,13 @@ from dataclasses import replace
 from ninedof import _core
 from ninedof.chunks import chunk_argument
 from ninedof.conditioning.characteristic_length import length_argument
+from ninedof.design.index_argument import OwnIndex, indices_of
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, known_keys
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress
 from ninedof.sweep.axis import Values, axes_of
-from ninedof.sweep.index import OwnIndex, indices_of
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.variants import Variants

@@ -9,11 +9,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from ninedof.chunks import Arrays, run
+from ninedof.design.index_argument import identity
 from ninedof.design.indices import Index
 from ninedof.support.arrays import Floats
 from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
-from ninedof.sweep.index import identity
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.sink import Sink
 

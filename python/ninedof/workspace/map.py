@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from typing import Any
 
@@ -14,6 +14,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
+from ninedof.workspace.statistics import IndexStatistics
 
 
 class WorkspaceStatus(StrEnum):
@@ -88,6 +89,8 @@ class WorkspaceMap(Saved):
     internal_point_audit: MapAudit
     """Of the best O: how often continuation from nearby poses missed a better one. An audited pose takes the better O;
     at other poses a miss makes the workspace too small. No poses if O follows a rule or every pose is searched."""
+    indices: dict[str, IndexStatistics] = field(default_factory=dict)
+    """Of the indices asked for, by name."""
 
     limit_names = LIMITS
 
@@ -155,17 +158,18 @@ class WorkspaceMap(Saved):
     def to_dict(self) -> dict[str, Any]:
         """Return all fields except the cells as plain values."""
         out: dict[str, Any] = {}
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if field.name in ("cells", "limit_area"):
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if one.name in ("cells", "limit_area"):
                 continue
-            if field.name == "levels":
+            if one.name == "levels":
                 names = ("cells", "evaluations", "volume", "error")
                 out["levels"] = [dict(zip(names, row, strict=True)) for row in value.tolist()]
                 continue
-            out[field.name] = value.tolist() if isinstance(value, np.ndarray) else value
+            out[one.name] = value.tolist() if isinstance(value, np.ndarray) else value
         out["status"] = str(self.status)
         out["internal_point_audit"] = asdict(self.internal_point_audit)
+        out["indices"] = {name: asdict(found) for name, found in self.indices.items()}
         out["coordinates"] = list(self.coordinates)
         out["limits"] = self.limits()
         out["share"] = self.share
@@ -174,14 +178,16 @@ class WorkspaceMap(Saved):
     def _contents(self) -> dict[str, Any]:
         arrays = {f"cells_{name}": value for name, value in self.cells._asdict().items()}
         words: dict[str, Any] = {"format": self.FORMAT, "limit_names": list(LIMITS)}
-        for field in fields(self):
-            value = getattr(self, field.name)
+        for one in fields(self):
+            value = getattr(self, one.name)
             if isinstance(value, np.ndarray):
-                arrays[field.name] = value
-            elif field.name == "internal_point_audit":
-                words[field.name] = asdict(value)
-            elif field.name != "cells":
-                words[field.name] = value
+                arrays[one.name] = value
+            elif one.name == "internal_point_audit":
+                words[one.name] = asdict(value)
+            elif one.name == "indices":
+                words[one.name] = {name: asdict(found) for name, found in value.items()}
+            elif one.name != "cells":
+                words[one.name] = value
         return {"words": np.array(encode(words, indent=None)), **arrays}
 
     @classmethod
@@ -194,4 +200,5 @@ class WorkspaceMap(Saved):
         words["status"] = WorkspaceStatus(words["status"])
         words["coordinates"] = tuple(words["coordinates"])
         words["internal_point_audit"] = MapAudit(**words["internal_point_audit"])
+        words["indices"] = {name: IndexStatistics(**one) for name, one in words.get("indices", {}).items()}
         return cls(cells=cells, **words, **data)

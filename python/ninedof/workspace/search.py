@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -10,16 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
+from ninedof.design.index_argument import indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice, whole
+from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.workspace.cells import LIMITS, WorkspaceCells
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
+from ninedof.workspace.statistics import statistics_of
 
 METHODS = ("octree", "grid", "sample")
 POINTS = 16384
@@ -51,6 +54,7 @@ def workspace(
     most_evaluations: int = 2_000_000,
     threads: int | None = None,
     progress: Progress | None = None,
+    index: Any = (),
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
@@ -121,6 +125,9 @@ def workspace(
     progress : callable, optional
         Called as progress(poses evaluated, poses in all as far as known, volume); volume is None before the first level
         and for a sample.
+    index : str, callable, or sequence of them
+        Indices to take over the workspace (docs/sweeps.md), in `WorkspaceMap.indices`. Callables as in `sweep`. None by
+        default, and none for sets of orientations. With the best O, O is placed once more in every cell.
 
     Returns
     -------
@@ -155,6 +162,9 @@ def workspace(
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)
+    indices = indices_of(index) if index else ()
+    if indices and archetype not in ("constant_orientation", "orientation"):
+        raise ValueError(f"index: got {shown(index)}, expected none for the {archetype} workspace: its poses are sets")
     default = 64 if method == "grid" else 16
     settings: dict[str, Any] = {
         "method": method,
@@ -170,11 +180,13 @@ def workspace(
         "seed": whole("seed", seed, 0),
         "threads": thread_argument(threads),
     }
+    limits = criteria_of(criteria, characteristic_length)
     begin = perf_counter()
-    found = _core.workspace(
-        geometry, domain, *rule, criteria_of(criteria, characteristic_length), settings, home_of(home), progress
-    )
-    return _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
+    found = _core.workspace(geometry, domain, *rule, limits, settings, home_of(home), progress)
+    made = _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
+    if not indices or made.interrupted:
+        return made
+    return replace(made, indices=statistics_of(geometry, domain, rule, limits, made.cells, indices, threads))
 
 
 def _map(

@@ -16,9 +16,9 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G
 
 import ninedof as nd
+from ninedof.design.index_argument import indices_of
 from ninedof.sweep import cluster as schedulers
 from ninedof.sweep.axis import axes_of
-from ninedof.sweep.index import indices_of
 from ninedof.sweep.poses import COORDINATES, Poses
 from ninedof.sweep.work import GridWork
 

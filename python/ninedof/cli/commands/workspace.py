@@ -73,6 +73,7 @@ def workspace(
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
     points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
     seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None,
+    index: Annotated[list[str] | None, typer.Option(help="An index over the workspace; may be repeated.")] = None,
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -112,6 +113,7 @@ def workspace(
         "resolution": resolution,
         "points": points,
         "seed": seed,
+        "index": index or None,
     }
     asked = _given(others) | _place(given.configuration, archetype, {"x": x, "y": y, "z": z}, position)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:

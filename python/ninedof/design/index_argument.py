@@ -1,4 +1,4 @@
-"""The quantities of a sweep: indices of the table in design/indices.py, or functions of the caller."""
+"""The argument `index` of sweeps and workspaces: names of the table of indices, or functions of the caller."""
 
 from __future__ import annotations
 
