@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "batch/kernels/dispatch.hpp"
-#include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/math/error.hpp"

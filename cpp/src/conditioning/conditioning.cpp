@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "conditioning/null_space.hpp"
-#include "math/linear/negligible.hpp"
 #include "math/linear/svd6.hpp"
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"

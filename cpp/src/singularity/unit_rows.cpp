@@ -1,7 +1,7 @@
 #include "singularity/unit_rows.hpp"
 
 #include "math/linear/jacobi_svd.hpp"
-#include "math/linear/negligible.hpp"
+#include "math/numbers.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {

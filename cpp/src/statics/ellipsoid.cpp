@@ -3,7 +3,6 @@
 #include "kinematics/rate_matrix.hpp"
 #include "math/linear/jacobi_svd.hpp"
 #include "math/linear/least_squares.hpp"
-#include "math/linear/negligible.hpp"
 #include "math/linear/svd6.hpp"
 #include "math/numbers.hpp"
 

@@ -5,7 +5,6 @@
 #include "kinematics/rate_matrix.hpp"
 #include "math/linear/jacobi_svd.hpp"
 #include "math/linear/least_squares.hpp"
-#include "math/linear/negligible.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/math/error.hpp"

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "math/linear/nnls.hpp"
+#include "math/linear/least_squares.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/cluster.hpp"

@@ -29,4 +29,7 @@ Vec3 least_norm(const Eigen::Matrix<double, 6, 3>& a, const Vec6& b);
 /// The least-squares solution of a^T x = b of least norm.
 Eigen::VectorXd least_norm_transposed(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
+/// min |a w - b| over w >= 0 (Lawson and Hanson's active-set method).
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
 }  // namespace ninedof

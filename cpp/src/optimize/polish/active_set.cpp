@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "math/linear/nnls.hpp"
+#include "math/linear/least_squares.hpp"
 
 namespace ninedof {
 namespace {

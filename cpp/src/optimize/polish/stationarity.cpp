@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "math/linear/nnls.hpp"
+#include "math/linear/least_squares.hpp"
 #include "math/numbers.hpp"
 #include "optimize/polish/active_set.hpp"
 #include "optimize/polish/cluster.hpp"
