@@ -6,20 +6,8 @@
 
 namespace ninedof {
 
-namespace {
-
-std::string sentence(std::string text, const std::string& got, const std::string& expected) {
-  text += ": got ";
-  text += got;
-  text += ", expected ";
-  text += expected;
-  return text;
-}
-
-}  // namespace
-
 InvalidArgument::InvalidArgument(const std::string& argument, const std::string& got, const std::string& expected)
-    : std::invalid_argument(sentence(argument, got, expected)) {}
+    : std::invalid_argument(argument + ": got " + got + ", expected " + expected) {}
 
 std::string format_number(double value) {
   std::array<char, 32> text{};
@@ -28,12 +16,7 @@ std::string format_number(double value) {
 }
 
 std::string format_interval(double low, double high) {
-  std::string text = format_number(low);
-  text.insert(text.begin(), '[');
-  text += ", ";
-  text += format_number(high);
-  text += ']';
-  return text;
+  return std::string("[").append(format_number(low)).append(", ").append(format_number(high)).append("]");
 }
 
 void require_finite(const char* argument, double value) {

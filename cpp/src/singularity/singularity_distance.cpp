@@ -12,11 +12,9 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
-#include "math/roots/enclosure.hpp"
 #include "math/roots/first_root.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/singularity/singularity.hpp"
-#include "singularity/enclosed_motion.hpp"
 
 namespace ninedof {
 namespace {

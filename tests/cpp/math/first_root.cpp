@@ -1,5 +1,5 @@
-/// first_root.hpp: zeros of functions whose zeros are known, mainly close pairs and double zeros. enclosure.hpp and
-/// enclosed_motion.hpp: against the same formulas in extended precision.
+/// first_root.hpp: zeros of functions whose zeros are known, mainly close pairs and double zeros. enclosure.hpp:
+/// against the same formulas in extended precision.
 
 #include "math/roots/first_root.hpp"
 
@@ -7,7 +7,6 @@
 
 #include <vector>
 
-#include "singularity/enclosed_motion.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;
