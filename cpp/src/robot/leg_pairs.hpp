@@ -1,10 +1,12 @@
 #pragma once
-/// Pairs of legs that can collide, and the distance between the axes of two legs.
+/// Pairs of legs that can collide, the distance between the axes of two legs, and the closest pair.
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
+#include "math/numbers.hpp"
 #include "ninedof/robot/points.hpp"
 
 namespace ninedof {
@@ -59,6 +61,30 @@ inline Nearest nearest(const Points& at, int pair) {
   const LegEnds one = leg_ends(a), two = leg_ends(b);
   const auto point = [&](int k) -> const Vec3& { return at[at_index(k)]; };
   return nearest(point(one.from), point(one.to), point(two.from), point(two.to));
+}
+
+/// The pairs that share a joint in this robot.
+inline std::array<bool, leg_pairs> pairs_sharing_a_joint(const Geometry& g) {
+  const Points at = points(g, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});  // joints in the frames of their bodies
+  std::array<bool, leg_pairs> out{};
+  for (int pair = 0; pair < leg_pairs; ++pair) out[at_index(pair)] = share_joint(std::span(at).first<12>(), pair);
+  return out;
+}
+
+struct Closest {
+  double distance;
+  int pair;  ///< -1 where every pair shares a joint
+};
+
+/// The closest pair of legs that share no joint.
+inline Closest closest_legs(const Points& at, const std::array<bool, leg_pairs>& exempt) {
+  Closest out{infinity, -1};
+  for (int pair = 0; pair < leg_pairs; ++pair) {
+    if (exempt[at_index(pair)]) continue;
+    const double distance = nearest(at, pair).apart.norm();
+    if (distance < out.distance) out = {distance, pair};
+  }
+  return out;
 }
 
 }  // namespace ninedof

@@ -9,7 +9,6 @@
 #include "workspace/chart.hpp"
 #include "workspace/criteria/cones.hpp"
 #include "workspace/criteria/limits.hpp"
-#include "workspace/criteria/pairs.hpp"
 #include "workspace/criteria/placement.hpp"
 
 namespace ninedof {
