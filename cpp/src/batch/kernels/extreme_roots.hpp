@@ -10,7 +10,7 @@
 /// roots are therefore as accurate as B. The iterations go up from 0 to the least root and down from an upper bound to
 /// the greatest root: monotonically, because all roots are real, and with cubic convergence at a simple root.
 
-#include "batch/kernels/bidiagonal.hpp"
+#include "batch/kernels/reflect.hpp"
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 

@@ -76,10 +76,6 @@ NINEDOF_INLINE typename P::Mask lever_allows(const Columns& c, long k, const P& 
   return dot(y, y) <= (most_lever * most_lever) * greatest * square(c.length<P>(k));
 }
 
-NINEDOF_INLINE void put(const double* from, long rows, double* to) {
-  for (long k = 0; k < rows; ++k) to[k] = from[k];
-}
-
 void leg_lengths(const Block& b, double* out) {
   for_each_chunk(b, [&](const Columns& c, long first, long rows) {
     alignas(64) double length[9][chunk];
@@ -107,7 +103,7 @@ void condition_numbers(const Block& b, double* out) {
       const auto sure = (ratio <= most_condition) & lever_allows(c, k, greatest.x);
       store(select(least.open | greatest.open, unsure, select(sure, ratio, unsure)), kappa + k);
     }
-    put(kappa, rows, out + first);
+    scatter<1>(&kappa, rows, out + first);
   });
 }
 
@@ -120,7 +116,7 @@ void frobenius_condition_numbers(const Block& b, double* out) {
       const Lanes ratio = sqrt(sum * (p.s[4] / p.s[5]));
       store(select((ratio <= most_condition) & lever_allows(c, k, sum), ratio, unsure), kappa + k);
     }
-    put(kappa, rows, out + first);
+    scatter<1>(&kappa, rows, out + first);
   });
 }
 
@@ -163,7 +159,7 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
                           Lanes::load(column[3] + k), Lanes::load(column[4] + k), Lanes::load(column[5] + k)};
       store(hexagonal_condition(x), kappa + k);
     }
-    put(kappa, rows, out + first);
+    scatter<1>(&kappa, rows, out + first);
   }
 }
 
