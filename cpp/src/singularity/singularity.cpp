@@ -77,25 +77,18 @@ PerMechanism singularity_margins(const Geometry& g, const Configuration& c) {
 }
 
 SingularityReport singularity(const Geometry& g, const Configuration& c) {
-  if (has_nan(c)) {
-    const PerMechanism nothing{not_a_number, not_a_number, not_a_number};
-    const Vec3 unknown = Vec3::Constant(not_a_number);
-    return {nothing, nothing, Mechanism::none, {unknown, unknown, unknown}};
-  }
+  constexpr PerMechanism nothing{not_a_number, not_a_number, not_a_number};
+  const Vec3 unknown = Vec3::Constant(not_a_number);
+  SingularityReport out{nothing, nothing, Mechanism::none, {unknown, unknown, unknown}};
+  if (has_nan(c)) return out;
   const Spans k = spans(g, c);
   const UnitRows rows = unit_rows(k);
   const Svd<3> svd_n = jacobi_svd(rows_of(rows.n)), svd_b = jacobi_svd(rows_of(rows.b)),
                svd_c = jacobi_svd(rows_of(rows.c));
-
-  SingularityReport out;
   out.margins = margins_of(rows);
   out.sigma = {svd_n.sigma[2], svd_b.sigma[2], svd_c.sigma[2]};
   out.mechanism = weakest(out.sigma);
-  if (has_leg_of_zero_length(k, out.mechanism)) {
-    const Vec3 unknown = Vec3::Constant(not_a_number);
-    out.motion = {unknown, unknown, unknown};
-    return out;
-  }
+  if (has_leg_of_zero_length(k, out.mechanism)) return out;
   Vec3 omega, at_o = Vec3::Zero(), sdot = Vec3::Zero();
   if (out.mechanism == Mechanism::n) {
     omega = svd_n.v.col(2);
