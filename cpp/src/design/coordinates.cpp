@@ -37,12 +37,6 @@ double golden(int n) {
   return x;
 }
 
-/// Uniform in [0, 1) from a seed and a dimension.
-double shift(std::uint64_t seed, int dimension) {
-  return uniform_from((seed + 1) * 0x9E3779B97F4A7C15ULL +
-                      static_cast<std::uint64_t>(dimension) * 0xD1B54A32D192ED03ULL);
-}
-
 }  // namespace
 
 bool is_effective_bound(const Problem& problem, double bound) {
@@ -163,7 +157,7 @@ Eigen::VectorXd Coordinates::start(int index, std::uint64_t seed) const {
   double step = 1.0;
   for (int k = 0; k < size(); ++k) {
     step /= ratio;
-    const double t = shift(seed, k) + (index + 1.0) * step;
+    const double t = uniform_from(stream(seed, static_cast<std::uint64_t>(k))) + (index + 1.0) * step;
     u[k] = t - std::floor(t);
   }
   Eigen::VectorXd y = low_ + u.cwiseProduct(high_ - low_);

@@ -17,4 +17,9 @@ inline double uniform_from(std::uint64_t z) {
   return static_cast<double>(mixed(z) >> 11) * 0x1.0p-53;
 }
 
+/// Where the numbers of stream `which` of a seed begin.
+inline std::uint64_t stream(std::uint64_t seed, std::uint64_t which) {
+  return (seed + 1) * 0x9E3779B97F4A7C15ULL + which * 0xD1B54A32D192ED03ULL;
+}
+
 }  // namespace ninedof

@@ -8,11 +8,8 @@ namespace {
 /// Returns the length of `leg` and sets its direction (zero for a leg of zero length).
 double split(const Vec3& leg, Vec3& direction) {
   const double length = leg.norm();
-  if (length == 0.0) {
-    direction.setZero();
-  } else {
-    direction = leg / length;
-  }
+  if (length == 0.0) direction.setZero();
+  else direction = leg / length;
   return length;
 }
 

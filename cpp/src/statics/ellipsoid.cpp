@@ -9,8 +9,6 @@
 namespace ninedof {
 namespace {
 
-using Mat96 = Eigen::Matrix<double, 9, 6>;
-
 /// X with |X t| the least norm of leg rates over all motions of O at the twist t. The conditioning matrix M has
 /// X^T X = M^T M, except if all internal legs lie in a plane: there M lacks a row.
 Mat96 least_rates(const Geometry& g, const Configuration& c, double characteristic_length) {

@@ -20,8 +20,7 @@ namespace {
 /// The sequence of random numbers of one sample: each is a hash of (seed, sample, position in the sequence).
 class Draws {
  public:
-  Draws(std::uint64_t seed, std::uint64_t sample)
-      : next_((seed + 1) * 0x9E3779B97F4A7C15ULL + (sample + 1) * 0xD1B54A32D192ED03ULL) {}
+  Draws(std::uint64_t seed, std::uint64_t sample) : next_(stream(seed, sample + 1)) {}
 
   /// In [-1, 1).
   double interval() { return 2.0 * unit() - 1.0; }

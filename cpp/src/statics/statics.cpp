@@ -91,8 +91,7 @@ Mat6 stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffn
   require_stiffness(leg_stiffness);
   const Mat9 x = leg_stiffness.cwiseSqrt().asDiagonal() * rate_matrix(g, c);
   if (!x.allFinite()) return Mat6::Constant(not_a_number);
-  const Eigen::Matrix<double, 9, 6> platform =
-      eliminate(x.rightCols<3>(), Eigen::Matrix<double, 9, 6>(x.leftCols<6>()));
+  const Mat96 platform = eliminate(x.rightCols<3>(), Mat96(x.leftCols<6>()));
   return platform.transpose().lazyProduct(platform);
 }
 

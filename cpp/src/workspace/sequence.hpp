@@ -23,7 +23,7 @@ inline Vec3 sequence_point(long n, const Vec3& shift) {
 
 /// The shift number `which` of a seed.
 inline Vec3 sequence_shift(std::uint64_t seed, std::uint64_t which) {
-  const std::uint64_t z = (seed + 1) * 0x9E3779B97F4A7C15ULL + which * 0xD1B54A32D192ED03ULL;
+  const std::uint64_t z = stream(seed, which);
   return {uniform_from(z), uniform_from(z + 0x9E3779B97F4A7C15ULL), uniform_from(z + 2 * 0x9E3779B97F4A7C15ULL)};
 }
 

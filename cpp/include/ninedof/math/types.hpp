@@ -18,6 +18,7 @@ using Mat39 = Eigen::Matrix<double, 3, 9>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat69 = Eigen::Matrix<double, 6, 9>;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
+using Mat96 = Eigen::Matrix<double, 9, 6>;
 using Mat93 = Eigen::Matrix<double, 9, 3>;
 
 /// One vector for each of the three legs of a kind; 9 doubles, joint after joint.

@@ -45,18 +45,18 @@ void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Ro
   }
 }
 
-double Constraint::unit(const DesignState& v) const {
+double Constraint::unit(const DesignState& v, int body) const {
   switch (limit_.of) {
     case Unit::length: return 1.0;
     case Unit::zp: return v.blueprint.zp;
-    case Unit::radius: return joint_radius(v, widest_joint(v, -1));
+    case Unit::radius: return joint_radius(v, widest_joint(v, body));
   }
   return 1.0;
 }
 
-void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out) const {
+void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out, int body) const {
   if (limit_.of == Unit::zp) v.add_zp(scale, out);
-  if (limit_.of == Unit::radius) add_joint_radius(v, widest_joint(v, -1), scale, out);
+  if (limit_.of == Unit::radius) add_joint_radius(v, widest_joint(v, body), scale, out);
 }
 
 double joint_radius(const DesignState& v, int joint) {

@@ -65,9 +65,10 @@ class Constraint {
   bool has_low() const { return limit_.low > 0.0; }
   double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }
   std::pair<Side, int> item_of(int row) const;
-  /// The length that limits are fractions of. The second adds `scale` times its derivatives.
-  double unit(const DesignState& v) const;
-  void add_unit_gradient(const DesignState& v, double scale, Row out) const;
+  /// The length that limits are fractions of; a radius is that of `body`, see widest_joint. The second adds `scale`
+  /// times its derivatives.
+  double unit(const DesignState& v, int body = -1) const;
+  void add_unit_gradient(const DesignState& v, double scale, Row out, int body = -1) const;
   int auxiliary_coordinate() const { return auxiliary_coordinate_; }
 
  private:

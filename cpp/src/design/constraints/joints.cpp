@@ -79,31 +79,25 @@ class JointSpacing : public Constraint {
   static std::pair<int, int> joints(int item) {
     int left = item % pairs, a = 0;
     for (; left >= 5 - a; ++a) left -= 5 - a;
-    const int body = item < pairs ? 0 : point_u;
-    return {body + a, body + a + 1 + left};
+    return {body(item) + a, body(item) + a + 1 + left};
   }
   static Vec3 between(const DesignState& v, int a, int b) {
     return v.blueprint.joint[at_index(a)] - v.blueprint.joint[at_index(b)];
   }
-  double body_unit(const DesignState& v, int joint) const {
-    if (limit().of != Unit::radius) return unit(v);
-    return joint_radius(v, widest_joint(v, joint < point_u ? 0 : point_u));
-  }
+  static int body(int item) { return item < pairs ? 0 : point_u; }
   double value(const DesignState& v, Side, int item) const override {
     const auto [a, b] = joints(item);
-    return between(v, a, b).norm() / body_unit(v, a);
+    return between(v, a, b).norm() / unit(v, body(item));
   }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
     const auto [a, b] = joints(item);
     const Vec3 d = between(v, a, b);
-    const double distance = d.norm(), u = body_unit(v, a);
+    const double distance = d.norm(), u = unit(v, body(item));
     if (distance > 0.0) {
       v.add_joint(a, scale / (distance * u) * d, out);
       v.add_joint(b, -scale / (distance * u) * d, out);
     }
-    const double by_unit = -scale * distance / (u * u);
-    if (limit().of == Unit::radius) add_joint_radius(v, widest_joint(v, a < point_u ? 0 : point_u), by_unit, out);
-    else add_unit_gradient(v, by_unit, out);
+    add_unit_gradient(v, -scale * distance / (u * u), out, body(item));
   }
 };
 

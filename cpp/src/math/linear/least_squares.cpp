@@ -100,15 +100,15 @@ Eigen::Matrix<double, 9, Kept> eliminated(const Mat93& free, const Eigen::Matrix
 
 }  // namespace
 
-Eigen::Matrix<double, 9, 6> eliminate(const Mat93& free, const Eigen::Matrix<double, 9, 6>& kept) {
+Mat96 eliminate(const Mat93& free, const Mat96& kept) {
   return eliminated(free, kept);
 }
 Mat93 eliminate(const Mat93& free, const Mat93& kept) {
   return eliminated(free, kept);
 }
 
-Mat6 triangular_factor(const Eigen::Matrix<double, 9, 6>& x) {
-  Eigen::Matrix<double, 9, 6> out = x;
+Mat6 triangular_factor(const Mat96& x) {
+  Mat96 out = x;
   auto a = out.block(0, 0, 9, 6);
   Vec6 workspace;
   for (Eigen::Index k = 0; k < 6; ++k) {

@@ -10,11 +10,11 @@ namespace ninedof {
 /// X with |X y| = min over z of |kept y + free z| for every y: the part of `kept` that the columns of `free` cannot
 /// reach, in an orthonormal basis. X^T X is the Schur complement of the normal equations, and stays right where `free`
 /// has lost rank.
-Eigen::Matrix<double, 9, 6> eliminate(const Mat93& free, const Eigen::Matrix<double, 9, 6>& kept);
+Mat96 eliminate(const Mat93& free, const Mat96& kept);
 Mat93 eliminate(const Mat93& free, const Mat93& kept);
 
 /// The triangular factor R of X = Q R.
-Mat6 triangular_factor(const Eigen::Matrix<double, 9, 6>& x);
+Mat6 triangular_factor(const Mat96& x);
 
 /// The solution of a x = b; nothing if a pivot is at most `least_pivot` times the largest.
 std::optional<Vec9> solve_regular(const Mat9& a, const Vec9& b, double least_pivot);

@@ -61,7 +61,6 @@ Eigen::VectorXd objective_gradient(const PreparedProblem& p, const DesignEvaluat
 }
 
 void Subproblem::select_rows() {
-  const DesignEvaluation& design = design_;
   selection_.row_levels.clear();
   selection_.margins.clear();
   if (p_.row_levels.size() + p_.margins.size() <= few_rows) {
@@ -70,10 +69,10 @@ void Subproblem::select_rows() {
     return;
   }
   for (std::size_t k = 0; k < p_.row_levels.size(); ++k)
-    if (design.objective_rows[p_.row_levels[k].row] >= design.levels[p_.row_levels[k].level] - far_below)
+    if (design_.objective_rows[p_.row_levels[k].row] >= design_.levels[p_.row_levels[k].level] - far_below)
       selection_.row_levels.push_back(static_cast<int>(k));
-  for (Eigen::Index k = 0; k < design.margins.size(); ++k)
-    if (design.margins[k] <= large_margin) selection_.margins.push_back(static_cast<int>(k));
+  for (Eigen::Index k = 0; k < design_.margins.size(); ++k)
+    if (design_.margins[k] <= large_margin) selection_.margins.push_back(static_cast<int>(k));
 }
 
 void Subproblem::select_poses() {
@@ -87,21 +86,20 @@ void Subproblem::select_poses() {
 }
 
 bool Subproblem::add_violated() {
-  const DesignEvaluation& design = design_;
   const auto has = [](const std::vector<int>& list, int k) { return std::ranges::binary_search(list, k); };
   std::vector<int> row_levels, margins;
   bool violated = false;
   for (std::size_t k = 0; k < p_.row_levels.size(); ++k) {
-    const double above = design.objective_rows[p_.row_levels[k].row] - design.levels[p_.row_levels[k].level];
+    const double above = design_.objective_rows[p_.row_levels[k].row] - design_.levels[p_.row_levels[k].level];
     if (above >= -near_active && !has(selection_.row_levels, static_cast<int>(k))) {
       row_levels.push_back(static_cast<int>(k));
       violated |= above >= -clearly_feasible;  // it is the largest: the level of the selected rows was below it
     }
   }
-  for (Eigen::Index k = 0; k < design.margins.size(); ++k)
-    if (design.margins[k] <= near_active && !has(selection_.margins, static_cast<int>(k))) {
+  for (Eigen::Index k = 0; k < design_.margins.size(); ++k)
+    if (design_.margins[k] <= near_active && !has(selection_.margins, static_cast<int>(k))) {
       margins.push_back(static_cast<int>(k));
-      violated |= design.margins[k] < -clearly_feasible;
+      violated |= design_.margins[k] < -clearly_feasible;
     }
   if (!violated) return false;
   selection_.row_levels.insert(selection_.row_levels.end(), row_levels.begin(), row_levels.end());
@@ -112,14 +110,13 @@ bool Subproblem::add_violated() {
 }
 
 void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
-  const DesignEvaluation& design = design_;
   const int n = p_.coordinates.size();
   Eigen::VectorXd slopes;
   if (!minimax()) {
     // The objective itself, with the gradient of the largest rows.
-    out.f = p_.objective(design.levels, &slopes);
-    out.f_gradient = objective_gradient(p_, design, slopes);
-    return write_constraints(p_, design, selection_.margins, at, 0, out);
+    out.f = p_.objective(design_.levels, &slopes);
+    out.f_gradient = objective_gradient(p_, design_, slopes);
+    return write_constraints(p_, design_, selection_.margins, at, 0, out);
   }
   out.f = p_.objective(at.tail(p_.levels), &slopes);
   out.f_gradient.setZero();
@@ -127,11 +124,11 @@ void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
   Eigen::Index row = 0;
   for (const int k : selection_.row_levels) {
     const RowLevel& u = p_.row_levels[at_index(k)];
-    out.c[row] = design.objective_rows[u.row] - at[n + u.level];
-    out.c_gradient.row(row).head(n) = design.row_gradient.row(u.row);
+    out.c[row] = design_.objective_rows[u.row] - at[n + u.level];
+    out.c_gradient.row(row).head(n) = design_.row_gradient.row(u.row);
     out.c_gradient(row++, n + u.level) = -1.0;
   }
-  write_constraints(p_, design, selection_.margins, at, row, out);
+  write_constraints(p_, design_, selection_.margins, at, row, out);
 }
 
 Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, int max_evaluations) {

@@ -78,14 +78,13 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
     leaf.fraction = all_in ? 1.0 : 0.0;
   }
   leaf.state = all_in ? CellState::inside : all_out ? CellState::outside : CellState::boundary;
-  if (leaf.state == CellState::outside) leaf.limit = static_cast<std::int16_t>(margins.violated(centre));
   if (leaf.state == CellState::boundary && leaf.inside != 0 && leaf.inside != 255) {
     std::vector<CutCell::Piece> pieces;
     cut.boundary(Vec3::Ones(), pieces);
     std::array<double, 64> area{};
     for (const CutCell::Piece& piece : pieces) area[at_index(piece.limit)] += piece.area;
     leaf.limit = static_cast<std::int16_t>(std::max_element(area.begin(), area.end()) - area.begin());
-  } else if (leaf.state == CellState::boundary) {
+  } else if (leaf.state != CellState::inside) {
     leaf.limit = static_cast<std::int16_t>(margins.violated(centre));
   }
   integrate(points, lattice, margins, leaf);

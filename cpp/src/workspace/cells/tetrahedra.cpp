@@ -58,17 +58,13 @@ double CutCell::fraction() {
   for (const auto& t : tetrahedra) {
     const Sorted s = sorted(t, inside_);
     const auto at = [&](std::size_t in, std::size_t out) { return crossing(s.corner[in], s.corner[out]).t; };
-    if (s.allowed == 1) {
-      sum += at(0, 1) * at(0, 2) * at(0, 3);
-    } else if (s.allowed == 2) {
-      // The wedge between the triangles (a, ac, ad) and (b, bc, bd), as three tetrahedra.
-      const double ac = at(0, 2), ad = at(0, 3), bc = at(1, 2), bd = at(1, 3);
-      sum += ac * ad * (1.0 - bd) + ac * (1.0 - bc) * bd + bc * bd;
-    } else if (s.allowed == 3) {
-      sum += 1.0 - (1.0 - at(0, 3)) * (1.0 - at(1, 3)) * (1.0 - at(2, 3));
-    } else if (s.allowed == 4) {
-      sum += 1.0;
-    }
+    if (s.allowed == 1) sum += at(0, 1) * at(0, 2) * at(0, 3);
+    if (s.allowed == 3) sum += 1.0 - (1.0 - at(0, 3)) * (1.0 - at(1, 3)) * (1.0 - at(2, 3));
+    if (s.allowed == 4) sum += 1.0;
+    if (s.allowed != 2) continue;
+    // The wedge between the triangles (a, ac, ad) and (b, bc, bd), as three tetrahedra.
+    const double ac = at(0, 2), ad = at(0, 3), bc = at(1, 2), bd = at(1, 3);
+    sum += ac * ad * (1.0 - bd) + ac * (1.0 - bc) * bd + bc * bd;
   }
   return sum / 6.0;
 }

@@ -6,11 +6,8 @@ namespace ninedof {
 
 Cones::Cones(const ConeLimit& limit, bool platform, const Points& home, const Mat3& rotation)
     : angle_(limit.angle), platform_(platform) {
-  if (limit.axis.isZero(0.0)) {
-    axis_ = directions(home, rotation);
-  } else {
-    axis_.fill(limit.axis.normalized());
-  }
+  if (limit.axis.isZero(0.0)) axis_ = directions(home, rotation);
+  else axis_.fill(limit.axis.normalized());
 }
 
 std::array<Vec3, 6> Cones::directions(const Points& at, const Mat3& rotation) const {

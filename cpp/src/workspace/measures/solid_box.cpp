@@ -108,11 +108,8 @@ InscribedBox varied(InscribedBox box, const std::vector<Vec3>& surface, const Ch
         const int give = trade / 6, first = trade % 6, axis = give / 2;
         if (first == give) continue;
         InscribedBox now = box;
-        if (give % 2 != 0) {
-          now.high[axis] -= step * start[axis];
-        } else {
-          now.low[axis] += step * start[axis];
-        }
+        if (give % 2 != 0) now.high[axis] -= step * start[axis];
+        else now.low[axis] += step * start[axis];
         if (now.high[axis] <= now.low[axis]) continue;
         for (int n = 0; n < 6; ++n) extend(now, (first + n) % 6 / 2, (first + n) % 2 != 0, surface, chart);
         if (volume(now) <= volume(box) * (1.0 + 1e-9)) continue;

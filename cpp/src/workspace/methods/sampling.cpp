@@ -15,11 +15,6 @@
 namespace ninedof {
 namespace {
 
-/// Rule of three: the volume missed by `count` points spread evenly over the box, an upper bound at 95 % confidence.
-double missed(const Margins& m, long count) {
-  return 3.0 * m.chart().box_volume() / static_cast<double>(count);
-}
-
 /// Evaluates points in order and reports progress between pieces of work.
 std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads, const Control& control,
                                     long before, long total, const BestPoints* mapped = nullptr) {
@@ -39,6 +34,16 @@ std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x
     if (control.progress) control.progress(before + done + now, total, not_a_number);
   }
   return out;
+}
+
+/// Writes what follows from the volume and the number of points.
+void finish(const Margins& m, long count, int resolution, WorkspaceMap& map) {
+  // Rule of three: the volume missed by points spread evenly over the box, an upper bound at 95 % confidence.
+  map.unseen = 3.0 * m.chart().box_volume() / static_cast<double>(count);
+  if (!(map.volume > 0.0)) map.error = map.unseen;
+  map.evaluations = count;
+  map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
+  map.resolution = resolution;
 }
 
 Leaf point_leaf(const PointMargins& at, const Margins& m, double measure) {
@@ -126,12 +131,8 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   // The error of a cell on the boundary is uniformly distributed. Errors of neighbours are correlated along a smooth
   // boundary: four standard errors of independent ones are taken.
   map.error = 4.0 * std::sqrt(undecided / 12.0);
-  map.unseen = missed(m, static_cast<long>(x.size()));
-  if (!(map.volume > 0.0)) map.error = map.unseen;
-  map.evaluations = static_cast<long>(x.size());
-  map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
+  finish(m, static_cast<long>(x.size()), n, map);
   map.limit_area = surface.area;
-  map.resolution = n;
   summarize(leaves, lattice, first_piece_alone, map);
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
 }
@@ -166,11 +167,7 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Co
     return std::pair(mean, std::sqrt(square / (settings.shifts - 1.0) / settings.shifts));
   };
   std::tie(map.volume, map.error) = mean_and_error(volume);
-  map.unseen = missed(m, total);
-  if (!(map.volume > 0.0)) map.error = map.unseen;
-  map.evaluations = total;
-  map.status = map.volume > 0.0 ? WorkspaceStatus::converged : WorkspaceStatus::empty;
-  map.resolution = settings.resolution;
+  finish(m, total, settings.resolution, map);
   const CellLattice lattice(m, settings.resolution, settings.threads);
   summarize(leaves, lattice, false, map);
   map.cells.centre = where;
