@@ -22,10 +22,7 @@ Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double chara
     e.row(row) << (k.u[i].cross(k.e[i]) * inverse_lc).transpose(), k.e[i].transpose();
     e.row(row + 3) << (k.u_tilde[i].cross(k.e_tilde[i]) * inverse_lc).transpose(), k.e_tilde[i].transpose();
   }
-  Mat6 m;
-  m.topRows<3>() = e.topRows<3>();
-  m.bottomRows<3>().noalias() = null_space_part(rows_of(k.e_tilde), rows_of(k.e_hat)).lazyProduct(e.bottomRows<3>());
-  return m;
+  return conditioning_rows(e, rows_of(k.e_tilde), rows_of(k.e_hat));
 }
 
 namespace {

@@ -9,4 +9,12 @@ namespace ninedof {
 /// three columns of its full Householder Q, transposed. Valid also where C or B is singular.
 Mat3 null_space_part(const Mat3& c, const Mat3& b);
 
+/// M = [A; N_q E] from the rows of A and then of E, and from C and B.
+inline Mat6 conditioning_rows(const Mat6& a_e, const Mat3& c, const Mat3& b) {
+  Mat6 m;
+  m.topRows<3>() = a_e.topRows<3>();
+  m.bottomRows<3>().noalias() = null_space_part(c, b).lazyProduct(a_e.bottomRows<3>());
+  return m;
+}
+
 }  // namespace ninedof

@@ -54,10 +54,7 @@ Spectrum spectrum(const Points& at, const NineLegs& legs, double lc) {
     c.row(i) = upper;
     b.row(i) = legs.direction[at_index(i + 6)];
   }
-  Mat6 m;
-  m.topRows<3>() = e.topRows<3>();
-  m.bottomRows<3>().noalias() = null_space_part(c, b).lazyProduct(e.bottomRows<3>());
-  const RightSvd<6> svd = right_svd_6x6(m);
+  const RightSvd<6> svd = right_svd_6x6(conditioning_rows(e, c, b));
   Spectrum out;
   out.sigma = svd.sigma;
   out.twist = svd.v;

@@ -86,8 +86,7 @@ void require_workspace(const WorkspaceDomain& domain, const InternalPointRule& r
 void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bool connected, const Control& control,
                    WorkspaceMap& map) {
   CellLattice lattice(margins, settings.resolution, settings.threads);
-  const std::optional<Vec3> home = connected ? std::optional(margins.home()) : std::nullopt;
-  Octree tree = grow_octree(margins, lattice, settings, connected, home, control);
+  Octree tree = grow_octree(margins, lattice, settings, connected, map.home_allowed, control);
   map.status = tree.status;
   map.levels = tree.levels;
   map.evaluations = tree.evaluations;
@@ -96,7 +95,8 @@ void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bo
   if (tree.levels.empty()) return;  // stopped before the first level
   map.volume = tree.levels.back().volume;
   map.error = tree.levels.back().error;
-  map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(), home);
+  map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(),
+                           connected ? std::optional(margins.home()) : std::nullopt);
   // The extrapolated volume is distributed over the pieces.
   double found = 0.0;
   for (std::size_t n = 0; n < (connected ? std::min<std::size_t>(1, map.pieces.size()) : map.pieces.size()); ++n)

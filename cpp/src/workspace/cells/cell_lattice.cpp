@@ -56,6 +56,15 @@ CellLattice::CellLattice(const Margins& margins, int resolution, int threads)
       resolution_(resolution),
       threads_(threads) {}
 
+std::vector<Cell> CellLattice::roots() const {
+  std::vector<Cell> out;
+  const auto n = static_cast<std::uint32_t>(resolution_);
+  for (std::uint32_t k = 0; k < n; ++k)
+    for (std::uint32_t j = 0; j < n; ++j)
+      for (std::uint32_t i = 0; i < n; ++i) out.push_back({i, j, k, 0});
+  return out;
+}
+
 Vec3 CellLattice::centre(const Cell& c) const {
   const Vec3 index(static_cast<double>(c.i), static_cast<double>(c.j), static_cast<double>(c.k));
   return low_ + (index + Vec3::Constant(0.5)).cwiseProduct(size(c.level));

@@ -70,6 +70,8 @@ class CellLattice {
   CellLattice(const Margins& margins, int resolution, int threads);
 
   static constexpr int deepest = 10;
+  /// The cells of level 0, the first index running fastest.
+  std::vector<Cell> roots() const;
   Vec3 centre(const Cell& c) const;
   Vec3 size(int level) const { return step_ * static_cast<double>(2 << (deepest - level)); }
   Vec3 at(std::uint64_t key) const;

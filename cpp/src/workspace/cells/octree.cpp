@@ -15,17 +15,14 @@ constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and 
 
 class OctreeBuilder {
  public:
-  OctreeBuilder(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                const std::optional<Vec3>& home, const Control& control)
-      : m_(margins), settings_(settings), home_(home), control_(control), lattice_(lattice) {}
+  OctreeBuilder(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings, bool home_allowed,
+                const Control& control)
+      : m_(margins), settings_(settings), home_allowed_(home_allowed), control_(control), lattice_(lattice) {}
 
   WorkspaceStatus run(bool first_piece_alone) {
     try {
-      PointMargins at_home;
-      m_.evaluate(&m_.home(), 1, &at_home, control_.stop);
-      home_allowed_ = m_.in_chart(m_.home()) && at_home.allowed(m_.groups());
       Audit audit;
-      std::vector<Cell> open = roots();
+      std::vector<Cell> open = lattice_.roots();
       for (int level = 0;; ++level) {
         std::vector<Leaf> now = leaves_of(open);
         if (level == 0) {
@@ -50,15 +47,6 @@ class OctreeBuilder {
   Octree tree;
 
  private:
-  std::vector<Cell> roots() const {
-    std::vector<Cell> out;
-    const auto n = static_cast<std::uint32_t>(settings_.resolution);
-    for (std::uint32_t k = 0; k < n; ++k)
-      for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) out.push_back({i, j, k, 0});
-    return out;
-  }
-
   std::vector<Leaf> leaves_of(const std::vector<Cell>& cells) {
     const std::vector<NinePoints> points = lattice_.points_of(cells, control_.stop);
     lattice_.evaluate(control_, expected_, volume_);
@@ -114,7 +102,7 @@ class OctreeBuilder {
   }
 
   void measure(bool first_piece_alone, const Audit& audit) {
-    if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), home_);
+    if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), m_.home());
     double volume = 0.0, undecided = 0.0, change = 0.0;
     for (std::size_t n = 0; n < tree.leaves.size(); ++n) {
       const Leaf& leaf = tree.leaves[n];
@@ -171,8 +159,7 @@ class OctreeBuilder {
 
   const Margins& m_;
   const WorkspaceSettings& settings_;
-  std::optional<Vec3> home_;
-  bool home_allowed_ = false;
+  const bool home_allowed_;
   const Control& control_;
   CellLattice& lattice_;
   std::vector<Leaf> settled_;  // the tree itself holds the state after the last complete level
@@ -185,8 +172,8 @@ class OctreeBuilder {
 }  // namespace
 
 Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                   bool first_piece_alone, const std::optional<Vec3>& home, const Control& control) {
-  OctreeBuilder builder(margins, lattice, settings, home, control);
+                   bool first_piece_alone, bool home_allowed, const Control& control) {
+  OctreeBuilder builder(margins, lattice, settings, home_allowed, control);
   builder.tree.status = builder.run(first_piece_alone);
   builder.tree.evaluations = builder.evaluations();
   return std::move(builder.tree);

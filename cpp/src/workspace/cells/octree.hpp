@@ -23,9 +23,9 @@ struct Octree {
   Disagreement disagreement;  ///< of the last level
 };
 
-/// Divides until the error is small enough. With `home` the cell of that point is divided as long as it has no allowed
+/// Divides until the error is small enough. The cell of an allowed home pose is divided as long as it has no allowed
 /// corner; with `first_piece_alone` the volume is that of its piece.
 Octree grow_octree(const Margins& margins, CellLattice& lattice, const WorkspaceSettings& settings,
-                   bool first_piece_alone, const std::optional<Vec3>& home, const Control& control);
+                   bool first_piece_alone, bool home_allowed, const Control& control);
 
 }  // namespace ninedof

@@ -72,15 +72,9 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         "resolution", std::to_string(n),
         "a grid of at most most_evaluations = " + std::to_string(settings.most_evaluations) + " cells");
   CellLattice lattice(m, n, settings.threads);
-  std::vector<Cell> cells;
+  const std::vector<Cell> cells = lattice.roots();
   std::vector<Vec3> x;
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        cells.push_back(
-            {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), 0});
-        x.push_back(lattice.centre(cells.back()));
-      }
+  for (const Cell& cell : cells) x.push_back(lattice.centre(cell));
   const Vec3 size = lattice.size(0);
   BestPoints best(m);
   if (best.needed()) {
