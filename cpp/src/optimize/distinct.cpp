@@ -8,8 +8,8 @@
 namespace ninedof {
 namespace {
 
-/// Relative difference of objectives that count as equal.
-constexpr double same_objective = 1e-7;
+/// Relative difference of objectives that count as equal, and difference of signatures of one design.
+constexpr double same_objective = 1e-7, same_design = 1e-4;
 /// Optima need not be isolated: of many designs with one objective this many are returned.
 constexpr int most_alike = 4;
 
@@ -33,10 +33,6 @@ Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   return out.cwiseMax(1e-300).cwiseMin(1e300).array().log();
 }
 
-bool same_design(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return (a - b).cwiseAbs().maxCoeff() < 1e-4;
-}
-
 /// Whether `a` represents two end points of the same design: not worse, and first in the order of variables (the choice
 /// between mirror images must not depend on rounding), or the same image and more nearly stationary.
 bool represents(const Candidate& a, const Candidate& b) {
@@ -48,15 +44,13 @@ bool represents(const Candidate& a, const Candidate& b) {
   return a.optimality_residual < b.optimality_residual;
 }
 
-/// Whether a run ended on an internal bound of an angle or of an "optimal" length: no optimum of the study.
-bool at_internal_bound(const PreparedProblem& p, const Candidate& c) {
-  return near_internal_bound(p.coordinates, c.variables, 1e-6, [](const Variable& v) {
-    return v.kind == VariableKind::angle || (v.kind == VariableKind::length && v.internal_bounds);
-  });
-}
-
+/// On an internal bound of an angle or of an "optimal" length a run has found no optimum of the study.
 bool acceptable(const PreparedProblem& p, const Candidate& c) {
-  return c.feasible() && c.stationary() && c.regular() && !at_internal_bound(p, c);
+  const auto counts = [](const Variable& v) {
+    return v.kind == VariableKind::angle || (v.kind == VariableKind::length && v.internal_bounds);
+  };
+  return c.feasible() && c.stationary() && c.regular() &&
+         !near_internal_bound(p.coordinates, c.variables, 1e-6, counts);
 }
 
 }  // namespace
@@ -78,7 +72,7 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
   for (Candidate& end : ends) {
     const Eigen::VectorXd mark = signature(p, end);
     std::size_t k = 0;
-    while (k < out.size() && !same_design(signatures[k], mark)) ++k;
+    while (k < out.size() && !((signatures[k] - mark).cwiseAbs().maxCoeff() < same_design)) ++k;
     if (k < out.size()) {
       if (represents(end, out[k])) out[k] = std::move(end);
       continue;

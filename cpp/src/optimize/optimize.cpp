@@ -12,10 +12,6 @@ namespace {
 /// Relative gain by which a feasible design that is not stationary puts the best optimum in doubt.
 constexpr double noticeable_gain = 1e-6;
 
-double next_size(const std::vector<double>& sizes, double size_limit) {
-  return *std::upper_bound(sizes.begin(), sizes.end(), size_limit);
-}
-
 /// The best design of a round with variables at the size limit moved to the next one.
 Eigen::VectorXd stretched(const PreparedProblem& p, const RoundBest& round, double next) {
   Eigen::VectorXd x = round.best.variables;
@@ -72,7 +68,8 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
       }
       // A larger size limit must not give a worse result by chance: the best design starts there too, also stretched.
       further = {round_bests.back().best.variables};
-      if (size_limit < sizes.back()) further.push_back(stretched(p, round_bests.back(), next_size(sizes, size_limit)));
+      if (size_limit < sizes.back())
+        further.push_back(stretched(p, round_bests.back(), *std::ranges::upper_bound(sizes, size_limit)));
     }
     if (std::optional<Candidate> best = best_feasible(round))
       if (!best_design || best->objective < best_design->objective) best_design = std::move(best);

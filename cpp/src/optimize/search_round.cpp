@@ -39,11 +39,6 @@ std::vector<std::size_t> ranked(const SearchRound& round) {
   return out;
 }
 
-/// Whether a start is expensive: many poses, or an index with kinks that are smoothed.
-bool expensive(const PreparedProblem& p) {
-  return p.objective_poses > 1 || p.has_kinks();
-}
-
 /// The same problem with s where stated: fewer variables, and close enough to tell good starts from bad ones.
 Problem with_stated_internal_points(Problem problem) {
   for (Pose& pose : problem.objective.poses) pose.best_internal = false;
@@ -170,7 +165,8 @@ SearchRound run_round(const PreparedProblem& p, double size_limit, const std::ve
                       const Settings& s, const Control& control, Progress& progress) {
   const RunSettings full_run{s.max_evaluations};
   SearchRound round;
-  if (expensive(p) && p.coordinates.size() > 0) {
+  // Starts are expensive with many poses, or if the index has kinks that are smoothed.
+  if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {
     const std::vector<Eigen::VectorXd> chosen = promising_starts(p, size_limit, s, control, progress, round);
     run_all(p, chosen, full_run, s, control, round);
   } else {

@@ -19,14 +19,6 @@ void require_tolerance(const char* name, double value) {
 constexpr std::array<std::array<int, 2>, 9> joints_of_leg{
     {{0, 6}, {1, 7}, {2, 8}, {9, -1}, {10, -1}, {11, -1}, {3, -1}, {4, -1}, {5, -1}}};
 
-/// Calls visit(leg, tolerance of its joint) for the twelve joints.
-template <class Visit>
-void for_each_joint(const Tolerances& t, const Visit& visit) {
-  for (std::size_t k = 0; k < 9; ++k)
-    for (const int joint : joints_of_leg[k])
-      if (joint >= 0) visit(static_cast<Eigen::Index>(k), t.joints[at_index(joint)]);
-}
-
 /// Largest |columns * d| over the corners d of the box [-1, 1]^9: half of them, since d and -d give the same norm.
 double farthest_corner(const Eigen::Matrix<double, 3, 9>& columns) {
   double largest = 0.0;
@@ -60,10 +52,13 @@ ErrorBounds error_bounds(const Geometry& g, const Configuration& c, const Tolera
   validate(t);
   const Mat9 map = error_map(g, c);
   Vec9 box = t.legs, variance = t.legs.cwiseAbs2() / 3.0;
-  for_each_joint(t, [&](Eigen::Index leg, double radius) {
-    box[leg] += radius;                       // a joint error along its leg
-    variance[leg] += radius * radius / 5.0;   // variance of one coordinate in a ball
-  });
+  for (Eigen::Index leg = 0; leg < 9; ++leg)
+    for (const int joint : joints_of_leg[at_index(leg)]) {
+      if (joint < 0) continue;
+      const double radius = t.joints[at_index(joint)];
+      box[leg] += radius;                       // a joint error along its leg
+      variance[leg] += radius * radius / 5.0;   // variance of one coordinate in a ball
+    }
   if (map.hasNaN() || box.hasNaN()) {
     const Mat9 nothing = Mat9::Constant(not_a_number);
     return {nothing.col(0), not_a_number, not_a_number, not_a_number, nothing};

@@ -1,7 +1,6 @@
 #include "math/linear/least_squares.hpp"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

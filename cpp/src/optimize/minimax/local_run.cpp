@@ -28,10 +28,6 @@ bool improves(const Candidate& next, const Candidate& now) {
 /// Larger condition numbers differ from a singular design by rounding only.
 constexpr double largest_condition = 1e14;
 
-double worst(const std::vector<double>& conditions) {
-  return *std::ranges::max_element(conditions);
-}
-
 /// Whether Newton's method can start here.
 bool nearly_stationary(const PreparedProblem& p, const Eigen::VectorXd& y) {
   DesignEvaluation design;
@@ -54,7 +50,8 @@ Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
   out.conditions = conditions(p, design);
   out.characteristic_length = design.state.characteristic_length;
   const bool by_poses = p.problem.objective.index != Index::six_legged;
-  out.singular = !(out.objective < largest_condition) || (by_poses && !(worst(out.conditions) < largest_condition));
+  out.singular = !(out.objective < largest_condition) ||
+                 (by_poses && !(*std::ranges::max_element(out.conditions) < largest_condition));
   out.constraint_violation = violation(p, design, y);
   out.optimality_residual = s.residual;
   out.prices = std::move(s.prices);

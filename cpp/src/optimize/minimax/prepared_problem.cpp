@@ -16,10 +16,6 @@ constexpr double probe_size = 100.0;
 
 const std::string condition_limit_name = "condition_limit";
 
-int pair_rows(bool closed) {
-  return index_rows(Index::condition_number, closed);
-}
-
 int count_auxiliary(const Problem& problem) {
   int count = 0;
   for (const Limit& limit : problem.limits)
@@ -80,7 +76,8 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
   if (std::isfinite(o.condition_limit))
     for (int k = 0; k < poses; ++k)
-      for (int pair = 0; pair < pair_rows(closed[at_index(k)]); ++pair) margins.push_back({-1 - k, pair});
+      for (int pair = 0; pair < index_rows(Index::condition_number, closed[at_index(k)]); ++pair)
+        margins.push_back({-1 - k, pair});
 }
 
 void PreparedProblem::learn_constraints(const Coordinates& within) {
