@@ -16,12 +16,6 @@ double sinc(double t) {
   return t > 1e-4 ? std::sin(t) / t : 1.0 - t * t / 6.0;
 }
 
-/// 2 (1 - cos t) / t^2 = (sin(t/2) / (t/2))^2 without cancellation.
-double haar_of_vector(double t) {
-  const double ratio = sinc(0.5 * t);
-  return ratio * ratio;
-}
-
 }  // namespace
 
 Chart::Chart(const WorkspaceDomain& domain)
@@ -42,8 +36,10 @@ Chart::Chart(const WorkspaceDomain& domain)
 
 double Chart::density(const Vec3& x) const {
   if (positional_) return 1.0;
-  return region_.chart == rotation_vector ? haar_of_vector(std::min(x.norm(), pi))
-                                          : sinc(std::min(x.head<2>().norm(), pi));
+  if (region_.chart == tilt_torsion) return sinc(std::min(x.head<2>().norm(), pi));
+  // 2 (1 - cos t) / t^2 = (sin(t/2) / (t/2))^2 without cancellation.
+  const double ratio = sinc(0.5 * std::min(x.norm(), pi));
+  return ratio * ratio;
 }
 
 double Chart::volume() const {

@@ -23,7 +23,7 @@ struct Spectrum {
   Vec6 sigma;
   Mat6 twist;                          ///< right singular vectors, (l_c omega, pdot), one per column
   Eigen::Matrix<double, 3, 6> sdot;    ///< velocity of O for each twist
-  Eigen::Matrix<double, 9, 6> rates;   ///< leg rates for each twist
+  Mat96 rates;                         ///< leg rates for each twist
   double characteristic_length;
 };
 

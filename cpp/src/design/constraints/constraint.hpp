@@ -34,7 +34,7 @@ class Constraint {
   /// Derivative of a row's margin by the logarithm of its limit, at the limit: 1, or 0 for a row without a limit.
   virtual double price_factor(int row) const;
 
-  /// Auxiliary variables that make margins smooth, see spread.hpp: their number, and the index of the first one among
+  /// Auxiliary variables that make margins smooth, see spread.cpp: their number, and the index of the first one among
   /// full variables and free coordinates.
   virtual int auxiliary_count() const { return 0; }
   void set_auxiliary(int variable, int coordinate) {
