@@ -27,7 +27,7 @@ enum class Unit {
 
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
 ///
-/// What each name means is said in the sources in src/design/constraints. 0 < zs < zp (eq. 9b) always holds.
+/// What each name means is said in the file of that name in src/design/constraints. 0 < zs < zp (eq. 9b) always holds.
 struct Limit {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();

@@ -14,11 +14,16 @@ constexpr double gap = 1e-6;
 
 class BetweenPlates : public Constraint {
  public:
-  explicit BetweenPlates(std::vector<int> poses)
-      : Constraint({.name = "zp > zs", .low = gap}), poses_(std::move(poses)) {}
+  explicit BetweenPlates(std::vector<int> poses) : Constraint(named()), poses_(std::move(poses)) {}
   double price_factor(int) const override { return 0.0; }
 
  private:
+  static Limit named() {
+    Limit l;
+    l.name = "zp > zs";
+    l.low = gap;
+    return l;
+  }
   Form form() const override { return Form::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
   int pose(const DesignState& v, int item) const { return v.first_pose + poses_[at_index(item / 2)]; }

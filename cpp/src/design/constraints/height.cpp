@@ -1,5 +1,5 @@
 /// height: zp, the height of the platform frame over the base frame at the neutral configuration.
-/// zs_fraction: the height of the internal point there, as a fraction of zp. Declared in design/constraints/table.hpp.
+/// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 
@@ -18,28 +18,10 @@ class Height : public Constraint {
   }
 };
 
-class ZsFraction : public Constraint {
- public:
-  using Constraint::Constraint;
-
- private:
-  int items(Side) const override { return 1; }
-  double value(const DesignState& v, Side, int) const override { return v.blueprint.zs / v.blueprint.zp; }
-  void add_value_gradient(const DesignState& v, Side, int, double scale, Row out) const override {
-    const double zp = v.blueprint.zp;
-    v.add_zs(scale / zp, out);
-    v.add_zp(-scale * v.blueprint.zs / (zp * zp), out);
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Constraint> make_height(const Limit& limit, int, Purpose) {
   return std::make_unique<Height>(limit);
-}
-
-std::unique_ptr<Constraint> make_zs_fraction(const Limit& limit, int, Purpose) {
-  return std::make_unique<ZsFraction>(limit);
 }
 
 }  // namespace ninedof
