@@ -26,7 +26,7 @@ for name, kappa in (("fixed", fixed), ("best", best.value)):
 if "--figure" in sys.argv:
     from ninedof.plot import style
 
-    with style.look():
+    with style.settings():
         figure = style.new_figure(8.6, 3.7)
         figure.set_layout_engine("constrained")
         levels = np.geomspace(3.9, 16.0, 60)

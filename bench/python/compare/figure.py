@@ -21,7 +21,7 @@ def words(nanoseconds):
 def draw(results, path):
     lines = [line for line in results.lines if not line.missing]
     floors = results.floors()
-    with style.look():
+    with style.settings():
         figure = style.new_figure(7.6, 1.35 + 0.30 * len(lines))
         axes = figure.add_subplot()
         axes.set_xscale("log")

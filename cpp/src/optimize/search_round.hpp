@@ -47,7 +47,7 @@ int start_count(const PreparedProblem& p, const Settings& s);
 SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
                       const Settings& s, const Control& control, Progress& progress);
 
-/// Whether a variable that `counts` is so near an internal bound, in solver coordinates.
+/// Whether a variable accepted by `counts` is within `near` of an internal bound, in solver coordinates.
 template <class Counts>
 bool near_internal_bound(const Coordinates& c, const Eigen::VectorXd& x, double near, const Counts& counts) {
   const Eigen::VectorXd y = c.coordinates(x);

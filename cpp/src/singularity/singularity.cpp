@@ -55,8 +55,9 @@ Velocity motion_from(const Vec3& omega, const Vec3& at_o, const Vec3& sdot, doub
 /// The least-squares solution of least norm, from the decomposition of the matrix.
 Vec3 solve(const Svd<3>& svd, const Vec3& b) {
   const Eigen::Index rank = svd.rank(3.0 * eps);
-  const auto scaled = svd.sigma.head(rank).asDiagonal().inverse() * (svd.u.leftCols(rank).transpose() * b);
-  return svd.v.leftCols(rank) * scaled.eval();
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> scaled =
+      svd.sigma.head(rank).asDiagonal().inverse() * (svd.u.leftCols(rank).transpose() * b);
+  return svd.v.leftCols(rank) * scaled;
 }
 
 }  // namespace

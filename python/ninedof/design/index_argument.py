@@ -16,6 +16,8 @@ from ninedof.support.arrays import Floats
 
 OwnIndex = Callable[[Geometry, Configuration, Any], Any]
 """A caller's function of a geometry, a stack of n configurations and the characteristic length: returns n numbers."""
+What = str | OwnIndex | Iterable[str | OwnIndex]
+"""The argument `index`."""
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,7 @@ class Configuration:
         return f"Configuration(position={p}, rotation={q}, internal_point={s})"
 
     def __setstate__(self, state: tuple[None, dict[str, Any]]) -> None:
-        """Restore a pickled or copied stack; its arrays become read-only again."""
+        """Restore a copied stack, or one pickled by protocol 2 or later; its arrays become read-only again."""
         for name, value in state[1].items():
             setattr(self, name, value)
         for array in self._arrays():

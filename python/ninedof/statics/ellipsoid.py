@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,16 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats
 
-PARTS = ("translation", "rotation", "twist")
+_VELOCITY = {
+    "translation": _core.velocity_ellipsoid_translation,
+    "rotation": _core.velocity_ellipsoid_rotation,
+    "twist": _core.velocity_ellipsoid_twist,
+}
+_FORCE = {
+    "translation": _core.force_ellipsoid_translation,
+    "rotation": _core.force_ellipsoid_rotation,
+    "twist": _core.force_ellipsoid_twist,
+}
 
 
 class Ellipsoid(NamedTuple):
@@ -65,7 +75,7 @@ def velocity_ellipsoid(
     array([0., 0., 1.])
 
     """
-    return _ellipsoid("velocity", geometry, configuration, part, characteristic_length)
+    return _ellipsoid(_VELOCITY, geometry, configuration, part, characteristic_length)
 
 
 def force_ellipsoid(
@@ -103,12 +113,13 @@ def force_ellipsoid(
     array([0.769, 0.683, 0.683])
 
     """
-    return _ellipsoid("force", geometry, configuration, part, characteristic_length)
+    return _ellipsoid(_FORCE, geometry, configuration, part, characteristic_length)
 
 
-def _ellipsoid(kind: str, g: Geometry, c: Configuration, part: str, length: ArrayLike | str) -> Ellipsoid:
-    core = getattr(_core, f"{kind}_ellipsoid_{choice('part', part, PARTS)}")
-    out = core(*operands_and_length(g, c, length), 0)
+def _ellipsoid(
+    parts: Mapping[str, Callable[..., Floats]], g: Geometry, c: Configuration, part: str, length: ArrayLike | str
+) -> Ellipsoid:
+    out = parts[choice("part", part, parts)](*operands_and_length(g, c, length), 0)
     n = 6 if part == "twist" else 3
     directions, semi_axes = np.split(out, [n * n], axis=1)
     return Ellipsoid(directions.reshape(*c.shape, n, n).copy(), semi_axes.reshape(*c.shape, n).copy())

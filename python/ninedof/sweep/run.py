@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import replace
 
 from ninedof import _core
 from ninedof.chunks import chunk_argument
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design.index_argument import OwnIndex, indices_of
+from ninedof.design.index_argument import What, indices_of
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite, known_keys
@@ -25,8 +25,6 @@ from ninedof.sweep.work import GridWork
 
 # A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024
-
-What = str | OwnIndex | Iterable[str | OwnIndex]
 
 
 def sweep(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.index_argument import indices_of
+from ninedof.design.index_argument import What, indices_of
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
@@ -54,7 +54,7 @@ def workspace(
     most_evaluations: int = 2_000_000,
     threads: int | None = None,
     progress: Progress | None = None,
-    index: Any = (),
+    index: What | None = None,
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
@@ -125,9 +125,9 @@ def workspace(
     progress : callable, optional
         Called as progress(poses evaluated, poses in all as far as known, volume); volume is None before the first level
         and for a sample.
-    index : str, callable, or sequence of them
-        Indices to take over the workspace (docs/sweeps.md), in `WorkspaceMap.indices`. Callables as in `sweep`. None by
-        default, and none for sets of orientations. With the best O, O is placed once more in every cell.
+    index : str, callable, or sequence of them, optional
+        Indices to take over the workspace (docs/sweeps.md), in `WorkspaceMap.indices`. Callables as in `sweep`. Not for
+        sets of orientations, nor with the best O. Ctrl-C during this returns the map without them, as "stopped".
 
     Returns
     -------
@@ -162,9 +162,11 @@ def workspace(
     choice("method", method, METHODS)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)
-    indices = indices_of(index) if index else ()
+    indices = () if index is None else indices_of(index)
     if indices and archetype not in ("constant_orientation", "orientation"):
         raise ValueError(f"index: got {shown(index)}, expected none for the {archetype} workspace: its poses are sets")
+    if indices and rule[0] == "best":
+        raise ValueError(f"index: got {shown(index)}, expected none with the best internal point")
     default = 64 if method == "grid" else 16
     settings: dict[str, Any] = {
         "method": method,
@@ -186,7 +188,11 @@ def workspace(
     made = _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
     if not indices or made.interrupted:
         return made
-    return replace(made, indices=statistics_of(geometry, domain, rule, limits, made.cells, indices, threads))
+    try:
+        over = statistics_of(geometry, domain, rule, limits, made.cells, indices, threads)
+    except KeyboardInterrupt:
+        return replace(made, status=WorkspaceStatus.STOPPED)
+    return replace(made, indices=over, seconds=perf_counter() - begin)
 
 
 def _map(

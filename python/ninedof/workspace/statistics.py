@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from ninedof.design.indices import Index
-from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
@@ -20,9 +19,9 @@ from ninedof.workspace.cells import WorkspaceCells
 class IndexStatistics:
     """An index over a workspace; lists have one entry for each component of an index of several numbers.
 
-    All from the centres of the cells, so that the error is of the order of a cell. The mean weights a cell by its
-    allowed volume; the extremes are over cells of which at least half is allowed. Poses where the index is unknown
-    (NaN) do not count.
+    Values are taken at the centres of the cells, so that the error is of the order of a cell. The mean weights each
+    cell by its allowed volume; the extremes use cells of which at least half is allowed. Poses where the index is
+    unknown (NaN) do not count.
     """
 
     mean: Any
@@ -42,13 +41,15 @@ def statistics_of(
     indices: tuple[Index, ...],
     threads: int | None,
 ) -> dict[str, IndexStatistics]:
-    """Return the statistics of each index. The poses have one rotation each: not for sets of orientations."""
+    """Return the statistics of each index. Each pose has one rotation, and O by a rule that is a formula."""
     counted = (cells.fraction > 0.0) & ((cells.piece == 0) | (not criteria["singularity_free"]))
     at, fraction = cells.centre[counted], cells.fraction[counted]
     volume = np.prod(cells.size[counted], axis=1)
     weight = fraction * np.where(volume > 0.0, volume, 1.0) * _density(domain, at)
     length = criteria["characteristic_length"]
-    c = _configurations(geometry, domain, rule, criteria, at, threads)
+    c = _configurations(geometry, domain, rule, at)
+    if len(at) == 0:
+        return {index.name: _statistics(np.empty((0, *index.tail)), weight, fraction >= 0.5, at) for index in indices}
     return {
         index.name: _statistics(np.asarray(index.values(geometry, c, length, threads)), weight, fraction >= 0.5, at)
         for index in indices
@@ -58,7 +59,7 @@ def statistics_of(
 def _statistics(values: Floats, weight: Floats, inner: Any, at: Floats) -> IndexStatistics:
     if values.ndim > 1:
         each = [_statistics(column, weight, inner, at) for column in values.T]
-        return IndexStatistics(*([getattr(one, name) for one in each] for name in IndexStatistics.__annotations__))
+        return IndexStatistics(*([getattr(one, field.name) for one in each] for field in fields(IndexStatistics)))
     known = ~np.isnan(values)
     inner = inner & known
     total = float(weight[known].sum())
@@ -73,22 +74,13 @@ def _statistics(values: Floats, weight: Floats, inner: Any, at: Floats) -> Index
 
 
 def _configurations(
-    geometry: Geometry,
-    domain: Mapping[str, Any],
-    rule: tuple[str, float, Floats],
-    criteria: Mapping[str, Any],
-    at: Floats,
-    threads: int | None,
+    geometry: Geometry, domain: Mapping[str, Any], rule: tuple[str, float, Floats], at: Floats
 ) -> Configuration:
     """Return the configurations at coordinates of the map, with O by the rule."""
     p, q = at, np.broadcast_to(domain["rotations"][0], (len(at), 3, 3))
     if domain["archetype"] == "orientation":
         p, q = np.broadcast_to(domain["position"], at.shape), _turned(domain["chart"], at, q)
     kind, fraction, point = rule
-    if kind == "best":
-        limits, length = criteria["leg_limits"], criteria["characteristic_length"]
-        found = best_internal_map(geometry, p, q, limits=limits, characteristic_length=length, threads=threads)
-        return found.configuration
     if kind == "fixed":
         return Configuration(p, q, np.broadcast_to(point, at.shape))
     if kind == "platform":

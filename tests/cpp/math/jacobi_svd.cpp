@@ -4,8 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "support/support.hpp"
 
 using namespace ninedof;

@@ -64,7 +64,10 @@ def test_design(capsys):
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
-def test_script(name, capsys):
+def test_script(name, capsys, tmp_path, monkeypatch):
+    figure = tmp_path / "figure.png"
+    monkeypatch.setattr("sys.argv", [name, "--figure", str(figure)])
     runpy.run_path(str(EXAMPLES / name), run_name="__main__")
     printed = " ".join(capsys.readouterr().out.split())
     assert [words for words in SCRIPTS[name] if words not in printed] == []
+    assert figure.exists() == ("--figure" in (EXAMPLES / name).read_text())

@@ -24,7 +24,7 @@ using Mat93 = Eigen::Matrix<double, 9, 3>;
 /// One vector for each of the three legs of a kind; 9 doubles, joint after joint.
 using Triple = std::array<Vec3, 3>;
 
-/// A number of ours as an index into an array of the standard library.
+/// Converts a signed index, at least 0, to the index type of the standard library.
 constexpr std::size_t at_index(std::ptrdiff_t k) {
   return static_cast<std::size_t>(k);
 }

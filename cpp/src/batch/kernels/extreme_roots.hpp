@@ -81,7 +81,8 @@ NINEDOF_INLINE Root<P> iterate(const P* q, const P* e, P x, double direction, P 
     const P step = halley(characteristic<n>(q, e, x));
     x = select(open, x + direction * step, x);
     // With cubic convergence the next step is this one times the cube of its ratio to the step before; with slow
-    // convergence, to a multiple root, the steps end as rounding. Converged lanes must not depend on the others.
+    // convergence, to a multiple root, the steps end as rounding. Converged lanes keep their root: it must not
+    // depend on the other lanes.
     open = open &
            ((square(square(step)) > 1e-15 * x * (square(last) * last)) | ((step > 0.1 * last) & (step > 4e-15 * x)));
     if (!any(open)) break;

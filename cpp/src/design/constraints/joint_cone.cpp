@@ -1,5 +1,6 @@
-/// base_cone, platform_cone: angle of each leg, pointing away from its joint on that body, and an axis of the body:
-/// a given one, or the direction of that leg at the neutral configuration. Declared in design/constraints/table.hpp.
+/// base_cone, platform_cone: angle between each leg, pointing away from its joint on that body, and an axis of the
+/// body: a given one, or the direction of that leg at the neutral configuration. Declared in
+/// design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 #include "robot/joint_cones.hpp"

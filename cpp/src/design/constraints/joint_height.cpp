@@ -1,4 +1,4 @@
-/// joint_height: distance of joints from z = 0 of their body's frame. Declared in design/constraints/table.hpp.
+/// joint_height: distance of every joint from z = 0 of their body's frame. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Singular value decompositions of small matrices by two-sided Jacobi rotations, compiled once for all sizes.
 ///
-/// The same rotations in the same order as JacobiSVD of Eigen, and the same bits; its templates took half a minute of
+/// The rotations of JacobiSVD of Eigen 3.4 in the same order, with the same bits; its templates took half a minute of
 /// compile time, most of it in code for large matrices.
 
 #include "ninedof/math/types.hpp"
@@ -14,7 +14,7 @@ struct Svd {
   Eigen::Matrix<double, N, 1> sigma;
   Eigen::Matrix<double, N, N> u, v;
 
-  /// How many singular values exceed `threshold` times the largest.
+  /// How many singular values are at least `threshold` times the largest.
   Eigen::Index rank(double threshold) const;
 };
 Svd<3> jacobi_svd(const Mat3& a);

@@ -21,7 +21,8 @@ struct RowLevel {
   int row, level;
 };
 
-/// A margin: a row of a constraint, or (constraint -1 - k) of the pairs that limit the condition number of pose k.
+/// A row of a constraint, or (constraint = -1 - k) a pair of singular values under the limit of pose k on the
+/// condition number.
 struct MarginRow {
   int constraint, row;
 };

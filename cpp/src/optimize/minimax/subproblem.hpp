@@ -13,7 +13,8 @@
 
 namespace ninedof {
 
-/// An iterate this feasible counts as such: well below Candidate::feasible, so that what it gains is rounding.
+/// Largest violation of an iterate that counts as feasible: well below Candidate::feasible, so that what it gains is
+/// rounding.
 constexpr double clearly_feasible = 1e-9;
 
 /// Called with the logarithm of the objective and the violation of each design a run evaluates.
@@ -28,7 +29,8 @@ class Subproblem {
   Subproblem(const PreparedProblem& p, Formulation formulation, std::stop_token stop, Observer observer)
       : p_(p), formulation_(formulation), stop_(std::move(stop)), observer_(std::move(observer)) {}
 
-  /// The end point of SLSQP from `from`, in solver coordinates; `tolerance` is relative, on objective and coordinates.
+  /// The end point of SLSQP from `from`, in solver coordinates. `smoothing` is that of the objective; `tolerance` is
+  /// relative, on objective and coordinates.
   Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, double tolerance, int max_evaluations);
 
   /// The feasible design of least objective that the last call evaluated, or its start. NLopt returns another one of

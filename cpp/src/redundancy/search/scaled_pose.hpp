@@ -1,6 +1,7 @@
 #pragma once
 /// One pose in scaled coordinates: the fixed joints, and the singularity surfaces that O must not cross.
 
+#include <Eigen/Geometry>
 #include <array>
 
 #include "ninedof/redundancy/redundancy.hpp"

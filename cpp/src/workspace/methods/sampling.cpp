@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"

@@ -16,6 +16,7 @@ from ninedof.cli.options import Figures, Json, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_summary import draw, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
+from ninedof.design.indices import computed
 from ninedof.paper.published import published_variables
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
@@ -73,7 +74,9 @@ def workspace(
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
     points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None,
     seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None,
-    index: Annotated[list[str] | None, typer.Option(help="An index over the workspace; may be repeated.")] = None,
+    index: Annotated[
+        list[str] | None, typer.Option(help=f"An index over the workspace, may be repeated: {', '.join(computed())}.")
+    ] = None,
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
