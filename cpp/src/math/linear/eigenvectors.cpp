@@ -3,16 +3,22 @@
 #include <Eigen/Eigenvalues>
 
 namespace ninedof {
+namespace {
+
+/// One type for both solvers, which then share half of their code; without allocation, and with the bits of the types
+/// of their sizes.
+using UpTo8 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
+
+}  // namespace
 
 RealEigen8 real_eigen(const Eigen::Matrix<double, 8, 8>& a) {
-  // Of dynamic size: shares half of its code with the other solver, at the same speed and with the same bits.
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(a);
+  const Eigen::EigenSolver<UpTo8> eigen(a);
   if (eigen.info() != Eigen::Success) return {};
   return {true, eigen.eigenvalues(), eigen.pseudoEigenvectors()};
 }
 
 Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
+  return Eigen::SelfAdjointEigenSolver<UpTo8>(symmetric).eigenvectors().col(0);
 }
 
 }  // namespace ninedof

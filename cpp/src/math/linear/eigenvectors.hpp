@@ -16,7 +16,7 @@ struct RealEigen8 {
 };
 RealEigen8 real_eigen(const Eigen::Matrix<double, 8, 8>& a);
 
-/// The unit eigenvector of the least eigenvalue of a symmetric matrix.
+/// The unit eigenvector of the least eigenvalue of a symmetric matrix of at most eight columns.
 Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& symmetric);
 
 }  // namespace ninedof
