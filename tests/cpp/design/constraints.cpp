@@ -89,7 +89,7 @@ TEST_SUITE("constraints") {
     int kept = 0, broken = 0;
     for (const std::string& family : families)
       for (const Limit& limit : limits)
-        for (int n = 0; n < 20; ++n) {
+        for (int n = 0; n < cases(20); ++n) {
           CAPTURE(family);
           CAPTURE(limit.name);
           Problem p = study(family, {limit}, n % 2 == 1);
@@ -228,7 +228,7 @@ TEST_SUITE("constraints") {
         if (limit.name == "footprint")
           CHECK(static_cast<int>(solved.margins.size()) <
                 solved.constraints.front()->rows());  // three joints of an orbit
-        for (int n = 0; n < 20; ++n) {
+        for (int n = 0; n < cases(20); ++n) {
           DesignEvaluation some, every;
           const Eigen::VectorXd y = solved.with_auxiliary(solved.coordinates.start(n, 3));
           evaluate_design(solved, y, some);

@@ -163,7 +163,7 @@ TEST_SUITE("optimize") {
   TEST_CASE("random problems: every candidate is feasible, and no random feasible design is better") {
     Random random(152);
     int solved = 0;
-    for (int n = 0; n < 120; ++n) {
+    for (int n = 0; n < cases(120); ++n) {
       const Problem p = random_problem(random);
       CAPTURE(n);
       const Result r = optimize(p, {.starts = 32});
@@ -181,7 +181,7 @@ TEST_SUITE("optimize") {
       ++solved;
       CHECK(best_nearby(p, r.candidates.front().variables, random, 500) >= best * (1.0 - 1e-7));
     }
-    CHECK(solved > 60);
+    CHECK(solved > cases(120) / 2);
   }
 
   TEST_CASE("one, two and three threads: the same bits") {
@@ -189,7 +189,7 @@ TEST_SUITE("optimize") {
     std::vector<Problem> problems{paper_study(), open_study(infinity, infinity), fixed_study({0, 6, 3, 0, 5, 3, 0})};
     problems.push_back(paper_study());
     problems.back().variables[6] = {-pi, pi};  // a whole family of equally good designs
-    for (int n = 0; n < 10; ++n) problems.push_back(random_problem(random));
+    for (int n = 0; n < cases(10); ++n) problems.push_back(random_problem(random));
     problems.push_back(pose_study(ninedof::Aggregate::weighted));
     for (const Problem& p : problems) {
       const Result one = optimize(p, {.starts = 24, .seed = 5, .threads = 1});
@@ -236,7 +236,7 @@ TEST_SUITE("optimize") {
       Random random(154);
       const Candidate& best = r.candidates.front();
       int tried = 0;
-      for (int n = 0; n < 20'000; ++n) {
+      for (int n = 0; n < cases(20'000); ++n) {
         const double reach = random.log_uniform(1e-5, 0.1);
         Eigen::VectorXd x = best.variables;
         for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -249,7 +249,7 @@ TEST_SUITE("optimize") {
         ++tried;
         CHECK(objective(conditions(x)) >= best.objective * (1.0 - 1e-7));
       }
-      CHECK(tried > 50);
+      CHECK(tried > cases(50));
     }
   }
 

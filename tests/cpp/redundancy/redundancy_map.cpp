@@ -71,7 +71,7 @@ TEST_SUITE("redundancy_map") {
   TEST_CASE("continuation from a neighbouring pose finds the optimum of a search") {
     Random random(1);
     int compared = 0;
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < cases(60); ++n) {
       const Vec3 p = home + random.unit();
       const Mat3 q = random.rotation(0.3);
       const Vec3 moved = p + random.log_uniform(1e-4, 5e-2) * random.unit();
@@ -100,13 +100,13 @@ TEST_SUITE("redundancy_map") {
         ++compared;
       }
     }
-    CHECK(compared > 100);
+    CHECK(compared > cases(100));
   }
 
   TEST_CASE("no point near a continued optimum is better, from starts far and near") {
     Random random(2);
     const InternalPointProblem problem;
-    for (int n = 0; n < 30; ++n) {
+    for (int n = 0; n < cases(30); ++n) {
       const Vec3 p = home + 0.8 * random.unit();
       const Vec3 start = ninedof::default_internal_point(published, p, Mat3::Identity()) + 0.5 * random.unit();
       const InternalPoint near = continued(published, p, Mat3::Identity(), problem, start);

@@ -33,8 +33,7 @@ inline Vec9 stacked(const ninedof::Acceleration& a) {
 
 /// How much of an answer rounding may take: the conditioning of the 9x9 matrix of rates.
 inline double conditioning_of(const Robot& robot) {
-  const oracle::Vector sigma = oracle::singular_values(oracle::rates(robot.geometry, robot.configuration));
-  return static_cast<double>(sigma[0] / sigma[8]);
+  return oracle::conditioning_of_rates(robot.geometry, robot.configuration);
 }
 
 }  // namespace support
