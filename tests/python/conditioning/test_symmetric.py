@@ -66,6 +66,7 @@ def test_against_numpy(robots, closed_form):
     assert (np.abs(closed_form / expected - 1.0) <= 100 * EPS * kappa).all()
 
 
+@pytest.mark.slow
 def test_against_the_general_path(robots, closed_form):
     found = np.array([nd.singular_values(robots.at(k).geometry(), robots.at(k).configuration()) for k in range(COUNT)])
     kappa = found[:, :1] / found[:, 5:]

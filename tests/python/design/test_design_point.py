@@ -164,6 +164,7 @@ def test_values(family):
             assert margins[name] == pytest.approx(value, rel=exact, abs=exact), (name, data)
 
 
+@pytest.mark.slow
 @BY_FAMILY
 def test_gradients(family):
     """Of log(objective) and of every margin, in every free variable: joints, heights, l_c, places of O."""

@@ -39,6 +39,7 @@ def test_short_run_reports_its_end():
     assert seen == [(1, 1, pytest.approx(LEAST, rel=1e-9))]
 
 
+@pytest.mark.slow
 def test_unbounded_study_reports_all_its_rounds():
     seen = []
     study = nd.Study(

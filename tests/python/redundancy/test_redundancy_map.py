@@ -39,6 +39,7 @@ def gain(criterion, map_value, value):
 # --- Values -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("criterion", "limits"),
     [(c, None) for c in CRITERIA[:2]] + [(c, LIMITS) for c in CRITERIA],  # centring needs limits
@@ -57,6 +58,7 @@ def test_as_good_as_single_searches(published, criterion, limits):
     assert (missed > 1e-6).mean() <= best.audit.missed / best.audit.poses + 0.05
 
 
+@pytest.mark.slow
 def test_general_robots_and_axes_of_orientation():
     rng = np.random.default_rng(2)
     for _ in range(size(1, 3)):
@@ -146,6 +148,7 @@ def scattered(n=300):
     return nd.Geometry.hexagonal(0.379, 1.9, 0.652, 1.541), p, Rotation.from_rotvec(0.4 * rng.normal(size=(n, 3)))
 
 
+@pytest.mark.slow
 def test_the_audit_counts_misses_and_corrects_them():
     g, p, q = scattered()
     single = nd.best_internal_point(g, p, q)

@@ -16,6 +16,7 @@ def cost(path, p, smoothness, size):
     return np.log(path.value).mean() + smoothness * (len(p) - 1) * np.sum(np.diff(s, axis=0) ** 2) / size**2
 
 
+@pytest.mark.slow
 def test_a_path_is_optimal_for_its_smoothness(published):
     p = loop()
     weights = (1e-3, 0.05, 1.0)
@@ -33,6 +34,7 @@ def test_a_path_is_optimal_for_its_smoothness(published):
     assert longest[0] > longest[1] > longest[2]
 
 
+@pytest.mark.slow
 def test_a_path_has_no_jumps(published):
     steps = []
     for n in (31, 61, 121):

@@ -59,6 +59,7 @@ def test_internal_legs_with_o_half_way_give_balls_of_twice_the_radius(published)
     assert abs(found.volume - exact) <= found.error < 1e-3 * found.volume
 
 
+@pytest.mark.slow
 def test_the_error_estimate_bounds_the_error(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0, "singularity_free": True}
     best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=size(3e-4, 1e-4), resolution=20)
@@ -168,6 +169,7 @@ def test_singularity_free_keeps_the_signs_and_the_piece_of_home(published):
     assert c.piece[home_cell] == 0
 
 
+@pytest.mark.slow
 def test_pieces_below_and_above_the_base(published):
     """The robot is its own mirror image: two pieces of equal volume."""
     criteria = {"leg_limits": (3.0, 6.5)}
@@ -252,6 +254,7 @@ def test_reachable_and_inclusive_against_numpy(published):
         assert abs(same.volume - one.volume) <= same.error + one.error
 
 
+@pytest.mark.slow
 def test_dexterous_is_inclusive_of_spread_rotations(published):
     criteria = {"leg_limits": (0.5, 9.5)}
     options = {"criteria": criteria, "tolerance": 0.02, "resolution": 8, "points": 500}

@@ -27,6 +27,7 @@ def shell(published, width):
     return {"leg_limits": (low, high)}, (height(4.9 + width) - height(4.9)).sum() * (5.0 / n) ** 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1e-1, 1e-2, 3e-3, 1e-3])
 def test_thin_shells(published, width):
     criteria, truth = shell(published, width)
@@ -39,6 +40,7 @@ def expected(published):
     return nd.workspace(published, ([-10] * 3, [10] * 3), criteria=LEGS, home=HOME)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("half", [30.0, 100.0, 160.0, 1000.0])
 def test_boxes_much_larger_than_the_workspace(published, expected, half):
     box = ([-half] * 3, [half] * 3)
@@ -57,6 +59,7 @@ def test_nothing_found_is_not_nothing(published, method, few):
     assert found.error >= nd.workspace(published, BOX, criteria=criteria, home=HOME).volume
 
 
+@pytest.mark.slow
 def test_a_grid_errs_by_less_than_it_says(published):
     reference = nd.workspace(published, BOX, criteria=LEGS, tolerance=size(5e-4, 2e-4))
     for resolution in (16, 32, 48):

@@ -16,6 +16,7 @@ TILTED = Rotation.from_rotvec([0.15, -0.1, 0.2]).as_matrix()
 # --- O ----------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_best_o_allows_all_poses_that_a_rule_allows(published):
     box = ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0])
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0}
@@ -40,6 +41,7 @@ SOUGHT = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", SOUGHT)
 def test_continuation_of_o_is_as_good_as_a_search(published, case):
     options = SOUGHT[case] | {"criteria": {"leg_limits": (2.5, 6.5), "condition_number": 6.0}, "internal_point": "best"}
@@ -66,6 +68,7 @@ def test_continuation_of_o_is_as_good_as_a_search(published, case):
     assert (kappa[known] >= searched[known] * (1.0 - 1e-4)).mean() > 0.95, "the search rarely misses an optimum"
 
 
+@pytest.mark.slow
 def test_methods_agree_on_the_best_o(published):
     options = {
         "box": ([-2.0, -2.0, 3.5], [2.0, 2.0, 6.0]),
@@ -84,6 +87,7 @@ def test_methods_agree_on_the_best_o(published):
 # --- Other methods ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_three_methods_agree(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 6.0}
     tree = nd.workspace(published, BOX, criteria=criteria, tolerance=size(1e-3, 1e-4))
@@ -98,6 +102,7 @@ def test_three_methods_agree(published):
     assert_allclose(grid.ball_radius, tree.ball_radius, rtol=0.15)
 
 
+@pytest.mark.slow
 def test_standard_error_of_a_sample_agrees_with_the_scatter_of_samples(published):
     runs = [
         nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5)}, method="sample", points=512, seed=seed)
@@ -107,6 +112,7 @@ def test_standard_error_of_a_sample_agrees_with_the_scatter_of_samples(published
     assert 0.5 < np.mean([r.error for r in runs]) / scatter < 2.0
 
 
+@pytest.mark.slow
 def test_error_is_inverse_to_the_number_of_poses(published):
     """The work grows with the area of the boundary."""
     found = nd.workspace(published, BOX, criteria={"leg_limits": (2.5, 6.5)}, tolerance=size(3e-4, 2e-5))
@@ -115,6 +121,7 @@ def test_error_is_inverse_to_the_number_of_poses(published):
     assert slope < -0.8
 
 
+@pytest.mark.slow
 def test_threads_and_units_do_not_change_the_result(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 6.0, "leg_clearance": 0.1}
     tolerance = size(5e-3, 1e-3)
@@ -133,6 +140,7 @@ def test_threads_and_units_do_not_change_the_result(published):
     assert_allclose(scaled.conditioning_index, one.conditioning_index, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_an_audit_finds_a_workspace_that_corners_miss(published):
     """A ball smaller than the first cells that contains none of their corners and centres."""
     high = np.full(9, np.inf)

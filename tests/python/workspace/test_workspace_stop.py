@@ -30,6 +30,7 @@ def test_an_exception_of_progress_reaches_the_caller(published):
         nd.workspace(published, BOX, criteria=LEGS, tolerance=1e-6, progress=stop)
 
 
+@pytest.mark.slow
 def test_ctrl_c_returns_a_stopped_map(published):
     with interrupter() as progress:
         found = nd.workspace(
