@@ -118,7 +118,7 @@ Figure tracking() {
       block_size,
       each_in_block(data, [](const ShortStep& s) { return s.tracker(s.lengths, s.from).certificate; }),
       each_in_block(data, [](const ShortStep& s) { return plain_newton(s.geometry, s.lengths, s.from).position.z(); }),
-      {"600 ns", [](const Times& t) { return t.ours_median <= 600.0; }}};
+      {"800 ns", [](const Times& t) { return t.ours_median <= 800.0; }}};
 }
 
 }  // namespace

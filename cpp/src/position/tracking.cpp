@@ -1,11 +1,14 @@
 #include "ninedof/position/tracking.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "math/numbers.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "position/path_bounds.hpp"
 #include "position/polish_rotation.hpp"
 #include "position/rotation_problem.hpp"
 
@@ -14,23 +17,63 @@ namespace {
 
 constexpr double least_height = 1e-7;  // of O over a plane, relative to the longest leg: below it the side is unknown
 constexpr double certified = 0.5;  // Kantorovich's theorem
+constexpr double proved = 0.499;  // the same for bounds, with room for their rounding
 constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation: Newton converges from nearer starts
+constexpr double hopeless = 2.0;  // certificate above which a step is not tried
+constexpr int uncertified_steps = 12;  // of Newton's method without a certificate
+constexpr int most_halvings = 5;  // of the lengths of a step, for its proof
 constexpr double shortest = 0x1p-18;  // step, as a fraction of the path
 constexpr double aim = 0.4;  // desired certificate of a step; it grows with the length of the step
 constexpr int most_attempts = 1000;
 constexpr double angle_rounding = 1e-7;  // rad: half the digits, since the angle comes from a cosine
-constexpr int uncertified_steps = 12;  // of Newton's method without a certificate
 
-/// The robot, and the heights of O at the start, whose signs are the sides on which O stays.
+/// The robot, and three numbers of the start that no step lets change their sign: the heights of O over the two plates,
+/// which are det B and det C but for positive factors, and such a multiple of det N.
 struct Robot {
   const Geometry& geometry;
   const SphereCentres &base, &platform;
-  double base_height, platform_height;
+  double base_height, platform_height, det_n;
+};
+
+/// A point of the path. The residuals (l^2 - |r - s - Q (u - o)|^2) / 2 of the external legs are those of the rotation
+/// from which the step starts: zero at its start.
+struct Waypoint {
+  Waypoint(const Robot& robot, const Vec9& all, const InternalPoints& at, const Vec3& of_legs)
+      : lengths(all),
+        lower(robot.base, at.s, all.tail<3>()),
+        upper(robot.platform, at.o, all.segment<3>(3)),
+        residual(of_legs) {}
+
+  Vec9 lengths;
+  PlatePoint lower, upper;
+  Vec3 residual;
+};
+
+/// A later point of the path, and Kantorovich's number of its equations at the rotation from which the step starts.
+struct Target {
+  Target(const Robot& robot, const Vec9& lengths, const InternalPoints& there, const ScaledRotationProblem& problem,
+         const Mat3& rotation)
+      : at(there),
+        scaled(problem),
+        seed(problem.unit, rotation),
+        scale(problem.base_distance.cwiseProduct(problem.platform_distance)),
+        waypoint(robot, lengths, there, seed.value.cwiseProduct(scale)),
+        beta(seed.inverse_norm()),
+        eta(seed.newton_step().norm()) {}
+
+  double certificate() const { return std::numbers::sqrt3 * beta * eta; }
+
+  InternalPoints at;
+  ScaledRotationProblem scaled;
+  RotationResidual seed;
+  Vec3 scale;  ///< of the residuals
+  Waypoint waypoint;
+  double beta, eta;
 };
 
 enum class Reach { yes, not_certified, infeasible };
 
-/// One step from a rotation to new lengths.
+/// One step from a configuration to new lengths.
 struct Step {
   Reach reach = Reach::infeasible;
   Configuration configuration;
@@ -44,40 +87,115 @@ Meeting::Kind locate(const SphereCentres& plate, const Vec3& radii, double side,
   return m.kind;
 }
 
-Step step_to(const Robot& robot, const Vec9& lengths, const Mat3& rotation) {
-  Step out;
+Reach set_target(const Robot& robot, const Vec9& lengths, const Mat3& rotation, std::optional<Target>& out) {
   InternalPoints at;
   const Meeting::Kind lower = locate(robot.base, lengths.tail<3>(), robot.base_height, at.s),
                       upper = locate(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
-  if (lower == Meeting::none || upper == Meeting::none) return out;
-  if (lower == Meeting::touching || upper == Meeting::touching) {
-    out.reach = Reach::not_certified;  // a singularity: the mode can continue in two ways
-    return out;
-  }
+  if (lower == Meeting::none || upper == Meeting::none) return Reach::infeasible;
+  // A singularity: the mode can continue in two ways.
+  if (lower == Meeting::touching || upper == Meeting::touching) return Reach::not_certified;
   const ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
-  if ((p.unit.c.array().abs() > 1.0).any()) return out;
+  if ((p.unit.c.array().abs() > 1.0).any()) return Reach::infeasible;
+  if (!p.unit.c.allFinite()) return Reach::not_certified;  // O on an external joint
+  out.emplace(robot, lengths, at, p, rotation);
+  return Reach::yes;
+}
+
+/// Whether, for all lengths between two points of the path, Kantorovich's number stays below 1/2 and a mode within `away`
+/// is the only one there, by bounds of the derivatives of the equations along the path (docs/theory/position.md).
+bool bounded(const Robot& robot, const Waypoint& from, const Target& to, double away) {
+  const PathBounds lower = path_bounds(robot.base, from.lower, to.waypoint.lower),
+                   upper = path_bounds(robot.platform, from.upper, to.waypoint.upper);
+  const double speed = lower.speed + upper.speed, acceleration = lower.acceleration + upper.acceleration;
+  double lipschitz2 = 0.0, change2 = 0.0, bend2 = 0.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double stretch =
+        (1.0 + lower.speed / to.scaled.base_distance[k]) * (1.0 + upper.speed / to.scaled.platform_distance[k]);
+    lipschitz2 += stretch * stretch;
+    change2 += (stretch - 1.0) * (stretch - 1.0);
+    const double l = to.waypoint.lengths[k], rate = l - from.lengths[k];
+    const double distance = std::sqrt(std::max(0.0, l * l - 2.0 * to.waypoint.residual[k])) + speed;
+    const double bend = (std::max(rate * rate, speed * speed) + distance * acceleration) / (8.0 * to.scale[k]);
+    bend2 += bend * bend;
+  }
+  const double kept = 1.0 - to.beta * std::sqrt(change2);
+  if (!(kept > 0.0)) return false;
+  const double start = to.seed.newton_step(from.residual.cwiseQuotient(to.scale)).norm();
+  const double eta = std::max(start, to.eta) + to.beta * std::sqrt(bend2);
+  const double scale = std::sqrt(lipschitz2) * to.beta / kept;
+  return scale * eta / kept <= proved && scale * away <= 1.0;
+}
+
+/// The same with points between where the bounds are too wide.
+bool proved_between(const Robot& robot, const Waypoint& from, const Target& to, const Mat3& rotation, double away,
+                    int halvings = most_halvings) {
+  if (bounded(robot, from, to, away)) return true;
+  if (halvings == 0) return false;
+  std::optional<Target> middle;
+  if (set_target(robot, 0.5 * (from.lengths + to.waypoint.lengths), rotation, middle) != Reach::yes) return false;
+  return middle->certificate() <= certified && proved_between(robot, from, *middle, rotation, away, halvings - 1) &&
+         proved_between(robot, middle->waypoint, to, rotation, away, halvings - 1);
+}
+
+double angle_between(const Mat3& a, const Mat3& b) {
+  return 2.0 * std::asin(std::min(1.0, (a - b).norm() / (2.0 * std::numbers::sqrt2)));
+}
+
+/// Half-way between two rotations less than a half-turn apart.
+Mat3 middle_rotation(const Mat3& a, const Mat3& b) {
+  const Eigen::Quaterniond from(a), to(b);
+  return from.slerp(0.5, to).normalized().toRotationMatrix();
+}
+
+/// The same proof from the rotation half-way between those of start and end, where the residuals are half as large: the
+/// only mode near it is the start's at the start, and the one reached at the end.
+bool proved_from_middle(const Robot& robot, const Vec9& from, const Vec9& to, const Mat3& start, const Mat3& end) {
+  const Mat3 middle = middle_rotation(start, end);
+  const double away = 0.5 * angle_between(start, end) + angle_rounding;
+  std::optional<Target> first, last;
+  return set_target(robot, from, middle, first) == Reach::yes && set_target(robot, to, middle, last) == Reach::yes &&
+         proved_between(robot, first->waypoint, *last, middle, away);
+}
+
+Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, const Mat3& rotation) {
+  Step out;
+  std::optional<Target> target;
+  out.reach = set_target(robot, lengths, rotation, target);
+  if (out.reach != Reach::yes) return out;
   out.reach = Reach::not_certified;
-  if (!p.unit.c.allFinite()) return out;  // O on an external joint
-  const RotationResidual seed(p.unit, rotation);
-  const double beta = seed.inverse_norm();
-  out.certificate = std::numbers::sqrt3 * beta * seed.newton_step().norm();
+  out.certificate = target->certificate();
+  if (!(out.certificate <= hopeless)) return out;
+  const bool forward = out.certificate <= certified && proved_between(robot, start, *target, rotation, 0.0);
   const PolishedRotation polished =
-      polish_rotation(p.unit, rotation, seed, out.certificate <= certified ? 60 : uncertified_steps);
-  if (!polished.converged()) return out;
+      polish_rotation(target->scaled.unit, rotation, target->seed, forward ? 60 : uncertified_steps);
+  // Where a proof holds det N keeps its sign. Compared all the same.
+  if (!polished.converged() || !(polished.at.determinant * robot.det_n > 0.0)) return out;
   out.separation = 1.0 / polished.at.inverse_norm();
-  const double sine =
-      (polished.rotation - rotation).norm() / (2.0 * std::numbers::sqrt2);  // of half the angle between them
-  const double angle = 2.0 * std::asin(std::min(1.0, sine));
-  if (out.certificate <= certified) {
-    const double root = std::sqrt(1.0 - 2.0 * out.certificate), scale = std::numbers::sqrt3 * beta;
-    if (!(angle <= (1.0 - root) / scale + angle_rounding)) return out;  // not the mode whose existence is proved
-    out.alone_within = (1.0 + root) / scale;
-  } else if (!(angle < ball * out.separation)) {
-    return out;
+  const double root = std::sqrt(1.0 - 2.0 * out.certificate), scale = std::numbers::sqrt3 * target->beta;
+  if (out.certificate <= certified) out.alone_within = (1.0 + root) / scale;
+  const double angle = angle_between(polished.rotation, rotation);
+  // The mode whose existence near the start is proved lies within the first radius of Kantorovich's theorem.
+  if (forward && !(angle <= (1.0 - root) / scale + angle_rounding)) return out;
+  if (!forward) {
+    if (out.certificate > certified && !(angle < ball * out.separation)) return out;
+    if (!proved_from_middle(robot, start.lengths, lengths, rotation, polished.rotation)) return out;
   }
   out.reach = Reach::yes;
-  out.configuration = {at.s - polished.rotation * at.o, polished.rotation, at.s};
+  out.configuration = {target->at.s - polished.rotation * target->at.o, polished.rotation, target->at.s};
   return out;
+}
+
+/// O in the platform frame.
+Vec3 platform_point(const Configuration& c) {
+  return c.rotation.transpose() * (c.internal_point - c.position);
+}
+
+/// det N times a positive number: of rows (Q w) x d with vectors d and w of any length.
+double scaled_det_n(const Geometry& g, const InternalPoints& at, const Mat3& rotation) {
+  Triple row;
+  for (std::size_t i = 0; i < 3; ++i)
+    row[i] = (rotation * (g.platform_external()[i] - at.o)).cross(g.base_external()[i] - at.s);
+  return row[0].dot(row[1].cross(row[2]));
 }
 
 Tracked tracked(const Step& s, int steps) {
@@ -112,23 +230,26 @@ Tracker::Tracker(const Geometry& g) : geometry_(g), base_(g.base_internal()), pl
 
 Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& start) const {
   require_leg_lengths(leg_lengths);
-  const Vec3 o = start.rotation.transpose() * (start.internal_point - start.position);
-  const Robot robot{geometry_, base_, platform_, base_.height(start.internal_point), platform_.height(o)};
+  const Vec3 o = platform_point(start);
+  const Robot robot{geometry_,           base_,
+                    platform_,           base_.height(start.internal_point),
+                    platform_.height(o), scaled_det_n(geometry_, {start.internal_point, o}, start.rotation)};
   const double unit = leg_lengths.maxCoeff();
   if (!(std::min(std::abs(robot.base_height), std::abs(robot.platform_height)) > least_height * unit))
     return Tracked::not_tried();
-  const Step whole = step_to(robot, leg_lengths, start.rotation);
+  const Vec9 from = ninedof::leg_lengths(geometry_, start);
+  Waypoint at(robot, from, {start.internal_point, o}, Vec3::Zero());
+  const Step whole = step_to(robot, at, leg_lengths, start.rotation);
   if (whole.reach == Reach::yes) return tracked(whole, 1);
   if (whole.reach == Reach::infeasible) return lost(TrackStatus::infeasible, 0.0, 0);
 
-  const Vec9 from = ninedof::leg_lengths(geometry_, start);
   Mat3 rotation = start.rotation;
   double reached = 0.0, stride = 0.5;
   int steps = 0;
   for (int attempt = 0; attempt < most_attempts && stride >= shortest; ++attempt) {
     const double next = std::min(1.0, reached + stride);
     const Vec9 lengths = next < 1.0 ? Vec9(from + next * (leg_lengths - from)) : leg_lengths;
-    const Step s = step_to(robot, lengths, rotation);
+    const Step s = step_to(robot, at, lengths, rotation);
     const double adapted = (next - reached) * std::clamp(aim / s.certificate, 0.1, 4.0);
     if (s.reach != Reach::yes) {
       stride = s.reach == Reach::infeasible ? 0.5 * stride : std::min(0.7 * stride, adapted);
@@ -138,6 +259,7 @@ Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& start)
     if (next == 1.0) return tracked(s, steps);
     reached = next;
     rotation = s.configuration.rotation;
+    at = Waypoint(robot, lengths, {s.configuration.internal_point, platform_point(s.configuration)}, Vec3::Zero());
     stride = adapted;
   }
   return lost(TrackStatus::lost, reached, steps);

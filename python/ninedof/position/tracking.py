@@ -18,9 +18,9 @@ class TrackStatus(StrEnum):
     """How a step ended."""
 
     TRACKED = "tracked"
-    """Reached, and certified to be the only mode near the start of the last step."""
+    """Reached, and proved to be where the start's mode goes along the straight path of the lengths."""
     LOST = "lost"
-    """Not reached: on the path of the lengths the mode meets another mode, or O reaches a plane of internal joints."""
+    """Not reached: on the path the mode meets another, or O reaches a plane of internal joints, or nearly so."""
     INFEASIBLE = "infeasible"
     """The internal legs do not meet, or an external leg is too long or too short for the position of O."""
 
@@ -39,10 +39,11 @@ class Tracked(Configuration):
 
     @property
     def certificate(self) -> Any:
-        """Kantorovich's number h = sqrt(3) beta eta at the start of the last step, shape (...).
+        """Kantorovich's number h = sqrt(3) beta eta of the end of the last step at its start, shape (...).
 
-        For h <= 1/2 Newton's method is proved to converge, and to the only mode within `alone_within`. Above 1/2 a
-        tracked mode is certified because the start is nearer than 0.385 times its `separation`.
+        For h <= 1/2 Newton's method is proved to converge, and to the only mode within `alone_within`. Above 1/2 the
+        start is nearer than 0.385 times its `separation`, from where Newton's method converges too. In both cases
+        bounds over the step prove that the mode reached is the continuous one.
         """
         return self._numbers[..., 0][()]
 
@@ -77,10 +78,10 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     """Return the assembly mode reached from `start` when the leg lengths change along a straight path.
 
     O stays on its side of the plane of the base's internal joints and of that of the platform's, and follows in closed
-    form from three spheres. The rotation follows by Newton's method on SO(3). A step is accepted if Kantorovich's
-    theorem proves beforehand that Newton's method converges, or if the separation of the mode reached proves it
-    afterwards; otherwise the step is divided. Lengths between the ends of a step are not examined. At a singularity the
-    mode can continue in two ways: it is lost there, and NaN is returned.
+    form from three spheres. The rotation follows by Newton's method on SO(3). "tracked" is a proof: while the lengths go
+    straight from those of the start to the given ones, no singularity is passed, and the mode returned is the one that
+    the start's becomes. It uses Kantorovich's theorem with bounds over the whole step; where they are too wide the step
+    is divided. At a singularity the mode can continue in two ways: it is lost there, and NaN is returned.
 
     Parameters
     ----------

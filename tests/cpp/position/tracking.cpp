@@ -4,8 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include "ninedof/math/rotation.hpp"
 #include "ninedof/position/forward_position.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "ninedof/singularity/singularity.hpp"
 #include "support/support.hpp"
 
 using namespace support;
@@ -48,6 +50,46 @@ TEST_SUITE("tracking") {
       CHECK(within == 1);
     }
     CHECK(certified > 600);
+  }
+
+  TEST_CASE("a step that Newton's method alone takes to another mode") {
+    const Geometry g = Geometry::hexagonal(0.0, 5.8124, 2.9062, 0.0);
+    const Configuration c{
+        {-0.7094, -0.3459, 2.3928}, ninedof::exp_rotation({0.774, 1.1364, 0.1021}), {-0.2139, -0.1043, 0.7215}};
+    Vec9 to;
+    to << 3.1924, 4.5945, 4.7009, 3.0629, 2.9089, 0.2422, 3.3902, 3.2709, 3.6362;
+    const Vec9 from = leg_lengths(g, c);
+    std::vector<Vec9> path;
+    for (int k = 1; k <= 400; ++k) path.push_back(k < 400 ? Vec9(from + k / 400.0 * (to - from)) : to);
+    const Tracked one = track(g, to, c), fine = track(g, path, c).back();
+    REQUIRE(one.status == TrackStatus::tracked);
+    REQUIRE(fine.status == TrackStatus::tracked);
+    CHECK(angle(one.configuration.rotation, fine.configuration.rotation) < 1e-7);
+    CHECK(one.steps > 1);
+  }
+
+  TEST_CASE("long steps end where short ones do, and no determinant changes its sign") {
+    Random random(4);
+    int divided = 0, compared = 0;
+    for (int n = 0; n < cases(4000); ++n) {
+      const auto [g, c] = random_robot(random);
+      const Vec9 from = leg_lengths(g, c), to = from + random.log_uniform(0.01, 1.0) * random.matrix<Vec9>();
+      if (!(to.minCoeff() > 0.0)) continue;
+      const Tracked t = track(g, to, c);
+      if (t.status != TrackStatus::tracked) continue;
+      const auto before = ninedof::singularity_margins(g, c), after = ninedof::singularity_margins(g, t.configuration);
+      CHECK((before.n * after.n > 0.0 && before.b * after.b > 0.0 && before.c * after.c > 0.0));
+      divided += t.steps > 1 ? 1 : 0;
+      if (n % 10 != 0) continue;
+      std::vector<Vec9> path;
+      for (int k = 1; k <= 100; ++k) path.push_back(k < 100 ? Vec9(from + k / 100.0 * (to - from)) : to);
+      const Tracked fine = track(g, path, c).back();
+      if (fine.status != TrackStatus::tracked) continue;
+      CHECK(angle(t.configuration.rotation, fine.configuration.rotation) < 1e-6);
+      ++compared;
+    }
+    CHECK(divided > cases(500));
+    CHECK(compared > cases(100));
   }
 
   TEST_CASE("a path to a configuration and back ends at its start") {

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from reference_cases import REFERENCE, of_case, rotation
 from robots import any_pose
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -99,6 +100,43 @@ def test_a_long_step_is_divided(published, home):
     assert there.steps > 1
     assert_allclose(there.rotation, far.rotation, atol=1e-12)
     assert there.reached == 1.0
+
+
+def test_a_long_step_ends_where_short_ones_do():
+    """A step that Newton's method alone takes to another mode, 66 degrees away."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    turn = Rotation.from_rotvec([0.774, 1.1364, 0.1021]).as_matrix()
+    c = nd.Configuration([-0.7094, -0.3459, 2.3928], turn, [-0.2139, -0.1043, 0.7215])
+    end = np.array([3.1924, 4.5945, 4.7009, 3.0629, 2.9089, 0.2422, 3.3902, 3.2709, 3.6362])
+    from_start = nd.leg_lengths(g, c)
+    there = nd.track(g, end, c)
+    path = nd.track(g, from_start + (end - from_start) * np.linspace(0.0, 1.0, 201)[1:, None], c)
+    assert there.status == path.status[-1] == "tracked"
+    assert angle(there.rotation, path.rotation[-1]) < 1e-7
+
+
+@pytest.mark.parametrize("design", ["published", "random"])
+def test_random_steps_end_where_short_ones_do(published, design):
+    """Random steps against fifty times shorter ones, a singularity in between or not."""
+    rng = np.random.default_rng(23)
+    tracked = 0
+    for _ in range(size(300, 30_000)):
+        g, c = any_pose(rng, True)
+        g = published if design == "published" else g
+        start = nd.leg_lengths(g, c)
+        end = start + np.exp(rng.uniform(-4.0, 0.0)) * rng.normal(size=9)
+        if end.min() <= 0.0:
+            continue
+        there = nd.track(g, end, c)
+        if there.status != "tracked":
+            continue
+        tracked += 1
+        path = nd.track(g, start + (end - start) * np.linspace(0.0, 1.0, 51)[1:, None], c)
+        assert path.status[-1] == "tracked"
+        assert angle(there.rotation, path.rotation[-1]) < 1e-5
+        margins = [nd.singularity_margins(g, at) for at in (c, there)]
+        assert_array_equal(np.sign(margins[0]), np.sign(margins[1]))
+    assert tracked > size(60, 6_000)
 
 
 def test_a_trajectory_is_its_steps(published, home):

@@ -12,8 +12,8 @@
 namespace ninedof {
 
 enum class TrackStatus {
-  tracked,     ///< reached, and certified to be the only mode near the start of the last step
-  lost,        ///< not reached: on the path of the lengths the mode meets another, or O a plane of internal joints
+  tracked,     ///< reached, and proved to be where the start's mode goes along the straight path of the lengths
+  lost,        ///< not reached: on the path the mode meets another, or O a plane of internal joints, or nearly so
   infeasible,  ///< the internal legs do not meet, or an external leg is too long or too short for the position of O
 };
 
@@ -24,9 +24,10 @@ const char* to_string(TrackStatus status);
 struct Tracked {
   TrackStatus status = TrackStatus::lost;
   Configuration configuration;  ///< NaN unless tracked
-  /// Kantorovich's number h = sqrt(3) beta eta at the start of the last step. For h <= 1/2 Kantorovich's theorem proves
-  /// that a mode exists near the start and identifies it. Above, the `separation` of the mode reached proves that
-  /// Newton's method converges to it from the start. Lengths between the two ends of a step are not examined.
+  /// Kantorovich's number h = sqrt(3) beta eta of the equations at the end, at the start of the last step. For h <= 1/2 a
+  /// mode exists near the start and is the only one within `alone_within`. Above, the mode is nearer to the start than
+  /// 0.385 times its `separation`, from where Newton's method converges to it. In both cases the bound of h between the
+  /// two ends of the step, from its start or from half-way, proves that the mode reached is the continuous one.
   double certificate;
   /// No second mode with O on the same sides is nearer than this to the start of the last step, rad. NaN if the
   /// certificate is above 1/2.
@@ -46,7 +47,8 @@ class Tracker {
 
   /// The mode reached from `start` when the lengths change along a straight path from those of `start` to
   /// `leg_lengths`. O stays on its side of both planes of internal joints and follows in closed form; the rotation
-  /// follows by Newton's method, in steps short enough to be certified.
+  /// follows by Newton's method. Tracked means proved: no singularity lies on the path, and the mode is the one that
+  /// the start's becomes. Where the proof fails the path is divided.
   ///
   /// Throws InvalidArgument for lengths that are negative or not finite.
   Tracked operator()(const Vec9& leg_lengths, const Configuration& start) const;
