@@ -1,9 +1,11 @@
 """What all tests share: one hypothesis profile and the paper's robot."""
 
+import functools
 import gc
 import signal
 
 import pytest
+import typer.main
 from hypothesis import HealthCheck, settings
 from sizes import size
 
@@ -28,6 +30,14 @@ def pytest_collection_finish(session):
     """What is loaded by now stays to the end: no collection of garbage needs to look through it again."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _commands_are_built_once():
+    """Most of the time of a short command line is that of building all commands, the same ones every time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(typer.main, "get_command", functools.cache(typer.main.get_command))
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -9,6 +9,7 @@ the number.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -49,6 +50,7 @@ def published_variables(zs: float | None = None) -> dict[str, float]:
     return PLATES | {"zp": ZP, "zs": published_zs()[2] if zs is None else zs}
 
 
+@cache
 def published_zs() -> tuple[float, float, float]:
     """Return the heights of O at which the published design has k = 3.9110, below and above the best, and the best."""
     found = solved("published plates and height").best
