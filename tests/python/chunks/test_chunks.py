@@ -6,10 +6,7 @@ import os
 import random
 import shutil
 import signal
-import subprocess
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,23 +33,24 @@ def chunks(folder):
     return sorted(folder.glob("chunk-*"))
 
 
-def child(folder, notes, before=""):
-    path = os.pathsep.join(
-        [str(Path(nd.__file__).parents[1]), str(Path(work.__file__).parent), os.environ.get("PYTHONPATH", "")]
-    )
-    return subprocess.Popen(
-        [sys.executable, "-c", f"{before}\nimport sweep_work; sweep_work.main({str(folder)!r})"],
-        env=os.environ | {"PYTHONPATH": path, "NINEDOF_TEST_NOTES": str(notes)},
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+@pytest.fixture
+def child(forks, tmp_path):
+    """Starts a sweep in another process; `errors` is the file of its standard error."""
+
+    def start(folder, notes, before=list):
+        process = forks.Process(target=work.main, args=(folder, notes, errors, before))
+        process.start()
+        return process
+
+    errors = start.errors = tmp_path / "stderr"
+    return start
 
 
 # --- Killed at any moment ---------------------------------------------------------------------------------------------
 
 
 @pytest.mark.slow
-def test_a_sweep_killed_many_times_is_resumed(tmp_path, expected, monkeypatch):
+def test_a_sweep_killed_many_times_is_resumed(child, tmp_path, expected, monkeypatch):
     """SIGKILL at random moments. Finished chunks are not computed again, and the result has the same bits."""
     folder, notes = tmp_path / "out", tmp_path / "notes"
     moments = random.Random(5)
@@ -64,16 +62,15 @@ def test_a_sweep_killed_many_times_is_resumed(tmp_path, expected, monkeypatch):
         finished = {int(p.name[-8:]) for p in chunks(folder)}
         process = child(folder, mine)
         deadline = time.monotonic() + 60.0
-        while not any(mine.iterdir()) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.002)  # importing takes most of the time: wait for the first chunk
-        try:
-            process.wait(moments.uniform(0.04, 0.05))  # of the 20 chunks six at most
-        except subprocess.TimeoutExpired:
+        while not any(mine.iterdir()) and process.is_alive() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        process.join(moments.uniform(0.04, 0.05))  # of the 20 chunks six at most
+        if process.is_alive():
             process.kill()
             kills += 1
-        status = process.wait()
-        assert status in (0, -signal.SIGKILL), process.stderr.read()
-        process.stderr.close()
+        process.join()
+        status = process.exitcode
+        assert status in (0, -signal.SIGKILL), child.errors.read_text()
         called = [first_of[p.read_text()] for p in mine.iterdir() if p.read_text()]
         assert len(set(called)) == len(called)
         assert not finished & set(called), "a finished chunk was computed again"
@@ -84,10 +81,12 @@ def test_a_sweep_killed_many_times_is_resumed(tmp_path, expected, monkeypatch):
     assert kills >= 3
     lost = computed_before_the_end - 20  # a chunk that was computed but not kept when the kill came
     assert 0 <= lost <= kills
-    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(tmp_path))
+    last = notes / "last"
+    last.mkdir()
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(last))
     found = nd.sweep(G, HOME, GRID, work.noted, out=folder, chunk=20)["noted"]
     assert found.tobytes() == expected.tobytes()
-    assert not [p for p in tmp_path.iterdir() if p.is_file()], "a complete sweep computes nothing"
+    assert not list(last.iterdir()), "a complete sweep computes nothing"
     assert {p.name for p in folder.iterdir()} == {".lock", "manifest.json", *(f"chunk-{k:08d}" for k in range(20))}
 
 
@@ -97,26 +96,13 @@ def firsts():
     return [[float(v), 0.0, 3.9828] for v in x]
 
 
-MID_WRITE = """
-import os, signal
-real, calls = os.fsync, []
-def fsync(file):
-    calls.append(file)
-    if len(calls) == 4:  # the manifest, two chunks, and half of the third
-        os.ftruncate(file, os.fstat(file).st_size // 2)
-        os.kill(os.getpid(), signal.SIGKILL)
-    real(file)
-os.fsync = fsync
-"""
-
-
-def test_killed_in_the_middle_of_a_write(tmp_path, expected, monkeypatch):
+def test_killed_in_the_middle_of_a_write(child, tmp_path, expected, monkeypatch):
     out, notes, later = (tmp_path / name for name in ("out", "notes", "later"))
     notes.mkdir()
     later.mkdir()
-    process = child(out, notes, MID_WRITE)
-    assert process.wait(60) == -signal.SIGKILL, process.stderr.read()
-    process.stderr.close()
+    process = child(out, notes, work.killed_in_a_write)
+    process.join(60)
+    assert process.exitcode == -signal.SIGKILL, child.errors.read_text()
     assert [p.name for p in chunks(out)] == ["chunk-00000000", "chunk-00000001"]
     assert len(list(out.glob(".part-chunk-00000002-*"))) == 1
     monkeypatch.setenv("NINEDOF_TEST_NOTES", str(later))
@@ -274,7 +260,7 @@ def test_an_index_without_a_name_cannot_be_kept(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-def test_two_runs_do_not_share_a_folder(tmp_path):
+def test_two_runs_do_not_share_a_folder(child, tmp_path):
     notes = tmp_path / "notes"
     notes.mkdir()
     process = child(tmp_path / "out", notes)
@@ -282,13 +268,12 @@ def test_two_runs_do_not_share_a_folder(tmp_path):
         deadline = time.monotonic() + 60.0
         while not chunks(tmp_path / "out") and time.monotonic() < deadline:
             time.sleep(0.002)
-        process.send_signal(signal.SIGSTOP)  # it must not finish during the test
+        os.kill(process.pid, signal.SIGSTOP)  # it must not finish during the test
         with pytest.raises(ValueError, match="which another run is using"):
             asked(tmp_path / "out")
     finally:
         process.kill()
-        process.wait()
-        process.stderr.close()
+        process.join()
     with pytest.raises(ValueError, match="another question"):  # a killed run holds no lock
         asked(tmp_path / "out")
 
@@ -323,7 +308,7 @@ def test_an_interruption_leaves_what_was_finished(tmp_path, expected):
     assert seen == [(done, 391, None) for done in [*range(100, 391, 20), 391]]
 
 
-def test_control_c_ends_a_run_at_the_next_chunk(tmp_path):
+def test_control_c_ends_a_run_at_the_next_chunk(child, tmp_path):
     notes = tmp_path / "notes"
     notes.mkdir()
     process = child(tmp_path / "out", notes)
@@ -331,11 +316,12 @@ def test_control_c_ends_a_run_at_the_next_chunk(tmp_path):
         deadline = time.monotonic() + 60.0
         while not chunks(tmp_path / "out") and time.monotonic() < deadline:
             time.sleep(0.002)
-        process.send_signal(signal.SIGINT)
-        _, error = process.communicate(timeout=30)
+        os.kill(process.pid, signal.SIGINT)
+        process.join(30)
+        assert process.exitcode == 1
     finally:
         process.kill()
-    assert "KeyboardInterrupt" in error
+    assert "KeyboardInterrupt" in child.errors.read_text()
     assert 1 <= len(chunks(tmp_path / "out")) < 20
     assert not list((tmp_path / "out").glob(".part-*"))
 

@@ -1,12 +1,10 @@
 """Chunks by threads, processes and a Dask cluster: the same bits; an error of the executor leaves finished chunks."""
 
 import gc
-import multiprocessing
 import os
 import pickle
 import signal
 import socket
-import sys
 import threading
 import time
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -21,8 +19,6 @@ from ninedof.sweep import cluster as schedulers
 from ninedof.sweep.axis import axes_of
 from ninedof.sweep.poses import COORDINATES, Poses
 from ninedof.sweep.work import GridWork
-
-SPAWN = multiprocessing.get_context("spawn")
 
 
 def asked(index="condition_number", **options):
@@ -44,17 +40,9 @@ def test_threads(expected):
         assert asked(executor=pool)["condition_number"].tobytes() == expected
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _light_processes():
-    """A spawned process runs the main script again, here that of pytest, which it does not need."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.delattr(sys.modules["__main__"], "__file__", raising=False)
-        yield
-
-
 @pytest.fixture(scope="module")
-def processes(_light_processes):
-    with ProcessPoolExecutor(2, mp_context=SPAWN) as pool:
+def processes(forks):
+    with ProcessPoolExecutor(2, mp_context=forks) as pool:
         yield pool
 
 
@@ -138,14 +126,14 @@ def test_an_error_of_the_executor_is_raised_and_the_next_call_goes_on(outcome, e
     assert rest.submitted == 20 - kept
 
 
-def test_a_broken_pool_ends_the_run_and_another_goes_on(expected, tmp_path):
+def test_a_broken_pool_ends_the_run_and_another_goes_on(forks, expected, tmp_path):
     index = work.FatalOnce(tmp_path)
-    with ProcessPoolExecutor(1, mp_context=SPAWN) as pool:
+    with ProcessPoolExecutor(1, mp_context=forks) as pool:
         with pytest.raises(BrokenExecutor, match="terminated abruptly"):
             asked(index, executor=pool, out=tmp_path / "out")
         with pytest.raises(BrokenExecutor):
             asked(index, executor=pool, out=tmp_path / "out")
-    with ProcessPoolExecutor(1, mp_context=SPAWN) as pool:
+    with ProcessPoolExecutor(1, mp_context=forks) as pool:
         assert asked(index, executor=pool, out=tmp_path / "out")["FatalOnce"].tobytes() == expected
 
 
@@ -216,12 +204,26 @@ def test_what_is_no_executor_is_refused(executor, tmp_path):
 # --- Dask -------------------------------------------------------------------------------------------------------------
 
 
+QUIET = {  # a cluster looks at itself all the time, which costs more than the chunks
+    "distributed.admin.tick.interval": "1 s",
+    "distributed.admin.system-monitor.interval": "1 hour",
+    "distributed.worker.profile.enabled": False,
+}
+
+
 @pytest.fixture(scope="module")
-def cluster(_light_processes):
+def cluster(forks):
     distributed = pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
+    dask = pytest.importorskip("dask")
     with (
+        dask.config.set(QUIET | {"distributed.worker.multiprocessing-method": forks.get_start_method()}),
         distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
+            n_workers=2,
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=None,
+            dashboard_address=None,
+            host="127.0.0.1",
         ) as found,
         distributed.Client(found) as client,
     ):

@@ -55,6 +55,23 @@ def wrong_shape(g, c, lc):
     return np.zeros(3)
 
 
-def main(folder):
-    """The sweep that is killed again and again, with index `noted`."""
+def killed_in_a_write():
+    """From now on the fourth file is written by half, and its process killed: the manifest, two chunks, and a third."""
+    real, calls = os.fsync, []
+
+    def fsync(file):
+        calls.append(file)
+        if len(calls) == 4:
+            os.ftruncate(file, os.fstat(file).st_size // 2)
+            os.kill(os.getpid(), signal.SIGKILL)
+        real(file)
+
+    os.fsync = fsync
+
+
+def main(folder, notes, errors, before):
+    """The sweep that is killed again and again, with index `noted`, in a process whose errors go to a file."""
+    os.dup2(os.open(errors, os.O_WRONLY | os.O_CREAT), 2)
+    os.environ["NINEDOF_TEST_NOTES"] = str(notes)
+    before()
     nd.sweep(G, HOME, GRID, noted, out=folder, chunk=20)
