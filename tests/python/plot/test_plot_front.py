@@ -54,6 +54,14 @@ FIGURES = {
 }
 
 
+@functools.cache
+def drawn(name):
+    """The figure, made and drawn once for the tests that do not change it."""
+    figure = FIGURES[name]()
+    figure.draw_without_rendering()
+    return figure
+
+
 def marks(axes, marker):
     """Points drawn with a marker, as (x, y, face colour)."""
     found = [line for line in axes.lines if line.get_marker() == marker]
@@ -65,7 +73,7 @@ def marks(axes, marker):
 
 
 def test_every_limit_is_marked_by_its_status():
-    upper = FIGURES["front"]().axes[0]
+    upper = drawn("front").axes[0]
     dot, alarm = style.SERIES[0].lower(), style.ALARM.lower()
     assert marks(upper, "o") == [(1.3, 6.0, dot), (1.5, 4.0, dot), (2.0, 3.4, dot), (3.0, 3.4, "#ffffff")]
     assert marks(upper, "D") == [(1.8, 3.6, alarm)]
@@ -77,37 +85,37 @@ def test_every_limit_is_marked_by_its_status():
 
 
 def test_the_line_joins_what_was_found():
-    upper = FIGURES["front"]().axes[0]
+    upper = drawn("front").axes[0]
     (line,) = [line for line in upper.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 1]
     assert line.get_xdata().tolist() == [1.3, 1.5, 1.8, 2.0, 3.0]
 
 
 def test_infeasible_limits_have_a_grey_background():
-    for axes in FIGURES["front"]().axes:
+    for axes in drawn("front").axes:
         (ground,) = [patch for patch in axes.patches if to_hex(patch.get_facecolor()) == style.GRID.lower()]
         left, right = ground.get_extents().transformed(axes.transData.inverted()).intervalx
         assert left <= 1.0
         assert right == pytest.approx(1.2)
-    assert not FIGURES["one point"]().axes[0].patches
+    assert not drawn("one point").axes[0].patches
 
 
 def test_prices_are_stems():
-    lower = FIGURES["front"]().axes[1]
+    lower = drawn("front").axes[1]
     heights = {float(s[1][0]): float(s[1][1]) for c in lower.collections for s in c.get_segments()}
     assert heights == {1.3: 3.0, 1.5: 1.5, 2.0: 0.2, 3.0: 0.0}
     assert lower.get_xlabel() == "largest leg ratio allowed"
-    assert lower.get_xlim() == FIGURES["front"]().axes[0].get_xlim()
+    assert lower.get_xlim() == drawn("front").axes[0].get_xlim()
 
 
 def test_wide_ranges_are_logarithmic_and_carry_the_unit():
-    upper, lower = FIGURES["wide"]().axes
+    upper, lower = drawn("wide").axes
     assert upper.get_xscale() == "log"
     assert lower.get_xlabel() == "largest footprint allowed (mm)"
-    assert FIGURES["front"]().axes[0].get_xscale() == "linear"
+    assert drawn("front").axes[0].get_xscale() == "linear"
 
 
 def test_plates_are_drawn_in_the_order_of_their_limits():
-    figure = FIGURES["front with plates"]()
+    figure = drawn("front with plates")
     first, second = figure.axes[2:]
     assert [axes.get_title() for axes in (first, second)] == ["at 1.3", "at 3"]
     for axes in (first, second):
@@ -124,7 +132,7 @@ def test_plates_are_drawn_in_the_order_of_their_limits():
 
 
 def test_every_pose_is_drawn():
-    axes = FIGURES["poses"]().axes[0]
+    axes = drawn("poses").axes[0]
     first, second = ([y for _, y, colour in marks(axes, "o") if colour == c.lower()] for c in style.SERIES[:2])
     assert first == [4.0, 4.2, 4.1, 4.3]
     assert second == [3.8, 5.1, 4.4, 7.0]
@@ -136,21 +144,13 @@ def test_every_pose_is_drawn():
 
 
 def test_singular_poses_are_at_the_upper_edge():
-    axes = FIGURES["singular pose"]().axes[0]
+    axes = drawn("singular pose").axes[0]
     top = axes.get_ylim()[1]
     assert [(x, y) for x, y, _ in marks(axes, "^")] == [(1.0, top), (2.0, top)]
     assert axes.figure.legends[0].get_texts()[0].get_text() == "a: singular at some"
 
 
 # --- All --------------------------------------------------------------------------------------------------------------
-
-
-@functools.cache
-def drawn(name):
-    """The figure, made and drawn once for the tests that do not change it."""
-    figure = FIGURES[name]()
-    figure.draw_without_rendering()
-    return figure
 
 
 @pytest.mark.parametrize("name", FIGURES)

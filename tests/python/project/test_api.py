@@ -1,5 +1,6 @@
 """The public face: names, documentation, what importing costs, how a broken installation speaks."""
 
+import ast
 import doctest
 import inspect
 import os
@@ -58,28 +59,6 @@ def test_every_public_name_is_there_and_no_other():
     here = {"Geometry", "Study", "Status", "Result", *PROMISED}
     assert here <= set(nd.__all__)
     assert re.fullmatch(r"\d+\.\d+\.\d+.*", nd.__version__)
-
-
-def test_no_module_hides_a_public_name_however_late_it_is_imported():
-    """Rooms have names of functions, such as optimize: an import of a module sets the room as attribute of ninedof."""
-    modules = [
-        ".".join(["ninedof", *path.relative_to(PACKAGE).with_suffix("").parts]).removesuffix(".__init__")
-        for path in sorted(PACKAGE.rglob("*.py"))
-        if path.name != "__main__.py"
-    ]
-    assert {"ninedof.optimize.result", "ninedof.sweep.cluster", "ninedof.cli.app"} <= set(modules)
-    code = f"""
-import importlib, ninedof as nd
-before = {{name: getattr(nd, name) for name in nd.__all__}}
-assert all(callable(thing) for thing in before.values())
-for module in {modules!r}:
-    importlib.import_module(module)
-import ninedof.optimize.result
-from ninedof import paper, plot, poses
-assert callable(poses.box) and callable(plot.save)
-assert [name for name in before if getattr(nd, name) is not before[name]] == []
-"""
-    assert run(code).stderr == ""
 
 
 @pytest.mark.parametrize(("name", "parameters"), PROMISED.items(), ids=PROMISED.keys())
@@ -164,21 +143,73 @@ def test_the_examples_are_found():
 # --- Importing --------------------------------------------------------------------------------------------------------
 
 
-def test_import_is_light():
+IN_TURN = """
+import sys
+def loaded():
+    return sorted(m for m in sys.modules if sys.modules[m] is not None)
+def tell(name, value):
+    print(name, repr(value), sep="=", flush=True)
+import ninedof as nd
+tell("imported", loaded())
+before = {name: getattr(nd, name) for name in nd.__all__}
+tell("callable", all(callable(thing) for thing in before.values()))
+
+optional = {"matplotlib", "rich", "typer", "scipy", "xarray", "distributed"} - set(sys.modules)
+sys.modules |= dict.fromkeys(optional)
+tell("main job", nd.optimize(nd.Study.paper()).status.value)
+for name in optional:
+    del sys.modules[name]
+
+from ninedof import plot
+tell("with figures", loaded())
+
+import importlib
+for module in MODULES:
+    importlib.import_module(module)
+import ninedof.optimize.result
+from ninedof import paper, plot, poses
+tell("rooms", callable(poses.box) and callable(plot.save))
+tell("hidden", [name for name in before if getattr(nd, name) is not before[name]])
+"""
+
+
+@pytest.fixture(scope="module")
+def told():
+    """What an interpreter says that imports first the package, then figures, then all modules."""
+    modules = [
+        ".".join(["ninedof", *path.relative_to(PACKAGE).with_suffix("").parts]).removesuffix(".__init__")
+        for path in sorted(PACKAGE.rglob("*.py"))
+        if path.name != "__main__.py"
+    ]
+    assert {"ninedof.optimize.result", "ninedof.sweep.cluster", "ninedof.cli.app"} <= set(modules)
+    result = run(f"MODULES = {modules!r}\n{IN_TURN}")
+    assert result.stderr == ""
+    return {
+        name: ast.literal_eval(value) for name, value in (line.split("=", 1) for line in result.stdout.splitlines())
+    }
+
+
+def test_import_is_light(told):
     """Figures, tables and the command line are loaded by who needs them; scipy is never needed at all."""
-    result = run("import sys, ninedof; print(*sorted(m.partition('.')[0] for m in sys.modules))")
-    assert result.returncode == 0, result.stderr
-    loaded = set(result.stdout.split())
+    loaded = {module.partition(".")[0] for module in told["imported"]}
     assert {"ninedof", "numpy"} <= loaded
     assert not {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "tomli_w", "hypothesis", "pytest"} & loaded
 
 
-def test_the_main_job_without_optional_packages():
-    hidden = ["matplotlib", "rich", "typer", "scipy", "xarray", "distributed"]
-    code = f"import sys; sys.modules |= dict.fromkeys({hidden!r})\n"
-    code += "import ninedof as nd\nprint(nd.optimize(nd.Study.paper()).status)"
-    result = run(code)
-    assert result.stdout == "optimal\n", result.stderr
+def test_figures_need_no_pyplot(told):
+    assert "matplotlib.figure" in told["with figures"]
+    assert "matplotlib.pyplot" not in told["with figures"]
+
+
+def test_the_main_job_without_optional_packages(told):
+    assert told["main job"] == "optimal"
+
+
+def test_no_module_hides_a_public_name_however_late_it_is_imported(told):
+    """Rooms have names of functions, such as optimize: an import of a module sets the room as attribute of ninedof."""
+    assert told["callable"]
+    assert told["rooms"]
+    assert told["hidden"] == []
 
 
 def test_missing_compiled_part_says_what_to_do(tmp_path):
