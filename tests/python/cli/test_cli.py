@@ -70,7 +70,7 @@ def test_starts_and_seed_reach_the_record(capsys):
 STUDIES = {
     "optimal": ("[constraints]\nradius_ratio = { max = 2.0 }", 0),
     "unbounded": ("[variables]\na2 = [0.0, inf]\nzp = [0.1, inf]\nzs = [0.1, inf]", 3),
-    "infeasible": ("[constraints]\nleg_ratio = { max = 0.5 }", 3),
+    "infeasible": ("[constraints]\nleg_ratio = { max = 0.5 }\n[solver]\nstarts = 16", 3),
 }
 
 

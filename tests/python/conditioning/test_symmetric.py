@@ -9,11 +9,12 @@ import numpy as np
 import numpy_model as model
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from sizes import size
 
 import ninedof as nd
 
 EPS = np.finfo(float).eps
-COUNT = 10_000
+COUNT = size(4_000, 10_000)
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ import numpy_model as model
 import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -38,7 +39,7 @@ ROBOTS = {
         ),
         nd.Configuration.neutral(4.0, 2.2, -0.2),
     ),
-} | {f"general {seed}": general(seed) for seed in range(3)}
+} | {f"general {seed}": general(seed) for seed in range(size(1, 3))}
 
 EVERY_ROBOT = pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
 
@@ -84,8 +85,8 @@ def settle(engine, data, lengths, seconds):
 
 def anywhere(rng, g, count):
     """Poses of any orientation and place, as far from the base as the robot is large."""
-    size = np.abs(g.base_external).max()
-    p, s = size * rng.normal(size=(2, count, 3))
+    reach = np.abs(g.base_external).max()
+    p, s = reach * rng.normal(size=(2, count, 3))
     return nd.Configuration(p, model.random_rotations(rng, count), s)
 
 

@@ -131,7 +131,7 @@ def test_two_indices():
 @pytest.mark.parametrize("name", TRADED)
 def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
-    points = size(4, 9)
+    points = size(3, 9)
     study = study.with_solver(size(4, study.starts))
     found = pareto(study, against, points=points)
     assert len(objectives(found)) == points
@@ -155,11 +155,12 @@ def test_a_front_of_two_indices_spans_both_optima():
 
 
 def test_steep_parts_get_more_points():
-    found = pareto(PAPER, "radius_ratio", points=13, starts=size(16, 64))
+    points = size(9, 13)
+    found = pareto(PAPER, "radius_ratio", points=points, starts=size(16, 64))
     values = objectives(found)
     steps = [before - after for before, after in pairwise(values)]
     evenly = pareto(
-        PAPER, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], 13), starts=size(16, 64)
+        PAPER, "radius_ratio", values=_geometric(found.limits[0], found.limits[-1], points), starts=size(16, 64)
     )
     coarse = objectives(evenly)
     assert max(steps) < max(before - after for before, after in pairwise(coarse))
@@ -170,7 +171,7 @@ def _geometric(low, high, count):
 
 
 def test_an_infeasible_study_has_one_row():
-    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio", starts=size(16, 64))
     assert [row["status"] for row in found.table()] == ["infeasible"]
     assert found.limits == (math.inf,)
 
@@ -182,7 +183,7 @@ def test_without_a_scale_limits_must_be_given():
     ):
         pareto(boundless, "radius_ratio")
     limited_itself = replace(boundless, constraints={"radius_ratio": (None, 1.0)})
-    assert is_monotone(pareto(limited_itself, "radius_ratio", points=size(3, 5), starts=size(16, 64)))
+    assert is_monotone(pareto(limited_itself, "radius_ratio", points=size(3, 5), starts=size(8, 64)))
 
 
 # --- Monotone, whatever the solver does -------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import ast
 import doctest
+import functools
 import inspect
 import os
 import re
@@ -107,6 +108,7 @@ def test_classes_document_every_public_member(name):
         assert inspect.getdoc(inspect.getattr_static(cls, member)), f"{name}.{member}"
 
 
+@functools.cache
 def examples():
     """Every docstring with examples, those of compiled classes and of private modules too."""
     modules = [m for n, m in sorted(sys.modules.items()) if n == "ninedof" or n.startswith("ninedof.")]

@@ -3,6 +3,9 @@
 import importlib
 import subprocess
 import sys
+from concurrent.futures import Future
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -62,35 +65,44 @@ def test_a_wrong_number_ends_the_program(compare):
             require_agreement("wrong one", np.array(wrong), ours, 1)
 
 
-IN_ONE_PROCESS = """
-import comparison
-from concurrent.futures import Future
 class Here:
+    """In place of a pool of one process: work is done here, at once."""
+
     def __init__(self, *_, **__):
         pass
+
     def submit(self, function, *arguments):
         future = Future()
         future.set_result(function(*arguments))
         return future
+
     def shutdown(self):
         pass
-comparison.runner.ProcessPoolExecutor = Here
-comparison.available_levels = lambda: ["base"]
-comparison.main(["--poses", "40", "--rounds", "1"])
-"""
+
+
+def printed_by_every_level(folder):
+    command = [sys.executable, str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def printed_by_one_level(folder):
+    """Every method has a process of its own, one for each level of instructions: one level, in this one, will do."""
+    comparison = importlib.import_module("comparison")
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(StringIO()) as out:
+        patch.chdir(folder)
+        patch.setattr(comparison.runner, "ProcessPoolExecutor", Here)
+        patch.delattr("os.sched_setaffinity", raising=False)  # it would hold for all tests that follow
+        patch.setattr(comparison, "available_levels", lambda: ["base"])
+        assert comparison.main(["--poses", "40", "--rounds", "1"]) == 0
+    return out.getvalue()
 
 
 @pytest.mark.slow
-def test_the_script_runs_without_its_cpp_programs(tmp_path):
-    # Every method has a process of its own, one for each level of instructions: one level, and one process, will do.
-    one_level = f"import sys; sys.path.insert(0, {str(BENCH)!r}); {IN_ONE_PROCESS}"
-    every_level = [str(BENCH / "comparison.py"), "--poses", "200", "--rounds", "1"]
-    command = [sys.executable, *size(["-c", one_level], every_level)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    rows = {
-        cells[1].strip(): cells for cells in (line.split("|") for line in done.stdout.splitlines()) if len(cells) > 7
-    }
+def test_the_script_runs_without_its_cpp_programs(compare, tmp_path):
+    printed = size(printed_by_one_level, printed_by_every_level)(tmp_path)
+    rows = {cells[1].strip(): cells for cells in (line.split("|") for line in printed.splitlines()) if len(cells) > 7}
     assert float(rows["numpy"][7]) < 1e-9
     assert rows["plain Eigen, base"][3].strip() == "not built"
     assert list(tmp_path.iterdir()) == []

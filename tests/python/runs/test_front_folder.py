@@ -39,7 +39,7 @@ def test_a_front_is_read_back_as_it_was(front, tmp_path):
 
 
 def test_a_front_without_designs_is_read_back(tmp_path):
-    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio")
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio", starts=16)
     write_run(found, tmp_path)
     assert load(tmp_path).limits == (math.inf,)
     assert load(tmp_path).table() == found.table()
@@ -93,7 +93,7 @@ def test_the_command_prints_json(tmp_path, capsys):
 
 
 def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
-    assert command(tmp_path, "--against leg_ratio --value 0.5") == 3
+    assert command(tmp_path, "--against leg_ratio --value 0.5 --starts 16") == 3
     assert "infeasible" in capsys.readouterr().out
 
 

@@ -185,7 +185,7 @@ def test_chunks_change_nothing_where_o_is_carried():
 
 
 # Blocks of 18 rows of x_p, or two in a quick run: three of them, the last one short.
-BLOCK, ACROSS = size((128, 19), (placing.BLOCK, 37))
+BLOCK, ACROSS = size((74, 11), (placing.BLOCK, 37))
 MANY = {"x_p": (size(0.5, -1.2), 1.2, size(5, 41)), "theta_x": (-0.4, 0.4, 3), "y_p": (-1.0, 1.0, ACROSS)}
 
 

@@ -163,7 +163,7 @@ def test_a_design_near_the_optimum_is_not_stationary(paper, shift):
 
 @pytest.mark.parametrize("shift", [0.3, 0.01])
 def test_perturbations_find_a_better_design_near_the_optimum(paper, shift):
-    wrong = check(moved(paper, zp=shift), perturbations=size(1000, 4000))
+    wrong = check(moved(paper, zp=shift), perturbations=size(300, 4000))
     assert not wrong["perturbations"].passed
     assert wrong["perturbations"].figure > 1e-6
     assert "FAILED  perturbations" in wrong.report()
