@@ -131,8 +131,8 @@ def test_two_indices():
 @pytest.mark.parametrize("name", TRADED)
 def test_a_found_front_is_monotone_and_spans_the_range(name):
     study, against = TRADED[name]
-    points = size(3, 9)
-    study = study.with_solver(size(4, study.starts))
+    points = size(4, 9)
+    study = study.with_solver(size(2, study.starts))
     found = pareto(study, against, points=points)
     assert len(objectives(found)) == points
     assert is_monotone(found)
