@@ -12,16 +12,22 @@ import sweep_work as work
 import ninedof as nd
 
 
-@pytest.fixture(scope="package")
-def forks():
-    """Context of multiprocessing. An interpreter that starts anew would import for longer than it computes."""
+@pytest.fixture(scope="session")
+def _server():
+    """An interpreter that starts anew would import for longer than it computes: this one has imported, and forks."""
     context = multiprocessing.get_context("forkserver")
     path = [str(Path(nd.__file__).parents[1]), str(Path(work.__file__).parent), os.environ.get("PYTHONPATH", "")]
     with pytest.MonkeyPatch.context() as patch:
-        # A process of a pool runs the main script again, here that of pytest, which it does not need.
-        patch.delattr(sys.modules["__main__"], "__file__", raising=False)
         patch.setenv("PYTHONPATH", os.pathsep.join(path))
         context.set_forkserver_preload(["sweep_work", "distributed"])
         forkserver.ensure_running()
-        yield context
+    yield context
     forkserver._forkserver._stop()
+
+
+@pytest.fixture(scope="module")
+def forks(_server):
+    """Context of multiprocessing. Its processes run the main script again, here that of pytest, but for this patch."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delattr(sys.modules["__main__"], "__file__", raising=False)
+        yield _server
