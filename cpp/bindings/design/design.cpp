@@ -49,6 +49,7 @@ Limit limit_from(const py::dict& d) {
   out.high = d["high"].cast<double>();
   out.of = unit_from(d["of"].cast<std::string>());
   out.steps = d["steps"].cast<int>();
+  out.at = limit_at_from(d["at"].cast<std::string>());
   const auto axis = d["axis"].cast<std::vector<double>>();
   if (axis.size() == 3) out.axis = Vec3(axis[0], axis[1], axis[2]);
   return out;

@@ -16,7 +16,7 @@ std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coor
   }
   int steps = 1;
   for (const Limit& limit : problem.limits)
-    if (limit.name == "singularity_free") steps = limit.steps;
+    if (limit.name == "singularity_free" && limit.at == LimitAt::poses) steps = limit.steps;
   for (std::size_t k = 1; k <= problem.objective.poses.size(); ++k)
     for (int step = 1; step < steps; ++step) {
       PoseSpec between = specs[k];

@@ -130,9 +130,9 @@ bool detect_impossible_heights(const Problem& problem, Result& result) {
   }
   for (const Limit& limit : problem.limits) {
     if (limit.name != "zs_fraction" || limit.low < 1.0) continue;
-    result.causes = {limit.name, "zp > zs"};
-    result.reason = "0 < zs < zp (eq. 9b) leaves no design: zs_fraction must be at least " + format_number(limit.low) +
-                    " against zp > zs";
+    result.causes = {limit.label(), "zp > zs"};
+    result.reason = "0 < zs < zp (eq. 9b) leaves no design: " + limit.label() + " must be at least " +
+                    format_number(limit.low) + " against zp > zs";
   }
   if (!result.causes.empty()) result.status = Status::infeasible;
   return !result.causes.empty();

@@ -35,7 +35,8 @@ class DesignPoint:
     """d(objective)/d(variable); NaN where singular. Where singular values or poses tie, that of one of them."""
     margins: dict[str, float]
     """Smallest margin of each constraint, relative to its limit: 0.01 is one per cent to spare, negative is violated.
-    Of singularity_free: determinant less its limit."""
+    Of singularity_free: determinant less its limit. A limit at the neutral pose alone is named "leg_ratio at neutral".
+    """
     margin_gradients: dict[str, dict[str, float]]
     """d(margin)/d(variable) of that margin."""
     geometry: Geometry

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
@@ -44,6 +44,9 @@ class Study:
     constraints : mapping
         Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
         {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
+        A limit holds at every pose of the objective, or with "at": "neutral" at the neutral pose alone, where it is
+        named "leg_ratio at neutral". A list of two such mappings states both. Limits that compare poses take no
+        "neutral": strokes, and cones about the legs' own neutral directions.
 
         ratios: radius_ratio (base / platform, largest joint distance from the axis), leg_ratio (longest / shortest leg
         over all poses), stroke_ratio (longest / shortest of one leg over the poses), zs_fraction (zs / zp).
@@ -77,7 +80,7 @@ class Study:
 
     family: str = "hexagonal"
     variables: Mapping[str, Bound] = field(default_factory=dict)
-    constraints: Mapping[str, limits.Limit] = field(default_factory=dict)
+    constraints: Mapping[str, limits.Limits] = field(default_factory=dict)
     characteristic_length: float | str | tuple[float, float] = 1.0
     starts: int = 64
     seed: int = 0
@@ -160,7 +163,7 @@ class Study:
     def problem(self) -> _core.Problem:
         """Return the study as the core's problem, validated there."""
         bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-        constraints = [limits.for_core(name, limit) for name, limit in self.constraints.items()]
+        constraints = [limits.for_core(name, limit) for name, limit in limits.each(self.constraints)]
         return _core.Problem(self.family, bounds, constraints, self.characteristic_length, self.objective.for_core())
 
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
@@ -205,14 +208,21 @@ class Study:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return plain dictionaries: read-only views cannot be pickled or copied."""
-        constraints = {n: dict(v) if isinstance(v, Mapping) else v for n, v in self.constraints.items()}
+        constraints = {n: _converted(v, Mapping, dict) for n, v in self.constraints.items()}
         return self.__dict__ | {"variables": dict(self.variables), "constraints": constraints}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Make the dictionaries read-only again."""
-        constraints = {n: MappingProxyType(v) if isinstance(v, dict) else v for n, v in state["constraints"].items()}
+        constraints = {n: _converted(v, dict, MappingProxyType) for n, v in state["constraints"].items()}
         views = {"variables": MappingProxyType(state["variables"]), "constraints": MappingProxyType(constraints)}
         self.__dict__.update(state | views)
+
+
+def _converted(limits: Any, kind: type, to: Callable[[Any], Any]) -> Any:
+    """Return limits with every mapping of a kind converted, those of a sequence too."""
+    if isinstance(limits, tuple):
+        return tuple(_converted(limit, kind, to) for limit in limits)
+    return to(limits) if isinstance(limits, kind) else limits
 
 
 def _bound(name: str, value: Any) -> Bound:

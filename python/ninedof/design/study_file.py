@@ -54,11 +54,18 @@ def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
     known_keys("solver", tables["solver"], ["starts", "seed"])
     return {
         "variables": tables["variables"],
-        "constraints": {name: table(f"constraints.{name}", limit) for name, limit in tables["constraints"].items()},
+        "constraints": {name: _limits(f"constraints.{name}", given) for name, given in tables["constraints"].items()},
         "objective": Objective.from_dict(tables["objective"]),
         **tables["design"],
         **tables["solver"],
     }
+
+
+def _limits(name: str, given: Any) -> Mapping[str, Any] | list[Mapping[str, Any]]:
+    """Return the table of a limit, or the tables of one that is stated for the poses and for the neutral pose."""
+    if isinstance(given, list) and any(isinstance(entry, Mapping) for entry in given):
+        return [table(f"{name}[{k}]", entry) for k, entry in enumerate(given)]
+    return table(name, given)
 
 
 def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:

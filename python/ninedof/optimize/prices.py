@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ninedof.design.limits import each, label, place
 from ninedof.design.study import LENGTH, Study
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices are left out
@@ -36,9 +37,10 @@ def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
         low, high = bound
         value = variables[name]
         return "less" if abs(value - low) < abs(high - value) else "more"
-    if name not in study.constraints:
+    stated = {label(constraint, place(limit)): limit for constraint, limit in each(study.constraints)}
+    if name not in stated:
         return "more"
-    limit = study.constraints[name]
+    limit = stated[name]
     low_side, high_side = limit if isinstance(limit, tuple) else (limit.get("min"), limit.get("max"))
     if low_side is not None and high_side is not None:
         return "wider"

@@ -20,7 +20,7 @@ class Front:
     study: Study
     """The given study, with the index that was minimized; the limit takes the values of `limits`."""
     against: str
-    """The limit: a constraint, whose max moves, or "condition_limit"."""
+    """The limit: a constraint ("base_cone", "base_cone at neutral"), whose max moves, or "condition_limit"."""
     limits: tuple[float, ...]
     results: tuple[Result, ...]
     """One for each limit."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof.design.indices import objectives
-from ninedof.design.limits import names_with_max
+from ninedof.design.limits import AT, each, label, names_with_max, place, split_label
 from ninedof.design.study import Study
 from ninedof.support.arguments import did_you_mean, shown
 
@@ -20,12 +20,13 @@ SMALL = 1e-8  # margin from which one more step is exact
 def resolve(study: Study, against: str) -> tuple[Study, str]:
     """Return the study to solve and the limit to vary, for the argument `against` of `pareto`.
 
-    A constraint with a max is varied as it is. Of two indices, one is minimized under limits on the condition number:
-    "speed" for a study of the condition number becomes a study of speed with a varying condition limit. The front is
-    the same, with its axes exchanged.
+    A constraint with a max is varied as it is; one at the neutral pose alone is "leg_ratio at neutral". Of two indices,
+    one is minimized under limits on the condition number: "speed" for a study of the condition number becomes a study
+    of speed with a varying condition limit. The front is the same, with its axes exchanged.
     """
     known = names_with_max()
-    if isinstance(against, str) and against in known:
+    labels = [label(name, at) for at in AT for name in known]
+    if isinstance(against, str) and against in labels:
         return study, against
     index = study.objective.index
     indices = objectives()
@@ -38,9 +39,10 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
             f"against: got {against!r} for a study of the index {index!r}, expected one of the two to be the condition "
             "number and the other another index"
         )
-    hint = did_you_mean(against, [*known, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
+    hint = did_you_mean(against, [*labels, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
     raise ValueError(
-        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}), "
+        f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}; one at the neutral "
+        f'pose alone as "{label(known[0], AT[1])}"), '
         f"{CONDITION_LIMIT} or another index{hint}"
     )
 
@@ -50,10 +52,12 @@ def limited(study: Study, against: str, value: float | None) -> Study:
     if against == CONDITION_LIMIT:
         return replace(study, objective=replace(study.objective, condition_limit=value))
     entry = _entry(study, against) | {"max": value}
-    others = {name: limit for name, limit in study.constraints.items() if name != against}
-    if value is None and entry.get("min") is None:
-        return replace(study, constraints=others)
-    return replace(study, constraints=others | {against: {k: v for k, v in entry.items() if v is not None}})
+    name, at = split_label(against)
+    others = {n: limits for n, limits in study.constraints.items() if n != name}
+    same = [limit for n, limit in each(study.constraints) if n == name and place(limit) != at]
+    if value is not None or entry.get("min") is not None:
+        same.append({k: v for k, v in entry.items() if v is not None})
+    return replace(study, constraints=others | ({name: same if len(same) > 1 else same[0]} if same else {}))
 
 
 def own_value(study: Study, against: str) -> float | None:
@@ -70,10 +74,11 @@ def value_at(study: Study, against: str, variables: Mapping[str, float]) -> floa
     A margin is log(limit / value) or 1 - value / limit. Newton's method acts on the limit or on its logarithm,
     depending on the sign of the margin; each is exact for one of the two forms.
     """
+    name = split_label(against)[0]
     options = {key: value for key, value in _entry(study, against).items() if key not in ("min", "max")}
     limit, before = own_value(study, against) or 1.0, 0.0
     for _ in range(MOST_STEPS):
-        alone = replace(study, constraints={against: options | {"max": limit}})
+        alone = replace(study, constraints={name: options | {"max": limit}})
         margin = alone.evaluate(variables).margins[against]
         if margin == before == 1.0:  # 1 - value / limit is 1 at two limits: the value is zero
             return 0.0
@@ -86,10 +91,14 @@ def value_at(study: Study, against: str, variables: Mapping[str, float]) -> floa
 
 def floor_of(study: Study, against: str) -> float:
     """Return the lower bound of the limit for any design: 1 for a ratio of maximum to minimum, or its own min."""
-    least = 1.0 if against in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
+    least = 1.0 if split_label(against)[0] in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
     return least if against == CONDITION_LIMIT else max(least, _entry(study, against).get("min") or 0.0)
 
 
 def _entry(study: Study, against: str) -> dict[str, Any]:
-    given = study.constraints.get(against, (None, None))
-    return dict(given) if isinstance(given, Mapping) else dict(zip(("min", "max"), given, strict=True))
+    """Return a limit as a mapping; without one, where it would hold and nothing else."""
+    name, at = split_label(against)
+    for n, limit in each(study.constraints):
+        if n == name and place(limit) == at:
+            return dict(limit) if isinstance(limit, Mapping) else dict(zip(("min", "max"), limit, strict=True))
+    return {} if at == AT[0] else {"at": at}

@@ -42,9 +42,10 @@ def pareto(
     study : Study
         Its own value of the limit is replaced; the min and the other options of the limit are kept.
     against : str
-        A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...), or a second index: with
-        "condition_limit" the study's own index is minimized under limits on the condition number at every pose; with
-        "speed" or "frobenius", for a study of the condition number, that index is minimized.
+        A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...; "leg_ratio at neutral" for the
+        limit at the neutral pose alone), or a second index: with "condition_limit" the study's own index is minimized
+        under limits on the condition number at every pose; with "speed" or "frobenius", for a study of the condition
+        number, that index is minimized.
     values : sequence of float, optional
         Limits to solve, in the unit of the constraint (radians for angles). By default from the value of
         the best design without the limit down to the least limit with a design, evenly spaced in logarithms and closer

@@ -58,7 +58,7 @@ def determinants(robot: Robot, steps: int) -> Floats:
     ----------
     robot : Robot
     steps : int
-        Equal parts of each path, in position, rotation vector and internal point.
+        Equal parts of each path, in position, rotation vector and internal point; 0: the neutral pose alone.
 
     Returns
     -------

@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ninedof.design.limits import Limit as Entry
-from ninedof.design.limits import for_core
+from ninedof.design.limits import each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.verify import directions, spacing
 from ninedof.verify.robot import Robot
@@ -35,17 +36,24 @@ class Limit:
     of: str = "length"
     axis: tuple[float, ...] = ()
     steps: int = 4
+    at: str = "poses"
+    """"poses", or "neutral" for the neutral pose alone."""
+
+    @property
+    def label(self) -> str:
+        """What the core calls the limit."""
+        return f"{self.name} at neutral" if self.at == "neutral" else self.name
 
 
 def limits_of(study: Study) -> list[Limit]:
     """Return the limits of a study."""
-    return [limit_of(name, entry) for name, entry in study.constraints.items()]
+    return [limit_of(name, entry) for name, entry in each(study.constraints)]
 
 
 def limit_of(name: str, entry: Entry) -> Limit:
-    """Return one limit from its entry in `Study.constraints`."""
+    """Return one limit of `Study.constraints`."""
     given = for_core(name, entry)
-    return Limit(name, given["low"], given["high"], given["of"], tuple(given["axis"]), given["steps"])
+    return Limit(name, given["low"], given["high"], given["of"], tuple(given["axis"]), given["steps"], given["at"])
 
 
 def margins(limit: Limit, robot: Robot) -> Floats:
@@ -57,7 +65,7 @@ def margins(limit: Limit, robot: Robot) -> Floats:
         The same n, in the same order, for all robots of a study.
 
     """
-    rule = RULES[limit.name]
+    rule, robot = RULES[limit.name], _where(limit, robot)
     out = []
     if math.isfinite(limit.high) and rule.upper is not None:
         values = rule.upper(robot, limit)
@@ -73,10 +81,18 @@ def margins(limit: Limit, robot: Robot) -> Floats:
 
 def measured(limit: Limit, robot: Robot) -> float:
     """Return the least `max` of a limit that allows this robot."""
-    rule = RULES[limit.name]
+    rule, robot = RULES[limit.name], _where(limit, robot)
     if rule.upper is None:
         raise ValueError(f"{limit.name}: got a limit without a max, expected one with a max")
     return float(rule.upper(robot, limit).max())
+
+
+def _where(limit: Limit, robot: Robot) -> Robot:
+    """Return the robot with the poses at which a limit holds."""
+    if limit.at != "neutral":
+        return robot
+    c = robot.neutral
+    return replace(robot, poses=Configuration(c.position[None], c.rotation[None], c.internal_point[None]))
 
 
 def _log(value: Any) -> Any:
@@ -188,5 +204,7 @@ RULES: Mapping[str, Rule] = {
     "leg_clearance": Rule(lower=lambda r, limit: spacing.between_legs(r) / _unit(r, limit), is_log=False),
     "base_cone": Rule(lambda r, limit: directions.cone(r, "base", limit.axis), is_log=False),
     "platform_cone": Rule(lambda r, limit: directions.cone(r, "platform", limit.axis), is_log=False),
-    "singularity_free": Rule(lower=lambda r, limit: directions.determinants(r, limit.steps), is_sign=True),
+    "singularity_free": Rule(
+        lower=lambda r, limit: directions.determinants(r, limit.steps if limit.at == "poses" else 0), is_sign=True
+    ),
 }

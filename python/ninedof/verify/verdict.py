@@ -133,7 +133,7 @@ def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
     core = _core_margins(space)
     worst = 0.0
     for limit in limits:
-        finding = _limit(space, limit, core.get(limit.name))
+        finding = _limit(space, limit, core.get(limit.label))
         worst = max(worst, -finding.figure)
         yield finding
     if str(result.status) == "optimal":
@@ -204,7 +204,7 @@ def _limit(space: DesignSpace, limit: Limit, core: float | None) -> Finding:
         agrees = abs(core - ours) <= EQUAL * max(1.0, abs(ours))
         passed &= agrees
         sentence += ", equal to that of the core" if agrees else f", but {core:.9e} by the core"
-    return Finding(f"limit: {limit.name}", passed, ours, sentence)
+    return Finding(f"limit: {limit.label}", passed, ours, sentence)
 
 
 def _core_margins(space: DesignSpace) -> dict[str, float]:

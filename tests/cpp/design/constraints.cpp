@@ -40,8 +40,8 @@ Eigen::VectorXd random_full(const Problem& p, Random& random) {
   return x;
 }
 
-/// Every constraint with every side and option it has.
-const std::vector<Limit> limits{{"radius_ratio", 0.5, 2.0},
+/// Every constraint with every side and option it has, at all poses.
+const std::vector<Limit> listed{{"radius_ratio", 0.5, 2.0},
                                 {"leg_ratio", 1.2, 3.0},
                                 {.name = "stroke_ratio", .high = 1.4},
                                 {"zs_fraction", 0.1, 0.9},
@@ -65,6 +65,22 @@ const std::vector<Limit> limits{{"radius_ratio", 0.5, 2.0},
                                 {.name = "platform_cone", .high = 0.8},
                                 {.name = "platform_cone", .high = 1.5, .axis = {0.1, 0.2, -0.7}},
                                 {.name = "singularity_free", .low = 0.05, .steps = 3}};
+
+/// Whether a limit is about differences of poses: it has no meaning at one pose.
+bool compares_poses(const Limit& limit) {
+  return limit.name.starts_with("stroke") || (limit.name.ends_with("_cone") && limit.axis.isZero(0.0));
+}
+
+/// The same, and at the neutral pose alone.
+const std::vector<Limit> limits = [] {
+  std::vector<Limit> out = listed;
+  for (Limit limit : listed) {
+    if (compares_poses(limit)) continue;
+    limit.at = LimitAt::neutral;
+    out.push_back(limit);
+  }
+  return out;
+}();
 
 bool has_side(const std::string& name, bool low) {
   try {
@@ -102,7 +118,7 @@ TEST_SUITE("constraints") {
           }
           const Evaluation e = evaluate(p, x);
           REQUIRE(e.margins.size() == 1);
-          CHECK(e.margins.front().name == limit.name);
+          CHECK(e.margins.front().name == limit.label());
           const double expected = hand::margin(p, limit, x);
           // acos is blunt next to 1.
           const double tolerance = limit.name.ends_with("_cone") && limit.axis.isZero(0.0) ? 1e-7 : 1e-12;
@@ -133,8 +149,8 @@ TEST_SUITE("constraints") {
             const PreparedProblem p = solve ? PreparedProblem(problem, 1e4) : PreparedProblem(problem);
             const Eigen::VectorXd x = random_full(p.problem, random);
             const Eigen::VectorXd y = p.with_auxiliary(p.coordinates.coordinates(x));
-            CHECK((p.auxiliary_count > 0) ==
-                  (solve && displaced && limit.high < infinity && (stroke || limit.name == "leg_ratio")));
+            CHECK((p.auxiliary_count > 0) == (solve && displaced && limit.at == LimitAt::poses &&
+                                              limit.high < infinity && (stroke || limit.name == "leg_ratio")));
             DesignEvaluation design, there;
             evaluate_design(p, y, design);
             REQUIRE(design.margins.size() == static_cast<Eigen::Index>(p.margins.size()));
@@ -237,11 +253,44 @@ TEST_SUITE("constraints") {
           const double expected = share * every.margins.minCoeff();
           double least = infinity;  // of this limit: O between the plates is a margin too where it is placed
           for (int k = 0; k < some.margins.size(); ++k)
-            if (solved.margin_name(k) == limit.name) least = std::min(least, some.margins[k]);
+            if (solved.margin_name(k) == limit.label()) least = std::min(least, some.margins[k]);
           CHECK(std::abs(least - expected) <= 1e-10 * std::max(1.0, std::abs(expected)));
         }
       }
     }
+  }
+
+  TEST_CASE("one limit at the poses and another at the neutral pose, each with its name, in either order") {
+    Random random(135);
+    for (const Limit& at_poses : listed) {
+      CAPTURE(at_poses.name);
+      Limit at_neutral = at_poses;
+      at_neutral.at = LimitAt::neutral;
+      if (compares_poses(at_poses)) {
+        const bool stroke = at_poses.name.starts_with("stroke");
+        CHECK(refuses(at_poses.name + (stroke ? ".at" : ".axis at neutral"), [&] { at_neutral.validate(); }));
+        continue;
+      }
+      at_neutral.steps = 900;  // of no effect: no way leads to the neutral pose
+      if (at_poses.high < infinity) at_neutral.high *= 0.9;
+      const Problem p = study("general", {at_poses, at_neutral}, true),
+                    q = study("general", {at_neutral, at_poses}, true);
+      const Eigen::VectorXd x = random_full(p, random);
+      const Evaluation e = evaluate(p, x), f = evaluate(q, x);
+      REQUIRE(e.margins.size() == 2);
+      REQUIRE(f.margins.size() == 2);
+      CHECK(e.margins[0].name == at_poses.name);
+      CHECK(e.margins[1].name == at_poses.name + " at neutral");
+      for (const std::size_t k : {0, 1}) {
+        CHECK(e.margins[k].name == f.margins[1 - k].name);
+        CHECK(e.margins[k].value == f.margins[1 - k].value);
+        CHECK(e.margins[k].gradient == f.margins[1 - k].gradient);
+        CHECK(e.margins[k].value == doctest::Approx(hand::margin(p, p.limits[k], x)).epsilon(1e-9));
+      }
+    }
+    CHECK(refuses("at", [] { limit_at_from("home"); }));
+    CHECK(limit_at_from("poses") == LimitAt::poses);
+    CHECK(limit_at_from("neutral") == LimitAt::neutral);
   }
 
   TEST_CASE("invalid limits throw, naming the argument") {

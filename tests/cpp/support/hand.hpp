@@ -16,12 +16,15 @@ using ninedof::Limit;
 using ninedof::Problem;
 using ninedof::Unit;
 
-/// A design and everywhere it stands: neutral first, then the poses; `looked` of them count for limits.
+/// A design and everywhere it stands: neutral first, then the poses; `looked` of them count for a limit.
 struct Design {
   Geometry geometry;
   std::vector<Configuration> at;
 
-  std::vector<Configuration> looked() const { return at.size() > 1 ? std::vector(at.begin() + 1, at.end()) : at; }
+  std::vector<Configuration> looked(const Limit& limit) const {
+    if (limit.at == ninedof::LimitAt::neutral) return {at.front()};
+    return at.size() > 1 ? std::vector(at.begin() + 1, at.end()) : at;
+  }
 };
 
 /// The configuration `fraction` of the way to a pose, s displaced by `offset` (in zp) at its end.
@@ -135,7 +138,7 @@ inline Range measured(const Limit& limit, const Design& d) {
                                                  : 1.0;
   const std::string& name = limit.name;
   std::vector<ninedof::Vec9> lengths;
-  for (const Configuration& c : d.looked()) lengths.push_back(ninedof::leg_lengths(g, c));
+  for (const Configuration& c : d.looked(limit)) lengths.push_back(ninedof::leg_lengths(g, c));
   Range out, all;
   std::array<Range, 9> each;
   for (const ninedof::Vec9& l : lengths)
@@ -167,7 +170,7 @@ inline Range measured(const Limit& limit, const Design& d) {
     }
   }
   if (name == "leg_clearance")
-    for (const Configuration& c : d.looked()) {
+    for (const Configuration& c : d.looked(limit)) {
       const auto legs = segments(g, c);
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i + 1; j < 9; ++j) {
@@ -178,7 +181,7 @@ inline Range measured(const Limit& limit, const Design& d) {
         }
     }
   if (name == "base_cone" || name == "platform_cone")
-    for (const Configuration& c : d.looked())
+    for (const Configuration& c : d.looked(limit))
       for (std::size_t k = 0; k < 6; ++k) {
         const bool platform = name == "platform_cone";
         const std::size_t leg = k < 3 || platform ? k : k + 3;
@@ -197,6 +200,7 @@ inline Range measured(const Limit& limit, const Design& d) {
 inline double margin(const Problem& p, const Limit& limit, const Eigen::VectorXd& x) {
   if (limit.name == "singularity_free") {
     const Vec3 home = determinants(hand::design(p, x).geometry, hand::design(p, x).at.front());
+    if (limit.at == ninedof::LimitAt::neutral) return home.cwiseAbs().minCoeff() - limit.low;
     double least = infinity;
     for (int step = 0; step <= limit.steps; ++step) {
       const Design d = hand::design(p, x, static_cast<double>(step) / limit.steps);

@@ -71,12 +71,12 @@ def test_options():
 
 def test_for_the_core():
     assert limits.for_core("radius_ratio", (None, 2.0)) == {
-        "name": "radius_ratio", "low": 0.0, "high": 2.0, "of": "length", "axis": [], "steps": 4,
+        "name": "radius_ratio", "low": 0.0, "high": 2.0, "of": "length", "axis": [], "steps": 4, "at": "poses",
     }  # fmt: skip
     cone = limits.parse("base_cone", {"max_deg": 45, "axis": [0, 3, 4]})
     assert limits.for_core("base_cone", cone)["axis"] == pytest.approx([0.0, 0.6, 0.8])
     assert limits.for_core("leg_clearance", limits.parse("leg_clearance", {"radius": 1, "of": "zp"})) == {
-        "name": "leg_clearance", "low": 2.0, "high": INF, "of": "zp", "axis": [], "steps": 4,
+        "name": "leg_clearance", "low": 2.0, "high": INF, "of": "zp", "axis": [], "steps": 4, "at": "poses",
     }  # fmt: skip
 
 

@@ -216,7 +216,7 @@ class Oracle:
         }
 
     def margins(self, names, x):
-        """The smallest margin of each constraint at x (len(names),)."""
+        """The smallest margin of each limit at x (len(names),)."""
         _, geometry, home, places = self.at(names, x)
         base, platform = self.meets
         apart = [(0, 1), (0, 2), (1, 2)]
@@ -225,7 +225,7 @@ class Oracle:
         poses = nd.Configuration(*(np.stack(part) for part in zip(*places, strict=True)))
         case = verified.Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
         limits = limits_of(nd.Study.from_dict(self.data))
-        return {limit.name: float(margins(limit, case).min()) for limit in limits}
+        return {limit.label: float(margins(limit, case).min()) for limit in limits}
 
 
 def _first(m):

@@ -25,6 +25,12 @@ enum class Unit {
   radius,  ///< largest distance of a joint from z
 };
 
+/// Where a limit holds.
+enum class LimitAt {
+  poses,    ///< at every pose of the objective, or at the neutral one if it has none
+  neutral,  ///< at the neutral pose alone
+};
+
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
 ///
 /// What each name means is said in the file of that name in src/design/constraints. 0 < zs < zp (eq. 9b) always holds.
@@ -35,12 +41,17 @@ struct Limit {
   Unit of = Unit::length;
   /// Of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration.
   Vec3 axis = Vec3::Zero();
-  /// Of singularity_free: parts of the way to each pose that are tested, 1 to most_steps.
+  /// Of singularity_free: parts of the way to each pose that are tested, 1 to most_steps; none at the neutral pose.
   int steps = 4;
   static constexpr int most_steps = 1000;
+  /// A limit of the design alone, such as radius_ratio, is the same at either.
+  LimitAt at = LimitAt::poses;
+
+  /// What margins, prices and messages call it: its name, followed by " at neutral" for the neutral pose alone.
+  std::string label() const;
 
   /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
-  /// constraint does not have.
+  /// constraint does not have; at the neutral pose also for what compares poses: strokes, and cones without an axis.
   void validate() const;
 };
 
@@ -67,6 +78,7 @@ struct ConstraintInfo {
   const char* option = "";   ///< "axis", "radius" or "steps"; what else a study file may say of it
   double default_low = 0.0;  ///< its low side where none is given
   WorkspaceItems items = WorkspaceItems::none;
+  bool compares_poses = false;  ///< it has no value at a single pose
 };
 
 /// The constraints of designs.
@@ -83,5 +95,8 @@ const char* to_string(Unit unit);
 
 /// "length", "zp" or "radius"; throws InvalidArgument for another word.
 Unit unit_from(const std::string& word);
+
+/// "poses" or "neutral"; throws InvalidArgument for another word.
+LimitAt limit_at_from(const std::string& word);
 
 }  // namespace ninedof

@@ -14,10 +14,11 @@ enum class Side { high, low };
 
 class Constraint {
  public:
-  explicit Constraint(const Limit& limit) : limit_(limit) {}
+  explicit Constraint(const Limit& limit) : limit_(limit), label_(limit.label()) {}
   virtual ~Constraint() = default;
 
   const Limit& limit() const { return limit_; }
+  const std::string& label() const { return label_; }
   int rows() const { return (has_high() ? items(Side::high) : 0) + (has_low() ? items(Side::low) : 0); }
   double margin(const DesignState& v, int row) const;
   void add_gradient(const DesignState& v, int row, Row out) const;
@@ -65,6 +66,9 @@ class Constraint {
   bool has_low() const { return limit_.low > 0.0; }
   double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }
   std::pair<Side, int> item_of(int row) const;
+  bool at_neutral() const { return limit_.at == LimitAt::neutral; }
+  /// The first pose where the limit holds, an index of DesignState::poses.
+  int first_pose(const DesignState& v) const { return at_neutral() ? 0 : v.first_pose; }
   /// The length that limits are fractions of; a radius is that of `body`, see widest_joint. The second adds `scale`
   /// times its derivatives.
   double unit(const DesignState& v, int body = -1) const;
@@ -73,13 +77,14 @@ class Constraint {
 
  private:
   Limit limit_;
+  std::string label_;
   int auxiliary_variable_ = -1, auxiliary_coordinate_ = -1;
 };
 
 /// Use of the rows: `solve` needs smooth rows; `evaluate`, of one design, needs the smallest margin only.
 enum class Purpose { solve, evaluate };
 
-/// The constraint of a limit, for `poses` displaced poses (0: the neutral one alone). Valid limits only.
+/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone). Valid limits only.
 std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose);
 
 /// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.

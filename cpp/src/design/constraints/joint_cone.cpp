@@ -35,7 +35,7 @@ class JointCone : public Constraint {
   }
 
   double value(const DesignState& v, Side, int item) const override {
-    const int pose = v.first_pose + item / legs_at_body;
+    const int pose = first_pose(v) + item / legs_at_body;
     return cone_angle(direction(v, pose, item), axis(v, pose, item));
   }
 
@@ -51,7 +51,7 @@ class JointCone : public Constraint {
   }
 
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
-    const int pose = v.first_pose + item / legs_at_body;
+    const int pose = first_pose(v) + item / legs_at_body;
     const Vec3 d = direction(v, pose, item), a = axis(v, pose, item);
     const double sine = d.cross(a).norm();
     if (!(sine > 1e-12)) return;  // on the axis, where the angle has no gradient

@@ -1,4 +1,4 @@
-/// leg_clearance: distance of the axes of every two legs that share no joint, at every pose looked at. The internal
+/// leg_clearance: distance of the axes of every two legs that share no joint, at every pose where the limit holds. The internal
 /// legs all end in O, so that one of every two is external. Legs share a joint if their joints coincide in every design
 /// the study allows; joints that coincide in one design alone collide. Declared in design/constraints/table.hpp.
 
@@ -28,7 +28,7 @@ class LegClearance : public Constraint {
   Form form() const override { return Form::linear; }
   int items(Side) const override { return leg_pairs * poses_; }
   Nearest between_legs(const DesignState& v, int item) const {
-    return nearest(v.pose(v.first_pose + item / leg_pairs).at, item % leg_pairs);
+    return nearest(v.pose(first_pose(v) + item / leg_pairs).at, item % leg_pairs);
   }
   double value(const DesignState& v, Side, int item) const override {
     if (share_joint_[at_index(item % leg_pairs)]) return exempt;
@@ -41,7 +41,7 @@ class LegClearance : public Constraint {
     const double distance = n.apart.norm(), u = unit(v);
     if (!(distance > 0.0)) return;
     const Vec3 g = scale / (distance * u) * n.apart;
-    const int pose = v.first_pose + item / leg_pairs;
+    const int pose = first_pose(v) + item / leg_pairs;
     v.add_point(pose, leg_ends(a).from, (1.0 - n.s) * g, out);
     v.add_point(pose, leg_ends(a).to, n.s * g, out);
     v.add_point(pose, leg_ends(b).from, -(1.0 - n.t) * g, out);

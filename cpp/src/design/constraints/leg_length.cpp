@@ -1,4 +1,4 @@
-/// leg_length: every leg at every pose looked at. external_length, upper_length, lower_length: the legs of that kind.
+/// leg_length: every leg at every pose where the limit holds. external_length, upper_length, lower_length: the legs of that kind.
 /// Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
@@ -17,7 +17,7 @@ class LegLength : public Constraint {
  private:
   int items(Side) const override { return count_ * poses_; }
   LegExtreme leg(const DesignState& v, int item) const {
-    return {v.first_pose + item / count_, first_ + item % count_};
+    return {first_pose(v) + item / count_, first_ + item % count_};
   }
   double value(const DesignState& v, Side, int item) const override { return v.length(leg(v, item)) / unit(v); }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {

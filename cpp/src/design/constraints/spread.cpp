@@ -1,4 +1,4 @@
-/// leg_ratio: longest over shortest leg, of all legs at all poses looked at. stroke: longest less shortest length of
+/// leg_ratio: longest over shortest leg, of all legs at all poses where the limit holds. stroke: longest less shortest length of
 /// each leg over those poses; stroke_ratio: longest over shortest. Declared in design/constraints/table.hpp.
 ///
 /// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
@@ -6,6 +6,7 @@
 /// legs, one auxiliary variable h for each group makes all margins smooth:
 ///   phi(b) - h >= 0  for every b,    room + h - phi(a) >= 0  for every a.
 
+#include <algorithm>
 #include <cmath>
 
 #include "design/constraints/constraint.hpp"
@@ -58,14 +59,17 @@ class Spread : public Constraint {
     return side == Side::high ? groups_ * each() : groups_;
   }
 
-  /// Member `k` of a group, and its longest and shortest.
+  /// Member `k` of a group, and its longest and shortest. At the neutral pose there is one group, of all legs.
   LegExtreme leg(const DesignState& v, int group, int k) const {
-    return each_leg_ ? LegExtreme{v.first_pose + k, group} : LegExtreme{v.first_pose + k / 9, k % 9};
+    return each_leg_ ? LegExtreme{first_pose(v) + k, group} : LegExtreme{first_pose(v) + k / 9, k % 9};
   }
+  static const Vec9& neutral(const DesignState& v) { return v.pose(0).legs.length; }
   LegExtreme longest(const DesignState& v, int group) const {
+    if (at_neutral()) return {0, static_cast<int>(std::ranges::max_element(neutral(v)) - neutral(v).begin())};
     return each_leg_ ? LegExtreme{v.longest_of[at_index(group)], group} : v.longest;
   }
   LegExtreme shortest(const DesignState& v, int group) const {
+    if (at_neutral()) return {0, static_cast<int>(std::ranges::min_element(neutral(v)) - neutral(v).begin())};
     return each_leg_ ? LegExtreme{v.shortest_of[at_index(group)], group} : v.shortest;
   }
 

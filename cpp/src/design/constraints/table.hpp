@@ -23,7 +23,8 @@ struct ConstraintRow {
   MakeConstraint* make = nullptr;  ///< null for a criterion that is no constraint of designs
 };
 
-/// Name, kind, sides; unit besides "length", option besides `of`, low side if none is given, items in a workspace.
+/// Name, kind, sides; unit besides "length", option besides `of` and `at`, low side if none is given, items in a
+/// workspace, whether it compares poses.
 inline constexpr std::array constraint_rows = [] {
   using enum LimitKind;
   using enum LimitSides;
@@ -31,9 +32,9 @@ inline constexpr std::array constraint_rows = [] {
   return std::array{
       ConstraintRow{{"radius_ratio", ratio, both}, make_radius_ratio},
       ConstraintRow{{"leg_ratio", ratio, both}, make_leg_ratio},
-      ConstraintRow{{"stroke_ratio", ratio, only_high}, make_stroke},
+      ConstraintRow{{"stroke_ratio", ratio, only_high, {}, "", 0.0, none, true}, make_stroke},
       ConstraintRow{{"zs_fraction", ratio, both}, make_zs_fraction},
-      ConstraintRow{{"stroke", length, only_high, Unit::zp}, make_stroke},
+      ConstraintRow{{"stroke", length, only_high, Unit::zp, "", 0.0, none, true}, make_stroke},
       ConstraintRow{{"leg_length", length, both, Unit::zp}, make_leg_length},
       ConstraintRow{{"external_length", length, both, Unit::zp}, make_leg_length},
       ConstraintRow{{"upper_length", length, both, Unit::zp}, make_leg_length},

@@ -124,7 +124,7 @@ void PreparedProblem::drop_repeated_margins() {
 
 const std::string& PreparedProblem::margin_name(int k) const {
   const int constraint = margins[at_index(k)].constraint;
-  return constraint < 0 ? condition_limit_name : constraints[at_index(constraint)]->limit().name;
+  return constraint < 0 ? condition_limit_name : constraints[at_index(constraint)]->label();
 }
 
 bool PreparedProblem::has_kinks() const {

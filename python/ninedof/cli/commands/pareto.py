@@ -36,7 +36,10 @@ EXAMPLES = """[bold]Examples[/bold]
 def pareto(
     study: StudyFile = None,
     against: Annotated[
-        str, typer.Option(help="The limit that is swept: a constraint, or condition_limit.")
+        str,
+        typer.Option(
+            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral"), or condition_limit.'
+        ),
     ] = "radius_ratio",
     value: Annotated[
         list[float] | None,
