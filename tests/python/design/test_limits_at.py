@@ -1,0 +1,334 @@
+"""Limits at the neutral pose alone, beside those at all poses: forms, values by hand, gradients.
+
+The values by hand come from the joints, the neutral configuration and numpy alone: nothing of the core's margins and
+nothing of ninedof.verify but the distance of two segments, which test_check_parts.py holds against a search.
+"""
+
+import copy
+import math
+import pickle
+
+import numpy as np
+import pytest
+from design_oracle import differences, is_angle
+from numpy.testing import assert_allclose
+from sizes import size
+
+import ninedof as nd
+from ninedof.design import limits
+from ninedof.verify.spacing import between_segments
+
+FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
+POSES = [
+    {"position": [0.1, 0.05, -0.04], "rotation": [0.05, -0.12, 0.1], "unit": "zp"},
+    {"position": [-0.2, 0.3, 0.1], "internal_point": [0.02, 0.1, 0.05]},
+    {"position": [0.0, -0.3, 0.0], "internal_point": "best"},
+]
+# Every constraint that has a meaning at one pose, with every side and unit it has.
+LIMITS = (
+    {
+        "radius_ratio": {"min": 0.5, "max": 2.0},
+        "leg_ratio": {"min": 1.2, "max": 3.0},
+        "zs_fraction": {"min": 0.1, "max": 0.9},
+        "leg_length": {"min": 0.5, "max": 6.0},
+        "external_length": {"min": 0.1, "max": 1.6, "of": "zp"},
+        "upper_length": {"min": 0.2, "max": 4.0},
+        "lower_length": {"min": 0.2, "max": 1.4, "of": "zp"},
+        "height": {"min": 0.5, "max": 8.0},
+        "footprint": {"min": 0.5, "max": 6.0},
+        "joint_height": {"max": 0.6},
+        "joint_spacing": {"min": 0.1},
+        "leg_clearance": {"min": 0.2},
+        "base_cone": {"max_deg": 50.0, "axis": [0.1, -0.2, 2.0]},
+        "platform_cone": {"max_deg": 60.0, "axis": [0.2, 0.3, -1.0]},
+        "singularity_free": {"min": 0.01},
+    },
+    {
+        "leg_length": {"min": 0.2, "max": 2.0, "of": "zp"},
+        "joint_height": {"max": 0.2, "of": "radius"},
+        "joint_spacing": {"min": 0.2, "of": "radius"},
+        "leg_clearance": {"radius": 0.05, "of": "zp"},
+        "leg_ratio": {"max": 2.0},
+    },
+)
+
+
+def signed(name):
+    return is_angle(name) or name[-2:] in ("_x", "_y", "_z") or name.endswith("_height")
+
+
+def neutral(options):
+    return {name: limit | {"at": "neutral"} for name, limit in options.items()}
+
+
+def random_design(family, rng):
+    """Values of a family's variables: a robot of ordinary proportions, O between the plates, no two joints in one."""
+    v = {}
+    for name, bound in nd.Study(family).variables.items():
+        if is_angle(name):
+            v[name] = rng.uniform(-1.0, 1.0)
+        elif name[-2:] in ("_x", "_y", "_z"):
+            v[name] = bound + 0.3 * rng.normal()
+        else:
+            v[name] = rng.uniform(-0.5, 0.5) if name.endswith("_height") else math.exp(rng.uniform(-0.5, 1.0))
+    v["zp"] = rng.uniform(1.5, 4.0)
+    return v | {"zs": v["zp"] * rng.uniform(0.25, 0.75)}
+
+
+def study(family, design, constraints, poses=POSES):
+    variables = {name: (-9.0, 9.0) if signed(name) else (1e-3, 50.0) for name in design}
+    return nd.Study(family, variables=variables, constraints=constraints, objective={"poses": poses})
+
+
+def cases():
+    for family in FAMILIES:
+        for seed in range(size(2, 40)):
+            rng = np.random.default_rng([FAMILIES.index(family), seed])
+            design = random_design(family, rng)
+            yield family, design, {f"pose3.s_{axis}": rng.uniform(-0.1, 0.1) for axis in "xyz"}
+
+
+CASES = list(cases())
+
+
+# --- By hand ----------------------------------------------------------------------------------------------------------
+
+
+def hand(name, options, g, c):
+    """The limited values of a constraint and the form of its margins, at one configuration."""
+    zp = c.position[2]
+    base, platform = (np.vstack(pair) for pair in (
+        (g.base_external, g.base_internal), (g.platform_external, g.platform_internal)
+    ))  # fmt: skip
+    wide = [np.hypot(*body[:, :2].T).max() for body in (base, platform)]
+    moved = c.position + platform @ c.rotation.T
+    start = np.vstack([base[:3], moved[3:], base[3:]])
+    end = np.vstack([moved[:3], [c.internal_point] * 6])
+    along = end - start
+    lengths = np.linalg.norm(along, axis=1)
+    unit = {"zp": zp, "radius": max(wide)}.get(options.get("of"), 1.0)
+
+    def angles(legs):
+        axis = np.array(options["axis"]) / np.linalg.norm(options["axis"])
+        return np.arccos(np.clip(legs @ axis / np.linalg.norm(legs, axis=1), -1.0, 1.0))
+
+    def apart(body, size):
+        return [np.linalg.norm(a - b) / size for k, a in enumerate(body) for b in body[:k]]
+
+    def from_o(joints):
+        return [(x - c.internal_point) / np.linalg.norm(x - c.internal_point) for x in joints]
+
+    def determinants():
+        e = along / lengths[:, None]
+        turning = [np.cross(d, w) for d, w in zip(from_o(base[:3]), from_o(moved[:3]), strict=True)]
+        return [abs(np.linalg.det(rows)) for rows in (e[6:], e[3:6], np.array(turning))]
+
+    sizes = wide if options.get("of") == "radius" else (1.0, 1.0)
+    pairs = [(i, j) for i in range(3) for j in range(i + 1, 9)]
+    values = {
+        "radius_ratio": lambda: [wide[0] / wide[1]],
+        "leg_ratio": lambda: [lengths.max() / lengths.min()],
+        "zs_fraction": lambda: [c.internal_point[2] / zp],
+        "leg_length": lambda: lengths / unit,
+        "external_length": lambda: lengths[:3] / unit,
+        "upper_length": lambda: lengths[3:6] / unit,
+        "lower_length": lambda: lengths[6:] / unit,
+        "height": lambda: [zp],
+        "footprint": lambda: [wide[0]],
+        "joint_height": lambda: np.abs(np.concatenate([base[:, 2], platform[:, 2]])) / unit,
+        "joint_spacing": lambda: apart(base, sizes[0]) + apart(platform, sizes[1]),
+        "leg_clearance": lambda: [between_segments(start[i], end[i], start[j], end[j]) / unit for i, j in pairs],
+        "base_cone": lambda: angles(np.vstack([along[:3], along[6:]])),
+        "platform_cone": lambda: angles(np.vstack([-along[:3], along[3:6]]) @ c.rotation),
+        "singularity_free": determinants,
+    }
+    linear = name.startswith("joint_") or name.endswith("_cone") or name == "leg_clearance"
+    return np.array(values[name]()), "plain" if name == "singularity_free" else "linear" if linear else "log"
+
+
+def hand_margin(name, options, g, c):
+    """The smallest margin, as docs/study-file.md defines it."""
+    values, form = hand(name, options, g, c)
+    low = options.get("min", 2.0 * options["radius"] if "radius" in options else None)
+    high = math.radians(options["max_deg"]) if "max_deg" in options else options.get("max")
+    found = []
+    if high is not None:
+        found.append(1.0 - values.max() / high if form == "linear" else math.log(high / values.max()))
+    if low is not None:
+        least = values.min()
+        found.append({"linear": least / low - 1.0, "plain": least - low}.get(form) or math.log(least / low))
+    return min(found)
+
+
+def test_the_lists_name_every_constraint():
+    assert set(LIMITS[0]) | {"stroke", "stroke_ratio"} == set(limits.CONSTRAINTS)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_margins_by_hand(family):
+    """Four families, three poses away from the neutral one, one with O placed by the tool."""
+    apart = 0
+    for f, design, offsets in CASES:
+        if f != family:
+            continue
+        for options in LIMITS:
+            point = study(f, design, neutral(options)).evaluate(design | offsets)
+            elsewhere = study(f, design, options).evaluate(design | offsets)
+            assert list(point.margins) == [f"{name} at neutral" for name in options]
+            for name, limit in options.items():
+                expected = hand_margin(name, limit, point.geometry, point.configuration)
+                assert point.margins[f"{name} at neutral"] == pytest.approx(expected, rel=1e-10, abs=1e-10), name
+                apart += abs(elsewhere.margins[name] - expected) > 1e-6
+    assert apart > 0.4 * sum(len(options) for options in LIMITS) * len(CASES) / len(FAMILIES)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_margins_are_those_of_the_study_without_poses(family):
+    """To the last bit, and so are the gradients: the robot at one pose is computed in one way."""
+    for f, design, offsets in CASES:
+        for options in LIMITS if f == family else ():
+            posed = study(f, design, neutral(options)).evaluate(design | offsets)
+            alone = study(f, design, options, poses=[]).evaluate(design)
+            for name in options:
+                assert posed.margins[f"{name} at neutral"] == alone.margins[name]
+                slopes = posed.margin_gradients[f"{name} at neutral"]
+                assert {v: slopes[v] for v in design} == alone.margin_gradients[name]
+                assert all(slopes[v] == 0.0 for v in offsets)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_gradients_against_differences_by_hand(family):
+    """Along random directions of all variables, places of O among them."""
+    compared = left_out = 0
+    for k, (f, design, offsets) in enumerate(CASES):
+        if f != family:
+            continue
+        rng = np.random.default_rng([5, k])
+        for options in LIMITS:
+            problem, full = study(f, design, neutral(options)).problem(), design | offsets
+            x = np.array([full[name] for name in problem.names])
+            ways = rng.normal(size=(2, len(x))) * np.maximum(np.abs(x), 0.1) / math.sqrt(len(x))
+            found = {name: ways @ slope for name, _, slope in problem.evaluate(x)["margins"]}
+
+            def values(t, problem=problem, options=options, x=x, ways=ways):
+                rows = x + t.reshape(-1, len(ways)) @ ways
+                robots = [(problem.geometry(r), nd.Configuration(*problem.configurations(r))[0]) for r in rows]
+                every = {name: [hand_margin(name, limit, *r) for r in robots] for name, limit in options.items()}
+                return {name: np.reshape(margins, t.shape[:-1]) for name, margins in every.items()}
+
+            for name, (expected, doubt) in differences(values, np.zeros(len(ways)), 1e-3).items():
+                scale = 1.0 + np.abs(expected).max()
+                sure = doubt <= 1e-6 * scale
+                slope = found[f"{name} at neutral"]
+                assert_allclose(slope[sure], expected[sure], rtol=0.0, atol=1e-6 * scale, err_msg=name)
+                compared, left_out = compared + sure.sum(), left_out + (~sure).sum()
+    assert left_out <= 0.05 * compared
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_both_limits_are_kept_apart(family):
+    """A limit at the poses and another at the neutral pose, in either order, have the margins each has alone."""
+    _, design, offsets = next(case for case in CASES if case[0] == family)
+    at = design | offsets
+    for options in LIMITS:
+        tighter = {name: limit | {"max": 0.9 * limit["max"]} if "max" in limit else limit
+                   for name, limit in options.items()}  # fmt: skip
+        alone = study(family, design, options).evaluate(at), study(family, design, neutral(tighter)).evaluate(at)
+        for order in (1, -1):
+            both = {name: [limit, tighter[name] | {"at": "neutral"}][::order] for name, limit in options.items()}
+            point = study(family, design, both).evaluate(at)
+            assert point.margins == alone[0].margins | alone[1].margins
+            assert point.margin_gradients == alone[0].margin_gradients | alone[1].margin_gradients
+
+
+def test_without_poses_both_hold_at_the_neutral_pose():
+    _, design, _ = CASES[0]
+    point = study("hexagonal", design, {"leg_ratio": [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]}, []).evaluate(
+        design
+    )
+    assert point.margins["leg_ratio"] - point.margins["leg_ratio at neutral"] == pytest.approx(math.log(1.5))
+
+
+# --- Forms ------------------------------------------------------------------------------------------------------------
+
+CONE = {"max_deg": 45, "axis": [0, 0, 1]}
+BOTH = [CONE, {"max_deg": 30, "axis": [0, 0, 1], "at": "neutral"}]
+
+
+def test_normal_form():
+    parse = limits.parse
+    assert parse("leg_ratio", {"max": 3, "at": "poses"}) == parse("leg_ratio", [{"max": 3}]) == (None, 3.0)
+    assert parse("leg_ratio", {"max": 3, "at": "neutral"}) == {"max": 3.0, "at": "neutral"}
+    assert parse("singularity_free", {"at": "neutral"}) == {"min": 1e-3, "at": "neutral"}
+    two = parse("leg_ratio", [{"max": 2, "at": "neutral"}, (None, 3)])
+    assert two == parse("leg_ratio", two) == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
+    assert parse("leg_ratio", [1, 2]) == (1.0, 2.0)  # a pair as before
+    assert limits.for_core("leg_ratio", two[1])["at"] == "neutral"
+
+
+def test_files_and_copies(tmp_path):
+    given = nd.Study(
+        constraints={"base_cone": BOTH, "height": {"max": 5, "at": "neutral"}, "leg_ratio": (None, 3.0)},
+        objective={"poses": POSES},
+    )
+    given.save(tmp_path / "study.toml")
+    text = """
+        [constraints]
+        base_cone = [
+            { max_deg = 30, axis = [0, 0, 1], at = "neutral" },
+            { max_deg = 45, axis = [0, 0, 1], at = "poses" },
+        ]
+        height = { max = 5, at = "neutral" }
+        [[constraints.leg_ratio]]
+        max = 3.0
+    """
+    (tmp_path / "typed.toml").write_text(text)
+    typed = nd.Study.load(tmp_path / "typed.toml")
+    assert typed.constraints == given.constraints
+    others = [nd.Study.load(tmp_path / "study.toml"), pickle.loads(pickle.dumps(given)), copy.deepcopy(given)]
+    for other in others:
+        assert other == given
+        with pytest.raises(TypeError):
+            other.constraints["base_cone"][1]["max"] = 1.0
+    assert given.to_dict()["constraints"]["base_cone"] == [
+        {"max_deg": 45.0, "axis": [0.0, 0.0, 1.0]},
+        {"max_deg": 30.0, "axis": [0.0, 0.0, 1.0], "at": "neutral"},
+    ]
+
+
+AT = {"at": "neutral"}
+BAD = {
+    "unknown place": ("height", {"max": 1, "at": "neutrl"}, "height.at", "'neutrl'", "'neutral'"),
+    "place as number": ("height", {"max": 1, "at": 3}, "height.at", "3", "poses, neutral"),
+    "stroke": ("stroke", {"max": 1} | AT, "stroke.at", '"neutral"', "differences between poses"),
+    "stroke ratio": ("stroke_ratio", {"max": 2} | AT, "stroke_ratio.at", '"neutral"', "differences between poses"),
+    "cone without axis": ("base_cone", {"max": 1} | AT, "base_cone.axis at neutral", "none", "an axis"),
+    "steps": ("singularity_free", {"steps": 4} | AT, "singularity_free.steps at neutral", "4", "none"),
+    "alone": ("height", AT, "height at neutral", "at alone", "min or max"),
+    "twice": ("height", [{"max": 1}, {"max": 2}], "height.at", '"poses" twice', "poses, neutral"),
+    "twice neutral": ("height", [{"max": 1} | AT, {"max": 2} | AT], "height.at", '"neutral" twice', "one limit"),
+    "one of two": ("height", [{"max": 1}, {"max": -2} | AT], "height at neutral", "-2", "low <= high"),
+    "side": ("stroke", [{"max": 1}, {"min": 1} | AT], "constraints.stroke at neutral", "'min'", "only max"),
+    "axis": ("base_cone", [CONE, CONE | AT | {"axis": [0, 0, 0]}], "base_cone.axis at neutral", "0", "a direction"),
+    "option": ("height", {"max": 1, "of": "zp"} | AT, "constraints.height at neutral", "'of'", "at"),
+    "no limits": ("height", [], "height", r"\[\]", "a mapping"),
+    "limit and number": ("height", [{"max": 1}, 3], "height", "3", "a mapping"),
+}
+
+
+@pytest.mark.parametrize(("name", "value", "named", "got", "expected"), BAD.values(), ids=BAD.keys())
+def test_bad_limits(name, value, named, got, expected):
+    with pytest.raises(ValueError, match=rf"(?s)^{named}: got .*{got}.*, expected .*{expected}"):
+        nd.Study(constraints={name: value})
+
+
+def test_bad_entries_of_a_file_are_named(tmp_path):
+    path = tmp_path / "study.toml"
+    for text, says in (
+        ("height = [{ max = 1 }, 3]", r"constraints.height\[1\]: got 3, expected a table"),
+        ("height = [1, 2]", r"constraints.height: got \[1, 2\], expected a table"),
+        ("height = { max = 1, at = 'home' }", "height.at: got 'home', expected one of poses, neutral"),
+    ):
+        path.write_text(f"[constraints]\n{text}\n")
+        with pytest.raises(ValueError, match=f"^{path}: {says}"):
+            nd.Study.load(path)
