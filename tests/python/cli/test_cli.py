@@ -74,6 +74,27 @@ STUDIES = {
 }
 
 
+def test_a_limit_at_the_neutral_pose_is_named_on_the_screen(capsys):
+    Path("study.toml").write_text(
+        """
+        [constraints]
+        leg_ratio = [{ max = 3.0 }, { max = 2.0, at = "neutral" }]
+        [[objective.poses]]
+        position = [0.2, 0, 0]
+        """
+    )
+    status, out, _ = run(capsys, "optimize study.toml --starts 4 --no-figures --out run")
+    assert status == 0
+    assert "1 % more leg_ratio at neutral buys" in out
+    line = "pareto study.toml --against 'leg_ratio at neutral' --value 1.9 --value 2.1 --starts 4 --json --no-figures --out front"
+    status, out, _ = run(capsys, line)
+    assert status == 0
+    assert json.loads(out)["front"]["against"] == "leg_ratio at neutral"
+    status, _, err = run(capsys, "pareto study.toml --against 'stroke at neutral' --value 1.0")
+    assert status == 2
+    assert 'stroke.at: got "neutral"' in err
+
+
 @pytest.mark.parametrize("status", STUDIES)
 def test_study_file(capsys, status):
     text, code = STUDIES[status]

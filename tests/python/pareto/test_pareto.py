@@ -11,7 +11,7 @@ from sizes import size
 import ninedof as nd
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
-from ninedof.pareto.limited import limited, resolve
+from ninedof.pareto.limited import limited, resolve, value_at
 from ninedof.verify import check
 
 PAPER = nd.Study.paper()
@@ -114,6 +114,25 @@ def test_other_options_of_the_limit_are_kept():
     assert limited(study, "zs_fraction", None).constraints["zs_fraction"] == (0.2, None)
     assert "leg_ratio" not in limited(study, "leg_ratio", None).constraints
     assert study.constraints["zs_fraction"] == (0.2, 0.9)
+
+
+def test_a_limit_at_the_neutral_pose_is_swept_beside_that_at_the_poses():
+    both = [{"max": 3.0}, {"max": 2.5, "at": "neutral"}]
+    study = replace(MOVING, constraints=ROOMY | {"leg_ratio": both})
+    low, high = limited(study, "leg_ratio", 2.9), limited(study, "leg_ratio at neutral", 2.0)
+    assert low.constraints["leg_ratio"] == ({"max": 2.9}, {"max": 2.5, "at": "neutral"})
+    assert high.constraints["leg_ratio"] == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
+    assert limited(study, "leg_ratio at neutral", None).constraints["leg_ratio"] == (None, 3.0)
+    assert limited(study, "leg_ratio", None).constraints["leg_ratio"] == {"max": 2.5, "at": "neutral"}
+    assert limited(MOVING, "leg_ratio at neutral", 2.0) == high
+    found = pareto(study, "leg_ratio at neutral", values=[1.9, 2.1], starts=4)
+    assert is_monotone(found)
+    assert found.table()[0]["active"].count("leg_ratio at neutral") == 1
+    assert all(price > 0.0 for price in found.prices)
+    value = value_at(study, "leg_ratio at neutral", found.results[0].variables)
+    best = found.results[0].best
+    legs = nd.leg_lengths(best.geometry, best.configuration)
+    assert value == pytest.approx(legs.max() / legs.min(), rel=1e-9) == pytest.approx(1.9, rel=1e-6)
 
 
 def test_two_indices():
@@ -301,6 +320,8 @@ def test_same_front_for_any_number_of_threads():
         ({"study": "paper"}, r"^study: got str, expected a Study"),
         ({"against": "radius_ratoi"}, r"^against: got 'radius_ratoi', .* \(did you mean 'radius_ratio'\?\)"),
         ({"against": "joint_spacing"}, r"^against: got 'joint_spacing', expected a constraint with a max"),
+        ({"against": "leg_ratio at neutrl"}, r"^against: .* \(did you mean 'leg_ratio at neutral'\?\)"),
+        ({"against": "stroke at neutral"}, r"^stroke\.at: got \"neutral\", expected \"poses\""),
         ({"against": 3}, r"^against: got 3, expected a constraint"),
         ({"against": "condition_number"}, r"^against: got 'condition_number' for a study of the index 'condition"),
         ({"against": "condition_limit"}, r"^against: got 'condition_limit' for a study of the index 'condition"),

@@ -31,6 +31,17 @@ def test_round_trip_with_infinite_bounds(tmp_path):
     assert load_record(path).results["optimization"]["status"] == "optimal"
 
 
+def test_round_trip_of_a_limit_at_the_neutral_pose(tmp_path):
+    both = [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]
+    study = nd.Study(constraints={"leg_ratio": both}, objective={"poses": [{"position": [0.2, 0, 0]}, {}]}, starts=4)
+    result = nd.optimize(study)
+    write_run(result, tmp_path)
+    read = load(tmp_path)
+    assert read == result
+    assert "leg_ratio at neutral" in read.active
+    assert load_record(tmp_path).study.constraints["leg_ratio"] == ({"max": 3.0}, {"max": 2.0, "at": "neutral"})
+
+
 def test_non_finite_numbers_are_words_in_json():
     text = encode({"a": math.inf, "b": [-math.inf, math.nan], "c": np.array([0.1, math.inf]), "d": np.int64(3)})
     assert json.loads(text) == {"a": "inf", "b": ["-inf", "nan"], "c": [0.1, "inf"], "d": 3}

@@ -8,6 +8,7 @@ import pytest
 from sizes import size
 
 import ninedof as nd
+from ninedof.design.limits import each, label, place
 from ninedof.verify import Check, Finding, check
 
 FEW = [
@@ -36,6 +37,14 @@ PRACTICAL = RATIO | {
     "footprint": (None, 5.0),
     "height": (None, 5.0),
 }
+UPRIGHT = {"axis": [0, 0, 1]}
+NEUTRAL = RATIO | {
+    "base_cone": [{"max_deg": 45} | UPRIGHT, {"max_deg": 30, "at": "neutral"} | UPRIGHT],
+    "leg_ratio": {"max": 2.2, "at": "neutral"},
+    "leg_length": {"min": 0.2, "of": "zp", "at": "neutral"},
+    "leg_clearance": {"min": 0.02, "of": "zp", "at": "neutral"},
+    "singularity_free": [{"steps": 2}, {"min": 0.01, "at": "neutral"}],
+}
 PLATFORM = [f"platform_{kind}_{i}_{axis}" for kind in ("external", "internal") for i in (1, 2, 3) for axis in "xy"]
 
 STUDIES = {
@@ -53,6 +62,7 @@ STUDIES = {
         objective={"box": {"half": [0.1, 0.1, 0.1], "unit": "zp"}},
         starts=size(2, 8),
     ),
+    "neutral": nd.Study("symmetric_nonplanar", constraints=NEUTRAL, objective={"poses": FEW}, starts=8),
     "mean leg": nd.Study(constraints=RATIO | {"footprint": (None, 3.0)}, characteristic_length="mean_leg"),
     "general": nd.Study(
         "general", variables=dict.fromkeys(PLATFORM, (-6.0, 6.0)), constraints=LEGS, objective={"poses": FEW}, starts=16
@@ -101,12 +111,40 @@ def test_an_optimum_passes(name):
     assert found
     names = [finding.name for finding in found.findings]
     assert names[:3] == ["design", "condition numbers", "objective"]
-    assert [f"limit: {name}" for name in result.study.constraints] == [n for n in names if n.startswith("limit")]
+    stated = [label(name, place(limit)) for name, limit in each(result.study.constraints)]
+    assert [f"limit: {name}" for name in stated] == [n for n in names if n.startswith("limit")]
     assert {"stationarity", "perturbations", "bound: isotropy"} <= set(names)
     assert ("bound: hexagonal" in names) == (result.study.family == "hexagonal")
     rho = (result.variables["zp"] - result.variables["zs"]) / result.best.characteristic_length
     assert ("bound: distance of O" in names) == (result.study.family != "general" and rho >= 0.51)
     assert found["perturbations"].figure <= 1e-8
+
+
+def test_limits_at_the_neutral_pose_bind_and_have_their_price():
+    """The cone of 30 degrees binds, not that of 45: its price is the slope of the optimum over it."""
+    result = solved("neutral")
+    assert "base_cone at neutral" in result.active
+    assert "base_cone" not in result.active
+    assert "1 % more base_cone at neutral buys" in result.summary()
+
+    def optimum(factor):
+        cone = [{"max_deg": 45} | UPRIGHT, {"max_deg": 30 * factor, "at": "neutral"} | UPRIGHT]
+        study = replace(result.study, constraints=NEUTRAL | {"base_cone": cone}, starts=1)
+        return math.log(nd.optimize(study, warm=result).objective)
+
+    h = 1e-4
+    slope = (optimum(math.exp(-h)) - optimum(math.exp(h))) / (2.0 * h)
+    assert result.prices["base_cone at neutral"] == pytest.approx(slope, rel=1e-3)
+
+
+def test_a_limit_at_the_neutral_pose_that_is_violated_is_found():
+    result = solved("neutral")
+    tight = [{"max_deg": 45} | UPRIGHT, {"max_deg": 20, "at": "neutral"} | UPRIGHT]
+    found = check(replace(result, study=replace(result.study, constraints=NEUTRAL | {"base_cone": tight})), 0)
+    assert [f.name for f in found.findings if f.name.startswith("limit") and not f.passed] == [
+        "limit: base_cone at neutral"
+    ]
+    assert found["limit: base_cone at neutral"].figure == pytest.approx(1.0 - 30 / 20, abs=1e-6)
 
 
 def test_report_lists_the_tests(paper):
