@@ -1,6 +1,7 @@
-/// leg_clearance: distance of the axes of every two legs that share no joint, at every pose where the limit holds. The internal
-/// legs all end in O, so that one of every two is external. Legs share a joint if their joints coincide in every design
-/// the study allows; joints that coincide in one design alone collide. Declared in design/constraints/table.hpp.
+/// leg_clearance: distance of the axes of every two legs that share no joint, at every pose where the limit holds. The
+/// internal legs all end in O, so that one of every two is external. Legs share a joint if their joints coincide in
+/// every design the study allows; joints that coincide in one design alone collide. Declared in
+/// design/constraints/table.hpp.
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-/// leg_length: every leg at every pose where the limit holds. external_length, upper_length, lower_length: the legs of that kind.
-/// Declared in design/constraints/table.hpp.
+/// leg_length: every leg at every pose where the limit holds. external_length, upper_length, lower_length: the legs of
+/// that kind. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 

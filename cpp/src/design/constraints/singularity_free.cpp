@@ -1,6 +1,6 @@
 /// singularity_free: det B, det C and det N of singularity.hpp keep their sign of the neutral configuration and at
-/// least a given size. They are tested there and, unless the limit holds there alone, at every pose and at a few places on the
-/// straight way to it. Declared in design/constraints/table.hpp.
+/// least a given size. They are tested there and, unless the limit holds there alone, at every pose and at a few
+/// places on the straight way to it. Declared in design/constraints/table.hpp.
 
 #include "design/constraints/constraint.hpp"
 #include "singularity/unit_rows.hpp"
