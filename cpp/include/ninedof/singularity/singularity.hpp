@@ -2,7 +2,7 @@
 /// Singularities: where locked legs no longer hold the robot. Which mechanism is lost, how the robot then moves, and
 /// how far away that is.
 ///
-/// det H = -det N' det C det B / l_c^3 (theory of position and velocity, section 5), N' with rows w_i x e_i. Each
+/// det H = -det N' det C det B / l_c^3 (docs/theory/singularity.md), N' with rows w_i x e_i. Each
 /// factor is an independent singularity. The project measures it by one determinant of three rows without unit, in [-1,
 /// 1]:
 ///
