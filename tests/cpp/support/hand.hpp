@@ -196,7 +196,7 @@ inline Range measured(const Limit& limit, const Design& d) {
   return out;
 }
 
-/// The smallest margin of a limit, as interface.md defines it.
+/// The smallest margin of a limit, as docs/study-file.md defines it.
 inline double margin(const Problem& p, const Limit& limit, const Eigen::VectorXd& x) {
   if (limit.name == "singularity_free") {
     const Vec3 home = determinants(hand::design(p, x).geometry, hand::design(p, x).at.front());
