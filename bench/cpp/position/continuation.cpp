@@ -52,7 +52,7 @@ std::optional<Configuration> continued(const Geometry& g, Configuration c, const
   Eigen::PartialPivLU<Mat9> lu(rates(g, c));
   double sign = lu.determinant();
   while (t < 1.0) {
-    if (stride < 1e-9) return {};
+    if (stride < 1e-14) return {};
     const double next = std::min(1.0, t + stride);
     const Vec9 lengths = from + next * (to - from);
     const Vec9 tangent = lu.solve(Vec9(from + next * (to - from) - ninedof::leg_lengths(g, c)));
