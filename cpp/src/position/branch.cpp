@@ -6,46 +6,61 @@
 #include <numbers>
 #include <optional>
 
+#include "math/numbers.hpp"
 #include "position/polish_rotation.hpp"
+#include "position/simple_mode.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr double void_leg = 1e-9;         // of the largest length: O this close to an external joint counts as on it
+// O counts as on an external joint within its own error, between these fractions of the largest length.
+constexpr double least_void = 1e-13, largest_void = 1e-9;
+constexpr double unknown = 1e-6;      // error of O, as a fraction of the largest length: it may be anywhere
+constexpr double least_error = 1e-14;     // of the equations
+constexpr double largest_error = 1e-6;    // of the equations: above it the number of modes is uncertain
+constexpr double largest_basis_error = 1e-4;  // of the null-space method: above it real solutions may look complex
+constexpr double safety = 100.0;          // error of the equations for which the null-space method confirms a mode
 constexpr double between = 1e-14;         // residual halfway between two copies of a double solution
 constexpr double double_rotation = 1e-4;  // rad: largest distance of two copies of a double solution
 constexpr double same_rotation = 1e-7;    // rad
 constexpr double cosine_rounding = 1e-7;  // rad: half the digits, since angles come from cosines
-constexpr double double_solution = 1e-6;  // separation below which the number of modes is uncertain
+constexpr double member_distance = 1e-3;  // rad: least distance of two members of a family
+constexpr double member_step = 0.1;       // rad: from one member of a family to the next
+constexpr int member_steps = 24;          // in each direction
 
 /// Adds candidates to a branch, polished and without duplicates.
 class Collector {
  public:
-  explicit Collector(const RotationProblem& problem) : problem_(problem) {}
+  Collector(const RotationProblem& problem, double error) : problem_(problem), error_(error) {}
 
-  /// Returns whether the candidate converged to a new rotation.
-  bool add(const Mat3& candidate, Branch& out) const {
-    const PolishedRotation polished = polish_rotation(problem_, candidate);
-    if (!polished.converged()) return false;
+  /// Polishes a candidate and adds it if it converged to a new rotation.
+  void add(const Mat3& candidate, Branch& out) const { add(polish_rotation(problem_, candidate), out); }
+  void add(const PolishedRotation& polished, Branch& out) const {
+    if (!polished.converged()) return;
+    const double separation = 1.0 / polished.at.inverse_norm();
     for (int k = 0; k < out.count; ++k)
-      if (same(out.mode[at_index(k)].rotation, polished.rotation)) return false;
-    if (out.count == static_cast<int>(out.mode.size())) return false;
-    out.mode[at_index(out.count++)] = {polished.rotation, 1.0 / polished.at.inverse_norm()};
-    return true;
+      if (same(out.mode[at_index(k)], polished.rotation)) return;
+    if (out.count == static_cast<int>(out.mode.size())) return;
+    out.mode[at_index(out.count++)] = {polished.rotation, separation,
+                                       is_simple(problem_, polished, separation, error_)};
   }
 
  private:
-  /// Whether two rotations are copies of one mode. At a double solution they may be 1e-6 apart, but then the rotation
-  /// halfway between them solves the equations as well.
-  bool same(const Mat3& a, const Mat3& b) const {
+  /// Whether a rotation is a copy of a mode. Copies of a simple mode are as far apart as the error of the equations
+  /// allows. At a double solution they may be 1e-6 apart, but then the rotation halfway between them solves the
+  /// equations as well.
+  bool same(const BranchMode& mode, const Mat3& b) const {
+    const Mat3& a = mode.rotation;
     const double squared = 0.5 * (a - b).squaredNorm();  // of the angle, where it is small
     if (squared < same_rotation * same_rotation) return true;
+    if (mode.simple && squared * mode.separation * mode.separation < error_ * error_) return true;
     if (squared > double_rotation * double_rotation) return false;
     const Mat3 halfway = Eigen::Quaterniond(a).slerp(0.5, Eigen::Quaterniond(b)).toRotationMatrix();
     return RotationResidual(problem_, halfway).largest() <= between;
   }
 
   const RotationProblem& problem_;
+  double error_;
 };
 
 /// The 24 rotations of a cube: every rotation is within about one radian of one of them.
@@ -71,8 +86,8 @@ int best_pivot(const Vec3& c) {
 }
 
 /// Adds the modes found by elimination and returns their expected number, if elimination is reliable.
-std::optional<int> eliminate(const RotationProblem& problem, const Collector& collector, Branch& out) {
-  const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c));
+std::optional<int> eliminate(const RotationProblem& problem, const Collector& collector, double error, Branch& out) {
+  const RotationCandidates found = eliminated_rotations(problem, best_pivot(problem.c), error);
   for (int k = 0; k < found.count; ++k) collector.add(found.rotation[at_index(k)], out);
   return found.reliable ? std::optional(found.count) : std::nullopt;
 }
@@ -98,60 +113,143 @@ bool two_legs_fit(const RotationProblem& problem, std::size_t i, std::size_t j) 
          platform <= pi - least_angle(pi - base, a, b) + cosine_rounding;
 }
 
+/// Bounds of the errors of the three equations, from those of O and from rounding: large if O is close to a joint.
+Vec3 equation_errors(const ScaledRotationProblem& p, const Vec3& lengths, const BranchScale& scale) {
+  const Vec3 &d = p.base_distance, &w = p.platform_distance;
+  const Vec3 moved = (scale.s_error + scale.o_error + eps * (d + w + lengths).array()).matrix();
+  return (4.0 * eps + (lengths + moved).array() * moved.array() / (d.array() * w.array())).matrix();
+}
+
 /// If O is on an external joint, the leg has no direction and its length does not depend on the rotation. The other
 /// legs may be too long or too short. Returns whether this decides the branch: no mode, or a family of rotations.
-bool settled_by_single_legs(const ScaledRotationProblem& p, const Vec3& lengths, double unit, Branch& out) {
+bool settled_by_single_legs(ScaledRotationProblem& p, const Vec3& lengths, const BranchScale& scale, const Vec3& error,
+                            Branch& out) {
+  constexpr double cosine_slack = 1e-9;
+  const double within = largest_void * scale.unit, errors = scale.s_error + scale.o_error;
+  const double on_base = std::clamp(scale.s_error, least_void * scale.unit, within);
+  const double on_platform = std::clamp(scale.o_error, least_void * scale.unit, within);
   std::array<bool, 3> is_void{};
-  bool any_void = false, any_misfit = false;
+  bool any_void = false, any_misfit = false, undecided = errors > unknown * scale.unit;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    is_void[i] = std::min(p.base_distance[k], p.platform_distance[k]) < void_leg * unit;
-    const double length = std::max(p.base_distance[k], p.platform_distance[k]);
-    out.misfit[i] =
-        is_void[i] ? std::abs(length - lengths[k]) > 2.0 * void_leg * unit : !(std::abs(p.unit.c[k]) <= 1.0);
+    const double d = p.base_distance[k], w = p.platform_distance[k];
+    double& c = p.unit.c[k];
+    is_void[i] = d < on_base || w < on_platform;
     any_void |= is_void[i];
+    if (is_void[i]) {
+      const double difference = std::abs(std::max(d, w) - lengths[k]);
+      out.misfit[i] = !(difference <= 2.0 * within + errors);
+      undecided |= difference > 2.0 * within;
+      out.certain &= std::isfinite(d + w);
+    } else {
+      out.misfit[i] = !(std::abs(c) <= 1.0 + std::max(cosine_slack, error[k]));
+      out.certain &= std::isfinite(c) && (out.misfit[i] || std::abs(c) <= 1.0);
+      if (!out.misfit[i]) c = std::clamp(c, -1.0, 1.0);
+    }
     any_misfit |= out.misfit[i];
   }
   if (any_misfit || !any_void) return any_misfit;
-  out.self_motion = true;
+  out.self_motion = !undecided;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    if (is_void[i] && !is_void[j] && !is_void[k]) out.self_motion = two_legs_fit(p.unit, j, k);
+    if (is_void[i] && !is_void[j] && !is_void[k]) out.self_motion &= two_legs_fit(p.unit, j, k);
+  }
+  out.certain &= !out.self_motion && !undecided;
+  return true;
+}
+
+/// Distinct solutions that are not simple. Isolated solutions are at most eight: with nine there is a family.
+class Family {
+ public:
+  Family(const RotationProblem& problem, double error) : problem_(problem), error_(error) {}
+
+  void add(const PolishedRotation& polished) {
+    if (proved() || !polished.converged()) return;
+    if (is_simple(problem_, polished, 1.0 / polished.at.inverse_norm(), error_)) return;
+    for (std::size_t k = 0; k < count_; ++k)
+      if ((member_[k] - polished.rotation).squaredNorm() < 2.0 * member_distance * member_distance) return;
+    member_[count_++] = polished.rotation;
+  }
+  bool proved() const { return count_ == member_.size(); }
+
+  /// Adds members along the family from the first one, to both sides.
+  void follow() {
+    if (count_ == 0) return;
+    const PolishedRotation first{member_[0], {problem_, member_[0]}};
+    for (const double side : {1.0, -1.0}) {
+      PolishedRotation at = first;
+      Vec3 direction = side * weakest_direction(at.at);
+      for (int step = 0; step < member_steps && !proved(); ++step) {
+        const Mat3 turn = Eigen::AngleAxisd(member_step, direction).toRotationMatrix();
+        at = polish_rotation(problem_, turn * at.rotation);
+        add(at);
+        const Vec3 next = weakest_direction(at.at);
+        direction = next.dot(direction) < 0.0 ? Vec3(-next) : next;
+      }
+    }
+  }
+
+ private:
+  const RotationProblem& problem_;
+  double error_;
+  std::array<Mat3, 9> member_;
+  std::size_t count_ = 0;
+};
+
+/// Where the null-space method sees a family of solutions, possibly complex, possibly with isolated ones beside it, or
+/// cannot tell one from nearly equal equations. A real family is found from start values all around.
+void search_from_everywhere(const RotationProblem& problem, const Collector& collector, double error, Branch& out) {
+  Family family(problem, error);
+  for (const Mat3& start : cube_rotations()) {
+    const PolishedRotation polished = polish_rotation(problem, start);
+    collector.add(polished, out);
+    family.add(polished);
+  }
+  family.follow();
+  out.self_motion = family.proved();
+  if (out.self_motion) out.count = 0;
+  out.certain = false;
+}
+
+bool all_simple(const RotationProblem& problem, const Branch& found, double error) {
+  for (int k = 0; k < found.count; ++k) {
+    const BranchMode& mode = found.mode[at_index(k)];
+    if (!is_simple(problem, {mode.rotation, {problem, mode.rotation}}, mode.separation, error)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
+Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, const BranchScale& scale,
                     RotationMethod method) {
   Branch out;
-  const ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
-  if (settled_by_single_legs(p, external_lengths, unit, out)) return out;
-  const Collector collector(p.unit);
+  ScaledRotationProblem p = rotation_problem(g, at, external_lengths);
+  const Vec3 errors = equation_errors(p, external_lengths, scale);
+  if (settled_by_single_legs(p, external_lengths, scale, errors, out)) return out;
+  const double error = std::max(least_error, errors.maxCoeff());
+  const bool accurate = out.certain && error <= largest_error;
+  const Collector collector(p.unit, error);
   std::optional<int> expected;
   if (method != RotationMethod::null_space) {
-    expected = eliminate(p.unit, collector, out);
-    out.certain = expected == out.count;
-    if (out.certain || method == RotationMethod::elimination) return out;
+    expected = eliminate(p.unit, collector, error, out);
+    const bool complete = expected == out.count;
+    out.certain = complete && accurate;
+    for (int k = 0; k < out.count; ++k) out.certain &= out.mode[at_index(k)].simple;
+    if (complete || method == RotationMethod::elimination) return out;
   }
   out.null_space = true;
   const RotationCandidates found = null_space_rotations(p.unit);
   if (found.self_motion) {
-    // A family of solutions, possibly complex, possibly with isolated ones beside it. A real family is found from start
-    // values all around, and its members are singular.
-    for (const Mat3& start : cube_rotations()) collector.add(start, out);
-    for (int k = 0; k < out.count; ++k) out.self_motion |= !(out.mode[at_index(k)].separation > double_solution);
-    if (out.self_motion) out.count = 0;
-    out.certain = false;
+    search_from_everywhere(p.unit, collector, error, out);
     return out;
   }
   // Modes found by elimination are kept: they solve the equations. The number is confirmed if every nearly real
   // solution has become a separate mode, and elimination, if reliable, found the same number.
   for (int k = 0; k < found.count; ++k) collector.add(found.rotation[at_index(k)], out);
-  out.certain =
-      found.reliable && out.count % 2 == 0 && out.count >= found.count && expected.value_or(out.count) == out.count;
-  for (int k = 0; k < out.count; ++k) out.certain &= out.mode[at_index(k)].separation > double_solution;
+  out.certain = accurate && found.reliable && found.sensitivity * error <= largest_basis_error && out.count % 2 == 0 &&
+                out.count >= found.count && expected.value_or(out.count) == out.count &&
+                all_simple(p.unit, out, safety * error);
   return out;
 }
 

@@ -10,6 +10,13 @@ namespace ninedof {
 struct BranchMode {
   Mat3 rotation;
   double separation;
+  bool simple;  ///< false if it meets another one within the error of the equations
+};
+
+/// Bounds of the errors of O in both frames, and the largest of all leg lengths.
+struct BranchScale {
+  double s_error, o_error;
+  double unit;
 };
 
 struct Branch {
@@ -21,8 +28,7 @@ struct Branch {
   bool null_space = false;  ///< whether the null-space method was used
 };
 
-/// `unit` is the largest of all leg lengths.
-Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, double unit,
+Branch solve_branch(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths, const BranchScale& scale,
                     RotationMethod method);
 
 }  // namespace ninedof

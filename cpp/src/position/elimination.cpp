@@ -9,6 +9,7 @@
 /// and with charts that can be unlucky; a circle has none.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "math/roots/circle_roots.hpp"
@@ -74,10 +75,13 @@ PsiEquation psi_equation(const Vec3& d, const Vec3& w, double c, double cosine, 
 constexpr double separated = 1e-6;
 // Error of the coefficients of the octic, relative to the squares they are summed from.
 constexpr double rounding = 1e-14;
+// Largest error of the coefficients relative to the largest of them. Usually 1e-14 to 1e-11. With nearly parallel
+// directions everything cancels: at 1e-6 roots appear and disappear.
+constexpr double coarse = 1e-9;
 
 }  // namespace
 
-RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot) {
+RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot, double error) {
   const auto k1 = at_index(pivot), k2 = (k1 + 1) % 3, k3 = (k1 + 2) % 3;
   const auto c_of = [&](std::size_t k) { return problem.c[static_cast<Eigen::Index>(k)]; };
   const double cosine = c_of(k1), sine = std::sqrt(std::max(0.0, (1.0 - cosine) * (1.0 + cosine)));
@@ -94,9 +98,12 @@ RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivo
   add_square(d, -1.0, p);
   double size = 0.0;
   for (std::size_t k = 0; k < 5; ++k) size = std::max({size, std::abs(d[k]), std::abs(n1[k]), std::abs(n2[k])});
-  const CircleRoots roots = circle_roots(p, rounding * size);
+  double largest = 0.0;
+  for (const double coefficient : p) largest = std::max(largest, std::abs(coefficient));
+  const double octic_error = std::max(rounding, error) * size;
+  const CircleRoots roots = circle_roots(p, octic_error);
   RotationCandidates out;
-  out.reliable = roots.certain;
+  out.reliable = roots.certain && octic_error <= coarse * largest;
   for (int k = 0; k < roots.count; ++k) {
     const auto [x, y] = roots.root[at_index(k)];
     const double dv = value(d, x, y), n1v = value(n1, x, y), n2v = value(n2, x, y);

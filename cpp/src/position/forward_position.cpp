@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "ninedof/math/error.hpp"
 #include "ninedof/position/trilateration.hpp"
 #include "position/branch.hpp"
 
@@ -10,7 +12,7 @@ namespace ninedof {
 namespace {
 
 constexpr double planar = 1e-14;  // distance from a plane, relative to the triangle of joints, that is rounding
-constexpr double meeting = 1e-7;  // separation below which a mode counts as a double one
+constexpr double ordinary = 0x1p100;  // between 2^-100 and 2^100 no product of up to five lengths overflows
 
 bool in_plane(const SphereCentres& plate, const Triple& joints) {
   return std::ranges::all_of(joints, [&](const Vec3& j) { return std::abs(plate.height(j)) <= planar * plate.length; });
@@ -30,6 +32,27 @@ struct SidedPoints {
 SidedPoints sided_points(const SphereCentres& plate, const Meeting& m) {
   if (m.kind == Meeting::touching) return {{{{m.above, 0}}}, 1};
   return {{{{m.above, 1}, {plate.mirrored(m.above), -1}}}, 2};
+}
+
+double largest_coordinate(const Geometry& g) {
+  const auto largest = [](const Triple& t) { return Eigen::Map<const Vec9>(t[0].data()).lpNorm<Eigen::Infinity>(); };
+  return std::max({largest(g.base_external()), largest(g.base_internal()), largest(g.platform_external()),
+                   largest(g.platform_internal())});
+}
+
+/// The joints times a power of two; none if a plate is lost by underflow.
+std::optional<Geometry> scaled(const Geometry& g, int exponent) {
+  const auto times = [&](Triple t) {
+    for (Vec3& joint : t)
+      for (double& x : joint) x = std::ldexp(x, exponent);
+    return t;
+  };
+  try {
+    return Geometry(times(g.base_external()), times(g.base_internal()), times(g.platform_external()),
+                    times(g.platform_internal()));
+  } catch (const InvalidArgument&) {
+    return {};
+  }
 }
 
 Mat3 mirror(const Vec3& normal) {
@@ -74,8 +97,9 @@ const char* to_string(PositionObstacle obstacle) {
   return "";
 }
 
-AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
-  require_leg_lengths(leg_lengths);
+namespace {
+
+AssemblyModes solve_ordinary(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
   const Vec3 l = leg_lengths.head<3>(), q = leg_lengths.segment<3>(3), r = leg_lengths.tail<3>();
   const double unit = leg_lengths.maxCoeff();
   AssemblyModes out;
@@ -83,6 +107,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
   const Meeting lower = meet(base, r), upper = meet(platform, q);
   if (lower.kind == Meeting::none || upper.kind == Meeting::none) {
     out.obstacle = lower.kind == Meeting::none ? PositionObstacle::lower_legs : PositionObstacle::upper_legs;
+    out.certain = (lower.kind == Meeting::none && lower.certain) || (upper.kind == Meeting::none && upper.certain);
     return out;
   }
 
@@ -99,7 +124,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
     for (std::size_t j = 0; j < on_platform.count; ++j) {
       const SidedPoint &s = on_base.point[i], &o = on_platform.point[j];
       if (mirrored && (s.side < 0 || (s.side == 0 && o.side < 0))) continue;
-      const Branch branch = solve_branch(g, {s.point, o.point}, l, unit, method);
+      const Branch branch = solve_branch(g, {s.point, o.point}, l, {lower.error, upper.error, unit}, method);
       const bool has_image = mirrored && (s.side != 0 || o.side != 0);
       out.certain &= branch.certain;
       out.null_space_branches += branch.null_space ? 1 : 0;
@@ -107,7 +132,7 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
       for (std::size_t leg = 0; leg < 3; ++leg) misfit[leg] &= branch.misfit[leg];
       for (int k = 0; k < branch.count; ++k) {
         const BranchMode& mode = branch.mode[at_index(k)];
-        double_mode |= !(mode.separation >= meeting);
+        double_mode |= !mode.simple;
         append(out, s, o, mode.rotation, mode.separation);
         if (has_image)
           append(out, image(base, s), image(platform, o), base_mirror * mode.rotation * platform_mirror,
@@ -125,6 +150,35 @@ AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, Rotat
     out.obstacle = external_obstacle(misfit);
   }
   return out;
+}
+
+/// In a unit that makes the largest number about 1. A power of two changes no digits.
+AssemblyModes solve_scaled(const Geometry& g, const Vec9& leg_lengths, int exponent, RotationMethod method) {
+  AssemblyModes out;
+  const std::optional<Geometry> unit = scaled(g, -exponent);
+  Vec9 lengths = leg_lengths;
+  for (double& length : lengths) length = std::ldexp(length, -exponent);
+  if (!unit || lengths.isZero(0.0)) {
+    out.obstacle = PositionObstacle::external_legs;
+    out.certain = false;
+    return out;
+  }
+  out = solve_ordinary(*unit, lengths, method);
+  for (int k = 0; k < out.count; ++k) {
+    Configuration& c = out.mode[at_index(k)].configuration;
+    for (Vec3* point : {&c.position, &c.internal_point})
+      for (double& x : *point) x = std::ldexp(x, exponent);
+  }
+  return out;
+}
+
+}  // namespace
+
+AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
+  require_leg_lengths(leg_lengths);
+  const double largest = std::max(largest_coordinate(g), leg_lengths.maxCoeff());
+  if (largest < ordinary && largest > 1.0 / ordinary) return solve_ordinary(g, leg_lengths, method);
+  return solve_scaled(g, leg_lengths, std::ilogb(largest), method);
 }
 
 }  // namespace ninedof

@@ -22,8 +22,9 @@ using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 using Mat8 = Eigen::Matrix<double, 8, 8>;
 using Quadric = Eigen::Matrix<double, 10, 1>;    // coefficients of the quadratic monomials
+using Quadrics = Eigen::Matrix<double, 10, 3>;
 using Macaulay = Eigen::Matrix<double, 36, 30>;  // 35 monomials of degree four and a row of zeros; 3 x 10 products
-using NullSpace = Eigen::Matrix<double, 36, 8>;
+using Basis = Eigen::Matrix<double, 36, 8>;
 
 constexpr auto linear_by_linear = monomials::products<1, 1>();
 constexpr auto linear_by_cubic = monomials::products<1, 3>();
@@ -31,6 +32,7 @@ constexpr auto quadratic_by_quadratic = monomials::products<2, 2>();
 
 constexpr int rank = 27;                   // three of the thirty products depend on the others: K_i K_j = K_j K_i
 constexpr double rank_gap = 1e-10;  // smallest relative pivot: 1e-16 if solutions form a curve, typically 1e-2
+constexpr double dependent = 1e-13;  // size of what a quadric adds to the others: below it is rounding
 constexpr double smallest_divisor = 1e-9;  // singular value of SG; below it a solution nearly satisfies g = 0
 constexpr double nearly_real = 0.05;  // |Im z| / |z|: a loose bound, the polished residual decides
 
@@ -63,42 +65,75 @@ Quadric quadric(const Vec3& d, const Vec3& w, double c) {
   return out;
 }
 
-/// Columns: the coefficients of every product of a quadric and a quadratic monomial.
-Macaulay macaulay(const RotationProblem& p) {
-  Macaulay out = Macaulay::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const auto joint = at_index(i);
-    const Quadric k = quadric(p.d[joint], p.w[joint], p.c[i]);
-    for (int m = 0; m < 10; ++m)
-      for (int t = 0; t < 10; ++t) out(quadratic_by_quadratic[m][t], 10 * i + m) = k[t];
-  }
+Quadrics quadrics(const RotationProblem& p) {
+  Quadrics out;
+  for (int i = 0; i < 3; ++i) out.col(i) = quadric(p.d[at_index(i)], p.w[at_index(i)], p.c[i]);
   return out;
 }
 
-/// Orthonormal basis of the complement of the columns, by QR with column pivoting; none if their rank is below 27.
+/// Three quadrics, and how much the last adds to the others: 1 where they are orthogonal.
+struct Independent {
+  Quadrics k;
+  double added;
+};
+
+/// Orthonormal combinations, which have the same solutions, by Gram and Schmidt: columns that nearly agree, because
+/// directions are nearly parallel, give a nearly singular Macaulay matrix. None if they are dependent within rounding.
+std::optional<Independent> orthonormal(Quadrics k) {
+  double added = 1.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    Eigen::Index pivot = 0;
+    added = std::sqrt(k.rightCols(3 - i).colwise().squaredNorm().maxCoeff(&pivot));
+    if (!(added > dependent)) return {};
+    const Quadric first = k.col(i + pivot).normalized();
+    k.col(i + pivot) = k.col(i);
+    k.col(i) = first;
+    for (int twice = 0; twice < 2; ++twice)
+      for (Eigen::Index j = i + 1; j < 3; ++j) k.col(j) -= first.dot(k.col(j)) * first;
+  }
+  return Independent{k, added};
+}
+
+/// Columns: the coefficients of every product of a quadric and a quadratic monomial.
+Macaulay macaulay(const Quadrics& k) {
+  Macaulay out = Macaulay::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < 10; ++m)
+      for (int t = 0; t < 10; ++t) out(quadratic_by_quadratic[m][t], 10 * i + m) = k(t, i);
+  return out;
+}
+
+/// Orthonormal basis of the complement of the columns, and the least pivot relative to the first.
+struct NullSpace {
+  Basis basis;
+  double gap;
+};
+
+/// By QR with column pivoting; none if the rank of the columns is below 27.
 std::optional<NullSpace> null_space(Macaulay a) {
   std::array<Reflection<36>, rank> reflections;
-  double first = 0.0;
+  double first = 0.0, last = 0.0;
   for (int k = 0; k < rank; ++k) {
     // Computed again for every pivot: norms updated by subtraction lose all digits before they reach 1e-10.
     Eigen::Index pivot = 0;
     const double norm = a.bottomRightCorner(36 - k, 30 - k).colwise().squaredNorm().maxCoeff(&pivot);
     if (k == 0) first = norm;
     if (norm <= rank_gap * rank_gap * first) return {};
+    last = norm;
     pivot += k;
     Reflection<36>& r = reflections[at_index(k)] = {a.col(pivot), k};
     a.col(pivot) = a.col(k);
     reflect(r, a, k + 1);
   }
-  NullSpace n = NullSpace::Zero();
+  Basis n = Basis::Zero();
   n.middleRows<8>(rank).setIdentity();
   for (auto r = reflections.rbegin(); r != reflections.rend(); ++r) reflect(*r, n, 0);
-  return n;
+  return NullSpace{n, std::sqrt(last / first)};
 }
 
 /// The multiplication matrix X of SG X = SF, by least squares: SF and SG are the rows of f m and g m in the null space
 /// for the twenty cubic monomials m. None if SG is nearly singular.
-std::optional<Mat8> multiplication(const NullSpace& n, const Vec4& f, const Vec4& g) {
+std::optional<Mat8> multiplication(const Basis& n, const Vec4& f, const Vec4& g) {
   Eigen::Matrix<double, 20, 16> s = Eigen::Matrix<double, 20, 16>::Zero();  // [SG SF]
   for (int j = 0; j < 8; ++j)
     for (int k = 0; k < 4; ++k)
@@ -131,7 +166,7 @@ void add(const Vec4& z, RotationCandidates& out) {
 
 /// For each eigenvector x of the multiplication matrix, n x holds the values of all monomials at a solution, up to a
 /// factor. Returns false if the eigenvalues did not converge.
-bool add_real_solutions(const NullSpace& n, const Mat8& multiplied, RotationCandidates& out) {
+bool add_real_solutions(const Basis& n, const Mat8& multiplied, RotationCandidates& out) {
   const RealEigen8 eigen = real_eigen(multiplied);
   if (!eigen.converged) return false;
   Eigen::Matrix<double, 16, 8> rows;  // of z_k^3 z_j
@@ -160,15 +195,22 @@ bool add_real_solutions(const NullSpace& n, const Mat8& multiplied, RotationCand
 RotationCandidates null_space_rotations(const RotationProblem& problem) {
   static const Forms forms = general_forms();
   RotationCandidates out;
-  const Macaulay rows = macaulay(problem);
-  out.reliable = rows.allFinite();
+  const Quadrics k = quadrics(problem);
+  out.reliable = k.allFinite();
   if (!out.reliable) return out;
-  const std::optional<NullSpace> n = null_space(rows);
+  std::optional<NullSpace> n = null_space(macaulay(k));
+  double added = 1.0;
+  if (!n)
+    if (const std::optional<Independent> independent = orthonormal(k)) {
+      n = null_space(macaulay(independent->k));
+      added = independent->added;
+    }
   out.self_motion = !n;
   if (out.self_motion) return out;
-  for (int k = 0; k < 4; ++k) {
-    const std::optional<Mat8> multiplied = multiplication(*n, forms.f, forms.g.row(k));
-    if (multiplied && add_real_solutions(*n, *multiplied, out)) return out;
+  out.sensitivity = 1.0 / (added * n->gap);
+  for (int row = 0; row < 4; ++row) {
+    const std::optional<Mat8> multiplied = multiplication(n->basis, forms.f, forms.g.row(row));
+    if (multiplied && add_real_solutions(n->basis, *multiplied, out)) return out;
   }
   out.reliable = false;
   return out;

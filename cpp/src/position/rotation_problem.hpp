@@ -36,13 +36,15 @@ ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& 
 struct RotationCandidates {
   std::array<Mat3, 8> rotation;
   int count = 0;
-  bool self_motion = false;  ///< the solutions form a family, and none is listed
+  bool self_motion = false;  ///< the solutions seem to form a family, possibly complex, and none is listed
   bool reliable = true;      ///< false if a solution may be missing
+  double sensitivity = 1.0;  ///< of the null-space method: factor from an error of the equations to one of its basis
 };
 
 /// The fast method. The equation of leg `pivot` is satisfied identically. Unreliable where two solutions share or
-/// nearly share an angle: there the null-space method is used.
-RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot);
+/// nearly share an angle or directions are nearly parallel: there the null-space method is used. `error` is the absolute
+/// error of the equations if it exceeds rounding.
+RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot, double error = 0.0);
 
 /// By linear algebra, without start values or a chart of the rotations. Candidates have an error of 1e-10 in general
 /// position, about 1e-8 at a double root and 1e-4 where eight roots merge. Expects |c_i| <= 1 up to rounding: otherwise

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double touching = 1e-14;  // least squared height, relative to the first radius squared
 constexpr double refinable = 1e-6;  // height relative to the radius: below it the 3x3 system is too close to singular
+constexpr double smallest = 1e-60;  // radius: the fifth power of a smaller one underflows
+constexpr double squarable = 1e-150;  // length: the square of a smaller one has lost digits
 
 /// One step of Newton's method on |x - c_i|^2 = R_i^2.
 void refine(const SphereCentres& at, const Vec3& radii, Vec3& x) {
@@ -47,16 +49,21 @@ Meeting meet(const SphereCentres& at, const Vec3& radii) {
   const double dy = (eps * (r1 * r1 + r3 * r3 + at.i * at.i + at.j * at.j) + 2.0 * std::abs(at.i) * dx) / at.j;
   const double error = 2.0 * (std::abs(x) * dx + std::abs(y) * dy) + dx * dx + dy * dy;
   const double tangent = std::max(touching * r1 * r1, 2.0 * error);
-  if (!(m.height2 >= -tangent)) return m;
+  if (!(m.height2 >= -tangent)) {
+    m.certain = !std::isnan(m.height2) && std::isfinite(tangent) && at.length > squarable && at.j > squarable;
+    return m;
+  }
   m.above = at.centre[0] + x * at.e1 + y * at.e2;
   if (m.height2 <= tangent) {
     m.kind = Meeting::touching;
+    m.error = dx + dy + std::sqrt(tangent);
     return m;
   }
   m.kind = Meeting::two_points;
   const double height = std::sqrt(m.height2);
+  m.error = dx + dy + 0.5 * error / height;
   m.above += height * at.e3;
-  if (height > refinable * r1) refine(at, radii, m.above);
+  if (height > refinable * r1 && r1 > smallest) refine(at, radii, m.above);
   return m;
 }
 

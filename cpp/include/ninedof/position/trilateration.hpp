@@ -25,6 +25,8 @@ struct Meeting {
   enum Kind { none, touching, two_points } kind = none;
   double height2 = 0.0;  ///< squared height over the plane of the centres; negative where the spheres do not meet
   Vec3 above;  ///< the point on the side of e3; the other one is its mirror image. In the plane if the spheres touch.
+  double error = 0.0;  ///< bound of the distance of `above` from the exact point, for radii correct to rounding
+  bool certain = true;  ///< whether `kind` none is proved; false where numbers overflowed or underflowed
 };
 
 /// A squared height within its rounding error counts as touching: the height is then accurate to half the digits.
