@@ -8,6 +8,7 @@
 
 #include "math/numbers.hpp"
 #include "position/polish_rotation.hpp"
+#include "position/rotation_family.hpp"
 #include "position/simple_mode.hpp"
 
 namespace ninedof {
@@ -24,9 +25,6 @@ constexpr double between = 1e-14;         // residual halfway between two copies
 constexpr double double_rotation = 1e-4;  // rad: largest distance of two copies of a double solution
 constexpr double same_rotation = 1e-7;    // rad
 constexpr double cosine_rounding = 1e-7;  // rad: half the digits, since angles come from cosines
-constexpr double member_distance = 1e-3;  // rad: least distance of two members of a family
-constexpr double member_step = 0.1;       // rad: from one member of a family to the next
-constexpr int member_steps = 24;          // in each direction
 
 /// Adds candidates to a branch, polished and without duplicates.
 class Collector {
@@ -158,48 +156,10 @@ bool settled_by_single_legs(ScaledRotationProblem& p, const Vec3& lengths, const
   return true;
 }
 
-/// Distinct solutions that are not simple. Isolated solutions are at most eight: with nine there is a family.
-class Family {
- public:
-  Family(const RotationProblem& problem, double error) : problem_(problem), error_(error) {}
-
-  void add(const PolishedRotation& polished) {
-    if (proved() || !polished.converged()) return;
-    if (is_simple(problem_, polished, 1.0 / polished.at.inverse_norm(), error_)) return;
-    for (std::size_t k = 0; k < count_; ++k)
-      if ((member_[k] - polished.rotation).squaredNorm() < 2.0 * member_distance * member_distance) return;
-    member_[count_++] = polished.rotation;
-  }
-  bool proved() const { return count_ == member_.size(); }
-
-  /// Adds members along the family from the first one, to both sides.
-  void follow() {
-    if (count_ == 0) return;
-    const PolishedRotation first{member_[0], {problem_, member_[0]}};
-    for (const double side : {1.0, -1.0}) {
-      PolishedRotation at = first;
-      Vec3 direction = side * weakest_direction(at.at);
-      for (int step = 0; step < member_steps && !proved(); ++step) {
-        const Mat3 turn = Eigen::AngleAxisd(member_step, direction).toRotationMatrix();
-        at = polish_rotation(problem_, turn * at.rotation);
-        add(at);
-        const Vec3 next = weakest_direction(at.at);
-        direction = next.dot(direction) < 0.0 ? Vec3(-next) : next;
-      }
-    }
-  }
-
- private:
-  const RotationProblem& problem_;
-  double error_;
-  std::array<Mat3, 9> member_;
-  std::size_t count_ = 0;
-};
-
 /// Where the null-space method sees a family of solutions, possibly complex, possibly with isolated ones beside it, or
 /// cannot tell one from nearly equal equations. A real family is found from start values all around.
 void search_from_everywhere(const RotationProblem& problem, const Collector& collector, double error, Branch& out) {
-  Family family(problem, error);
+  RotationFamily family(problem, error);
   for (const Mat3& start : cube_rotations()) {
     const PolishedRotation polished = polish_rotation(problem, start);
     collector.add(polished, out);

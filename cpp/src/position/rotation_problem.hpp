@@ -42,8 +42,8 @@ struct RotationCandidates {
 };
 
 /// The fast method. The equation of leg `pivot` is satisfied identically. Unreliable where two solutions share or
-/// nearly share an angle or directions are nearly parallel: there the null-space method is used. `error` is the absolute
-/// error of the equations if it exceeds rounding.
+/// nearly share an angle or directions are nearly parallel: there the null-space method is used. `error` is the
+/// absolute error of the equations if it exceeds rounding.
 RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivot, double error = 0.0);
 
 /// By linear algebra, without start values or a chart of the rotations. Candidates have an error of 1e-10 in general

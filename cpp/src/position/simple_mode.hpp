@@ -13,8 +13,8 @@ bool linear_along_weakest(const RotationProblem& problem, const PolishedRotation
 /// Whether a change of the equations by `error` moves the solution in proportion, as a simple one: it neither meets
 /// another solution nor slides along a family.
 ///
-/// The separation alone does not tell. With nearly parallel directions the equations nearly agree, J is small, and so is
-/// its change on the way to the next solution. The scale-free question is how far the linear equations hold.
+/// The separation alone does not tell. With nearly parallel directions the equations nearly agree, J is small, and so
+/// is its change on the way to the next solution. The scale-free question is how far the linear equations hold.
 inline bool is_simple(const RotationProblem& problem, const PolishedRotation& mode, double separation, double error) {
   // J changes by at most sqrt 3 per radian: by less than half of the separation within error / separation.
   return separation * separation >= 3.5 * error || linear_along_weakest(problem, mode, separation, error);

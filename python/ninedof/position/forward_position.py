@@ -31,11 +31,11 @@ class PositionStatus(StrEnum):
     FOUND = "found"
     """Finitely many modes, all simple: each changes smoothly with the lengths."""
     TANGENT = "tangent"
-    """Finitely many modes, two of which meet in a singular configuration, known to half the digits."""
+    """Finitely many modes, two of which meet within rounding in a singular configuration, known to half the digits."""
     INFEASIBLE = "infeasible"
-    """No configuration has these lengths; `reason` names the legs."""
+    """No configuration has these lengths, or, if not `certain`, none was found; `reason` names the legs."""
     SELF_MOTION = "self_motion"
-    """The robot can move with these lengths locked: infinitely many modes, which are not listed."""
+    """The robot can move with these lengths locked, within rounding: infinitely many modes, which are not listed."""
     NO_DATA = "no_data"
     """The row of lengths has NaN."""
 
@@ -74,8 +74,9 @@ class AssemblyModes(Configuration):
     def certain(self) -> Any:
         """Whether the count is confirmed. A bool, or an array of shape (...).
 
-        True if every root of the eliminant was isolated and became a separate mode, or if the null-space method found
-        well separated solutions. False near a double solution, where two modes may be one or none.
+        A count of zero included. True if every root of the eliminant was isolated and became a separate mode, or if the
+        null-space method found simple solutions only. False near a double solution, where two modes may be one or none,
+        and where the scales of the robot and its lengths are too different to decide.
         """
         return self._certain
 

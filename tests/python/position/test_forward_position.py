@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from reference_cases import REFERENCE, of_case, rotation
-from robots import any_pose
+from robots import any_pose, rates
 from scipy.spatial.transform import Rotation
 from sizes import size
 
@@ -153,6 +153,170 @@ def test_the_octahedron_has_all_32():
     modes = nd.forward_position(g, nd.leg_lengths(g, c))
     assert (modes.count, modes.status, modes.certain) == (32, "found", True)
     assert_allclose(modes.separation, 1.0, rtol=1e-12)
+
+
+# --- Robots of very different sizes -----------------------------------------------------------------------------------
+
+SLENDER = [
+    # The directions to the joints are nearly parallel: equations that nearly agree are no self-motion.
+    (
+        [
+            [[0.00705, 0.0782, 0.0], [-0.00639, 0.109, 0.0], [-0.00127, -0.00549, 0.0]],
+            [[3.1, 47.3, 0.0], [-7.24, -104.0, 0.0], [-4.49, -74.4, 0.0]],
+            [[1.04e-06, -2.89e-07, 0.0], [1.74e-06, -6.38e-06, 0.0], [-2.76e-07, 3.87e-06, 0.0]],
+            [[0.00826, 0.097, 0.0], [0.000912, 0.179, 0.0], [0.0023, -0.087, 0.0]],
+        ],
+        ([104.0, -21.2, 61.8], [-1.18, -0.398, -2.1], [-51.2, 48.5, -35.3]),
+    ),
+    # The modes are far apart although their separations are 4e-9: none of them is a double one.
+    (
+        [
+            [[2.19e-05, -3.25e-06, -6.69e-06], [1.94e-05, 5.8e-06, 5.87e-06], [3.23e-05, 2.42e-06, -5.07e-06]],
+            [[-0.0202, -0.00314, -0.0263], [0.426, -0.0987, -0.00603], [-0.158, 0.00798, 0.0312]],
+            [[-12.8, -0.629, -0.0251], [2.38, -1.01, -0.0518], [117.0, 1.09, -0.0291]],
+            [[-31.6, 2.05, -0.00105], [-133.0, 0.818, -0.00189], [59.0, -1.2, 0.0314]],
+        ],
+        ([-66.2, 18.0, 140.0], [-1.96, 0.933, -0.273], [239.0, -136.0, 398.0]),
+    ),
+]
+
+
+@pytest.mark.parametrize("slender", SLENDER)
+def test_nearly_parallel_directions_are_neither_self_motion_nor_tangent(slender):
+    joints, (p, turn, s) = slender
+    rng = np.random.default_rng(21)
+    g = nd.Geometry(*joints)
+    found = 0
+    for _ in range(40):
+        c = nd.Configuration(p, Rotation.from_rotvec(turn + 0.1 * rng.normal(size=3)), s)
+        lengths = nd.leg_lengths(g, c)
+        modes = nd.forward_position(g, lengths)
+        error = errors(modes, c.position, c.rotation, c.internal_point, lengths.max())
+        assert error.min() < 1e-5
+        assert length_errors(g, modes, lengths).max() < 1e-12
+        assert modes.status == "found" or not modes.certain
+        found += modes.status == "found"
+    assert found >= 30
+
+
+def anisotropic_robot(rng, far):
+    """Plates with coordinates of 1e-2 to 1e2 on each axis; `far`: external joints close together, O far from them."""
+    while True:
+        plates = rng.normal(size=(2, 6, 3)) * 10.0 ** rng.uniform(-2.0, 2.0, size=(2, 1, 3))
+        if rng.random() < 0.5:
+            plates[:, :, 2] = 0.0
+        joints = [plates[0, :3], plates[0, 3:], plates[1, :3], plates[1, 3:]]
+        if far:
+            joints[0] *= 10.0 ** rng.uniform(-4.0, 0.0)
+            joints[2] *= 10.0 ** rng.uniform(-4.0, 0.0)
+        unit = abs(plates).max() * 10.0 ** rng.uniform(-1.0, 1.0)
+        p, s = unit * rng.normal(size=(2, 3))
+        try:
+            return nd.Geometry(*joints), nd.Configuration(p, Rotation.random(rng=rng), s)
+        except ValueError:
+            continue
+
+
+def possible_error(g, c):
+    """Of Q, and of points over the longest leg, when the squared lengths have rounding errors."""
+    m = numpy_model.robot(g, c)
+    lengths = numpy_model.lengths(m)
+    unit = max(lengths.max(), *(abs(t).max() for t in (m.r, m.rh, m.u, m.ut)))
+    return (abs(np.linalg.inv(rates(m, unit))) @ (np.spacing(1.0) * unit**2 / lengths)).max()
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_anisotropic_robots(far):
+    """The generating pose is found to the accuracy of its condition, and a confirmed count misses none."""
+    rng = np.random.default_rng(22)
+    for _ in range(size(150, 20000)):
+        g, c = anisotropic_robot(rng, far)
+        expected = possible_error(g, c)
+        if expected > 1e-6:
+            continue
+        lengths = nd.leg_lengths(g, c)
+        modes = nd.forward_position(g, lengths)
+        assert modes.status in ("found", "tangent")
+        assert errors(modes, c.position, c.rotation, c.internal_point, lengths.max()).min() < 1e3 * expected + 1e-9
+
+
+JOINTS = ("base_external", "base_internal", "platform_external", "platform_internal")
+
+
+@pytest.mark.parametrize("exponent", [-498, -400, -266, -101, 99, 101, 266, 400, 490])
+def test_a_power_of_two_changes_nothing(exponent):
+    """From 1e-150 to 1e147: the same bits, and the same verdicts for lengths that fit and lengths that do not."""
+    rng = np.random.default_rng(23)
+    for k in range(20):
+        g, c = any_pose(rng, hexagonal=k % 2 == 0) if k % 3 else anisotropic_robot(rng, far=True)
+        lengths = nd.leg_lengths(g, c) * (rng.uniform(0.3, 1.5, size=9) if k % 5 == 4 else 1.0)
+        other = nd.Geometry(*(np.ldexp(getattr(g, name), exponent) for name in JOINTS))
+        a, b = nd.forward_position(g, lengths), nd.forward_position(other, np.ldexp(lengths, exponent))
+        assert (a.status, a.reason, a.certain, a.count) == (b.status, b.reason, b.certain, b.count)
+        assert_array_equal(a.rotation, b.rotation)
+        assert_array_equal(a.separation, b.separation)
+        assert_array_equal(np.ldexp(a.position, exponent), b.position)
+        assert_array_equal(np.ldexp(a.internal_point, exponent), b.internal_point)
+
+
+@pytest.mark.parametrize("unit", [1e-120, 1e-80, 1e80, 1e120])
+def test_units_far_from_one(unit):
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124 * unit, b1=2.9062 * unit, b2=0.0)
+    modes = nd.forward_position(g, nd.leg_lengths(g, nd.Configuration.neutral(3.9828 * unit, 2.4432 * unit)))
+    assert (modes.count, modes.status, modes.certain) == (32, "found", True)
+
+
+def test_mixed_scales_are_not_certain_to_be_infeasible():
+    """Triples from 1e-140 to 1e140, with a configuration that has the lengths."""
+    rng = np.random.default_rng(24)
+    for _ in range(size(300, 6000)):
+        sizes = 10.0 ** rng.uniform(-140.0, 140.0, size=4)
+        if rng.random() < 0.5:
+            sizes = np.clip(sizes[0] * 10.0 ** rng.uniform(-20.0, 20.0, size=4), 1e-140, 1e140)
+        g = nd.Geometry(*(rng.normal(size=(4, 3, 3)) * sizes[:, None, None]))
+        p, s = rng.normal(size=(2, 3)) * rng.choice(sizes, size=(2, 1))
+        modes = nd.forward_position(g, nd.leg_lengths(g, nd.Configuration(p, np.eye(3), s)))
+        assert modes.count > 0 or not modes.certain
+
+
+def near_degenerate_robot(rng, kind):
+    """O near an external joint, legs nearly through O, nearly equal legs, nearly parallel base directions."""
+    while True:
+        q = Rotation.random(rng=rng).as_matrix()
+        s, p = rng.normal(size=(2, 3))
+        d, w, lower, upper = rng.normal(size=(4, 3, 3))
+        near = 10.0 ** rng.uniform(-12.0, -1.0)
+        if kind == "joint":
+            d[0] = near * rng.normal(size=3)
+        if kind == "through":
+            w[:2] = -(d[:2] @ q) + near * rng.normal(size=(2, 3))
+        if kind == "equal":
+            d[1], w[1] = 1.4 * d[0] + near * rng.normal(size=3), 0.7 * w[0] + near * rng.normal(size=3)
+        if kind == "parallel":
+            d = d[0] + near * rng.normal(size=(3, 3))
+        try:
+            return nd.Geometry(d + s, lower, w + q.T @ (s - p), upper), nd.Configuration(p, q, s)
+        except ValueError:
+            continue
+
+
+@pytest.mark.parametrize("kind", ["joint", "through", "equal", "parallel"])
+def test_a_confirmed_count_near_degenerate_data_misses_no_mode(kind):
+    """Lengths within rounding of each other have the same modes, unless two of them meet."""
+    rng = np.random.default_rng(25)
+    certain = 0
+    for _ in range(size(80, 4000)):
+        g, c = near_degenerate_robot(rng, kind)
+        lengths = nd.leg_lengths(g, c)
+        modes = nd.forward_position(g, lengths)
+        if not modes.certain:
+            continue
+        certain += 1
+        error = errors(modes, c.position, c.rotation, c.internal_point, lengths.max())
+        assert error.min() < 1e3 * possible_error(g, c) + 1e-9
+        around = nd.forward_position(g, lengths * (1.0 + 4e-16 * rng.choice([-1.0, 1.0], size=(4, 9))))
+        assert (around.count == modes.count).all()
+    assert certain > 5
 
 
 # --- Degenerate data has its own status -------------------------------------------------------------------------------

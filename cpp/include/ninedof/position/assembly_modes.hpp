@@ -10,9 +10,9 @@ namespace ninedof {
 /// The solutions for the nine lengths.
 enum class PositionStatus {
   found,        ///< finitely many modes, all simple: each changes smoothly with the lengths
-  tangent,      ///< finitely many modes, two of which meet in a singular configuration, known to half the digits
-  infeasible,   ///< no configuration has these lengths
-  self_motion,  ///< the robot can move with these lengths locked: infinitely many modes, none is listed
+  tangent,  ///< finitely many modes, two of which meet, within rounding, in a singular configuration: half the digits
+  infeasible,  ///< no configuration has these lengths, or, if not `certain`, none was found
+  self_motion,  ///< the robot can move with these lengths locked, within rounding: infinitely many modes, none listed
 };
 
 /// "found", "tangent", "infeasible", "self_motion".
@@ -47,8 +47,9 @@ struct AssemblyMode {
 struct AssemblyModes {
   PositionStatus status = PositionStatus::infeasible;
   PositionObstacle obstacle = PositionObstacle::none;
-  /// Whether the number of modes is confirmed: every root of the eliminant was isolated and became a separate mode, or
-  /// the null-space method found well separated solutions. False near double solutions.
+  /// Whether the number of modes, zero included, is confirmed for lengths correct to rounding: every root of the
+  /// eliminant was isolated and became a separate simple mode, or the null-space method found only simple ones. False
+  /// near double solutions, and where the scales of robot and lengths are too different to decide.
   bool certain = true;
   int null_space_branches = 0;  ///< branches solved by the null-space method
   int count = 0;

@@ -14,6 +14,8 @@ namespace ninedof {
 /// error of a leg much shorter than the robot is larger in proportion, because the equations contain squared lengths.
 /// If base and platform are both planar, half the modes are mirror images of the other half.
 ///
+/// The length unit does not matter: times a power of two, the same bits.
+///
 /// Throws InvalidArgument unless all lengths are finite, none is negative and one is positive.
 AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths,
                                RotationMethod method = RotationMethod::automatic);
