@@ -37,7 +37,7 @@ class WavefrontMap {
         searched_(results_.size(), 0) {}
 
   InternalPointMap run() {
-    if (check_poses() && place_all()) audit();
+    if (check_poses() && place_all() && scan_all()) audit();
     for (const PoseResult& result : results_) out_.points.push_back(result.point);
     return std::move(out_);
   }
@@ -99,6 +99,27 @@ class WavefrontMap {
       if (!spread(seeds)) return false;
     } while (done_ < results_.size() && lattice_.refine());
     return true;
+  }
+
+  /// Scans every pose that was not searched for a better branch, and propagates what is found.
+  bool scan_all() {
+    Indices some;
+    for (std::size_t k = 0; k < results_.size(); ++k)
+      if (allowed_[k] && !searched_[k]) some.push_back(k);
+    std::vector<Continuation> next(some.size());
+    const bool whole = each(some.size(), slice, [&](std::size_t n) {
+      const std::size_t k = some[n];
+      next[n] = scanned_from(geometry_, grid_.poses[k], problem_, start(k), results_[k]);
+    });
+    if (!whole) return false;
+    Indices improved;
+    for (std::size_t n = 0; n < some.size(); ++n) {
+      out_.followed += at_index(next[n].count);
+      if (!replaces(problem_.criterion, next[n].best, results_[some[n]])) continue;
+      enter(some[n], next[n].best);
+      improved.push_back(some[n]);
+    }
+    return spread(improved);
   }
 
   bool search(const Indices& indices, std::vector<PoseResult>& found) {

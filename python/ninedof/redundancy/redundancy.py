@@ -20,15 +20,17 @@ class InternalPointStatus(StrEnum):
     """How the search for an internal point ended."""
 
     FOUND = "found"
-    """Within the limits and stationary by independent checks."""
+    """Within the limits and stationary by independent checks: a local optimum, the best found. That no other is better
+    is not proved."""
     STOPPED = "stopped"
     """Within the limits, but the checks failed: the best point evaluated."""
     INFEASIBLE = "infeasible"
     """An external leg is outside its limits, or no point satisfies those of the internal legs; `active` names them."""
     UNBOUNDED = "unbounded"
-    """The criterion improves without bound as O moves away or towards a joint; `active` names the legs or det N."""
+    """The criterion improves as O moves away or into a joint, and no point attains its limit; `active` names the legs
+    whose limits would bound O, or det N next to a joint of an external leg."""
     SINGULAR = "singular"
-    """The start lies on a singularity, and so in no chamber."""
+    """The start lies on a singularity, and so in no chamber. A start within the clearance is not singular."""
     MISSING = "missing"
     """The pose has NaN."""
 
@@ -68,7 +70,8 @@ def best_internal_point(
     The pose fixes the external legs. O is free in three directions (`null_motion`): the six internal legs move it while
     the platform stays at rest. The search stays in the chamber of `start`, the region in which det B, det C and det N
     keep their signs: the robot can reach the result without passing a singularity. Newton's method finds local optima
-    from many starts; the best is returned.
+    from many starts, among them the valleys of a grid of points over the chamber; the best is returned. It is a local
+    optimum: a valley narrower than the grid, or behind a narrow passage of the chamber, may be missed.
 
     Parameters
     ----------
@@ -79,7 +82,9 @@ def best_internal_point(
         Q, platform frame to base frame. The identity by default. Broadcasts against the position.
     criterion : {"condition_number", "singularity", "leg_centring"}
         "condition_number" minimizes that of J' (eq. 2). "singularity" maximizes the least of |det B|, |det C| and
-        |det N| of `singularity_margins`. "leg_centring" minimizes the sum of ((length - middle) / half range)^2 over
+        |det N| of `singularity_margins`; O then keeps 0.05 times the size of the robot (greatest distance of a joint
+        from the mean of the twelve) from the joints of external legs, where det N has no limit, and "det N" in `active`
+        may mean that distance. "leg_centring" minimizes the sum of ((length - middle) / half range)^2 over
         the internal legs, and needs finite limits.
     limits : (low, high), optional
         Least and greatest leg lengths, each a number or shape (9,) in the order of `leg_lengths`. None by default.
@@ -90,7 +95,8 @@ def best_internal_point(
         platform.
     clearance : float, optional
         Lower bound of each of the three |det| of "singularity", for every criterion; "det B" in `active` means that it
-        is active. By default 0.01 for "leg_centring", which would allow singular points, and 1e-10 for the others.
+        is active. A start may lie within it. By default 0.01 for "leg_centring", which would allow singular points, and
+        1e-10 for the others.
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
 

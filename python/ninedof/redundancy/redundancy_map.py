@@ -56,13 +56,14 @@ def best_internal_map(
     audit_seed: int = 0,
     progress: Progress | None = None,
 ) -> InternalPointMap:
-    """Return the best internal point of every pose of a grid, five to twenty times faster than one by one.
+    """Return the best internal point of every pose of a grid, about two to eight times faster than one by one.
 
     The poses of a coarse lattice are searched as by `best_internal_point`. The others are reached by wavefront
     propagation: Newton's method continues the points of neighbours to each pose, extrapolated where two lie on one
-    line. A better point replaces that of a pose and is passed on. The result is the lower envelope of all branches of
-    local optima found and does not depend on the order. A branch that no seed has found is missed; `audit` estimates
-    how often that happens.
+    line. A better point replaces that of a pose and is passed on. Then every pose is scanned on a coarse grid of O for
+    better valleys. The result is the lower envelope of all branches of
+    local optima found and does not depend on the order. A branch that neither a seed nor a scan has found is missed;
+    `audit` estimates how often that happens.
 
     Parameters
     ----------

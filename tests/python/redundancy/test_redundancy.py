@@ -174,6 +174,70 @@ def test_scale_stacks_and_threads(published, criterion):
         assert_allclose(there.value, alone.value, rtol=1e-7)
 
 
+# --- Found on random robots -------------------------------------------------------------------------------------------
+
+
+def test_the_singularity_value_is_the_least_margin():
+    """One definition of the determinants in the criterion and in the report; O keeps off the external joints."""
+    rng = np.random.default_rng(9)
+    for k in range(size(30, 300)):
+        g, p, q = random_case(rng, k % 2 == 0)
+        best = nd.best_internal_point(g, p, q, criterion="singularity")
+        if best.status != "found":
+            assert set(best.active) <= {f"{leg} low" for leg in ("q1", "q2", "q3", "r1", "r2", "r3")}
+            continue
+        margins = nd.singularity_margins(g, best.configuration)
+        assert_allclose(best.value, np.min(np.abs(margins)), rtol=1e-12)
+        external = np.concatenate([g.base_external, p + g.platform_external @ q.T])
+        joints = np.concatenate([external, g.base_internal, p + g.platform_internal @ q.T])
+        away = np.linalg.norm(external - best.configuration.internal_point, axis=1).min()
+        robot = np.linalg.norm(joints - joints.mean(axis=0), axis=1).max()
+        assert away > 0.05 * robot * (1.0 - 1e-6)
+
+
+def test_a_start_within_the_clearance_is_not_singular(published):
+    p, middle = np.array([0.3, 0.2, 3.9]), nd.best_internal_point(published, [0.3, 0.2, 3.9])
+    free = nd.best_internal_point(published, p, criterion="leg_centring", limits=LIMITS)
+    for height in (1e-3, 1e-6):  # of O over the lower plane
+        s = middle.configuration.internal_point * [1.0, 1.0, 0.0] + [0.0, 0.0, height]
+        assert 0.0 < abs(nd.singularity_margins(published, nd.Configuration(p, None, s))[1]) < 0.01
+        best = nd.best_internal_point(published, p, criterion="leg_centring", limits=LIMITS, start=s)
+        assert best.status == "found"
+        assert_allclose(best.value, free.value, rtol=1e-6)
+
+
+def test_no_point_of_a_grid_is_better_with_limits():
+    """Grids of the box of the limits; points that a straight line from O reaches without a singularity."""
+    rng = np.random.default_rng(12)
+    compared = 0
+    for k in range(size(30, 600)):
+        g, p, q = random_case(rng, k % 4 == 0)
+        middle = nd.leg_lengths(g, nd.Configuration(p, q, 0.5 * p))
+        low, high = np.zeros(9), np.full(9, np.inf)
+        low[3:], high[3:] = 0.3 * middle[3:].min(), 1.7 * middle[3:].max()
+        best = nd.best_internal_point(g, p, q, criterion="leg_centring", limits=(low, high))
+        if best.status != "found":
+            continue
+        o = best.configuration.internal_point
+        s = o + rng.uniform(-1.0, 1.0, size=(20000, 3)) * rng.choice([0.3, 1.0, 3.0], size=(20000, 1))
+        c = nd.Configuration(p, q, s)
+        lengths = nd.leg_lengths(g, c)[:, 3:]
+        value = np.sum(((lengths - 0.5 * (low[3:] + high[3:])) / (0.5 * (high[3:] - low[3:]))) ** 2, axis=-1)
+        value[(lengths < low[3:]).any(axis=1) | (lengths > high[3:]).any(axis=1)] = np.inf
+        margins = np.stack(nd.singularity_margins(g, c), axis=-1)
+        sides = np.sign(np.stack(nd.singularity_margins(g, best.configuration), axis=-1))
+        value[(sides * margins <= 0.01).any(axis=1)] = np.inf
+        for j in np.argsort(value)[:20]:
+            if value[j] >= best.value * (1.0 - 1e-6):
+                break
+            way = o + np.linspace(0.0, 1.0, 400)[:, None] * (s[j] - o)
+            assert not (
+                np.sign(np.stack(nd.singularity_margins(g, nd.Configuration(p, q, way)), axis=-1)) == sides
+            ).all()
+        compared += 1
+    assert compared > size(15, 300)
+
+
 # --- Arguments --------------------------------------------------------------------------------------------------------
 
 

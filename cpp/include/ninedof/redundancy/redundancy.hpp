@@ -48,8 +48,8 @@ enum class InternalPointStatus : std::uint8_t {
   stopped,  ///< within the limits, but the checks failed: the best point evaluated
   /// An external leg is out of its limits, or no point of the chamber keeps the internal ones; `active` names them.
   infeasible,
-  unbounded,  ///< the criterion improves without end as O moves away or into a joint
-  singular,  ///< the start lies on a singularity, and so in no chamber
+  unbounded,  ///< the criterion improves as O moves away or into a joint, where no point attains its limit
+  singular,  ///< the start lies on a singularity, and so in no chamber; one within the clearance does not
   missing,  ///< the pose has NaN
 };
 
@@ -92,7 +92,7 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 
 /// The best internal point in the chamber of `start`, by default of default_internal_point.
 ///
-/// A multi-start search: the best of the local optima found. Only `infeasible` for an external leg is proved.
+/// A multi-start search with a scan of the chamber: the best of the local optima found. Only `infeasible` for an external leg is proved.
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start = {});
 

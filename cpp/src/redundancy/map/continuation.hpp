@@ -34,4 +34,8 @@ Continuation continued_from(const Geometry& g, const PlatformPose& pose, const I
                             const std::optional<Vec3>& chamber_start, std::span<const Guess> guesses,
                             const PoseResult& so_far);
 
+/// The best local optimum of valleys of a coarse scan that may be better than `so_far`, else that.
+Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
+                          const std::optional<Vec3>& chamber_start, const PoseResult& so_far);
+
 }  // namespace ninedof

@@ -79,7 +79,7 @@ bool lost(const ScaledPose& pose, Descent& d) {
   }
   // Next to an external joint det N has no limit: its value depends on the direction in which O comes.
   for (int k = 0; k < 12; ++k) {
-    if (!((d.x - (k < 6 ? pose.joint(k) : pose.external_joint(k - 6))).norm() < next_to_joint)) continue;
+    if (!((d.x - pose.joint(k)).norm() < next_to_joint)) continue;
     d.ending = Ending::in_joint;
     if (k < 6) d.leg = k;
     return true;

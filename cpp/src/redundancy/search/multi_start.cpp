@@ -5,6 +5,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/rotation.hpp"
+#include "redundancy/search/scan.hpp"
 
 namespace ninedof {
 namespace {
@@ -22,6 +23,9 @@ constexpr double same_minimum = 1e-6;  // greatest distance of two minima that c
 constexpr std::size_t first_starts = 8, more_starts = 8, limit_starts = 6;
 constexpr std::size_t sampled_from = 5;  // best ends from which rays are sampled again
 constexpr int most_rounds = 4;
+constexpr int points_of_scan = 12;  // along each axis
+constexpr std::size_t most_valleys = 8;
+constexpr double next_cells = 0.6;  // of the diagonal of a cell
 constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
 
 struct Sample {
@@ -52,11 +56,29 @@ std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count, st
   return out;
 }
 
+double best_of(const Minima& minima) {
+  return minima.found.empty() ? infinity : std::ranges::min(minima.found, {}, &LocalMinimum::value).value;
+}
+
+/// Whether a minimum at least as good lies in the cells next to the valley.
+bool is_known(const Minima& minima, const Valley& valley, double cell) {
+  return std::ranges::any_of(minima.found, [&](const LocalMinimum& m) {
+    return m.value <= valley.value && (m.x - valley.x).norm() < next_cells * cell;
+  });
+}
+
+void add_minimum(const LocalMinimum& found, Minima& minima) {
+  if (std::ranges::none_of(minima.found, [&](const LocalMinimum& o) { return (o.x - found.x).norm() < same_minimum; }))
+    minima.found.push_back(found);
+}
+
 class Search {
  public:
-  explicit Search(const PoseObjective& objective)
+  Search(const PoseObjective& objective, const Vec3& start)
       : objective_(objective),
         pose_(objective.pose()),
+        reach_(objective.pose(), start),
+        minima_{{}, infinity, start},
         soft_([this](const Vec3& x, double epsilon, Jet& out) { return objective_.soft(x, epsilon, out); }) {}
 
   /// Rotates the directions of the rays.
@@ -102,17 +124,21 @@ class Search {
   const std::vector<End>& ends() const { return rough_; }
 
   /// Refines the coarse ends to minima.
-  Minima finish() {
+  void refine_ends() {
     sort_ends();
     for (const End& end : rough_) {
       if (end.value > rough_.front().value + hopeless) break;
       Descent d = descend(pose_, soft_, end.x, fine);
       if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(pose_, soft_, end.start, fine);
-      const LocalMinimum found = end_of(objective_, d);
-      if (std::ranges::none_of(minima_.found,
-                               [&](const LocalMinimum& o) { return (o.x - found.x).norm() < same_minimum; }))
-        minima_.found.push_back(found);
+      add_minimum(end_of(objective_, d), minima_);
     }
+    for (const LocalMinimum& m : minima_.found) reach_.add(m.x);
+  }
+
+  void scan_chamber() { add_valleys(objective_, {points_of_scan, most_valleys}, reach_, minima_); }
+
+  /// The minima, best first.
+  Minima finish() {
     std::ranges::stable_sort(minima_.found, {}, &LocalMinimum::value);
     return std::move(minima_);
   }
@@ -133,12 +159,13 @@ class Search {
 
   const PoseObjective& objective_;
   const ScaledPose& pose_;
+  Reach reach_;
+  Minima minima_;
   Smoothed soft_;
   std::vector<Sample> inside_, outside_;
   std::vector<Vec3> taken_, taken_outside_, ends_;
   std::vector<End> rough_;
   Mat3 turn_ = Mat3::Identity();
-  Minima minima_{{}, infinity, Vec3::Zero()};
 };
 
 }  // namespace
@@ -169,17 +196,33 @@ bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima) {
   return objective.violation(x) < limit_tolerance;
 }
 
+void add_valleys(const PoseObjective& objective, const ScanSettings& settings, Reach& reach, Minima& minima) {
+  const Scan found = scan(objective, settings.points);
+  std::vector<Valley> valleys = found.valleys;
+  for (std::size_t k = 0; k < std::min(limit_starts, found.outside.size()); ++k) {
+    Vec3 x = found.outside[k];
+    if (enter_limits(objective, x, minima)) valleys.push_back({x, objective.exact(x), infinity});
+  }
+  std::size_t tried = 0;
+  for (const Valley& valley : valleys) {
+    if (tried == settings.most_valleys) break;
+    if (valley.value - valley.drop > best_of(minima) || is_known(minima, valley, found.cell)) continue;
+    if (!reach.reaches(valley.x)) continue;  // another chamber with the same signs
+    ++tried;
+    for (const LocalMinimum& m : warm_minimum(objective, valley.x).found) add_minimum(m, minima);
+  }
+}
+
 std::span<const double> final_epsilons() {
   return fine;
 }
 
 Minima local_minima(const PoseObjective& objective, const Vec3& start) {
-  Search search(objective);
+  Search search(objective, start);
   search.sample_around(start);
   search.enter_limits();
-  if (!search.inside()) return search.finish();
-  search.descend_from_best(first_starts);
-  for (int round = 1; round < most_rounds; ++round) {
+  if (search.inside()) search.descend_from_best(first_starts);
+  for (int round = 1; round < most_rounds && search.inside(); ++round) {
     search.sort_ends();
     const std::size_t count = std::min(sampled_from, search.ends().size());
     search.turn();
@@ -188,6 +231,8 @@ Minima local_minima(const PoseObjective& objective, const Vec3& start) {
     for (const Vec3& x : from) search.sample_around(x);
     if (!search.descend_from_best(more_starts)) break;
   }
+  search.refine_ends();
+  search.scan_chamber();
   return search.finish();
 }
 

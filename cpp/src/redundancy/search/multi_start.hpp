@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "redundancy/search/descent.hpp"
+#include "redundancy/search/reach.hpp"
 
 namespace ninedof {
 
@@ -21,17 +22,27 @@ LocalMinimum end_of(const PoseObjective& objective, const Descent& d);
 /// What a search found.
 struct Minima {
   std::vector<LocalMinimum> found;  ///< distinct, best first; empty where no point keeps the limits
-  double violation = 0.0;  ///< if empty: the least of the largest violations met, in sizes of the robot,
-  Vec3 nearest = Vec3::Zero();  ///< and where
+  /// If empty: the least of the largest violations met, in sizes of the robot; infinite where no point of the chamber
+  /// was found that keeps the clearance.
+  double violation = 0.0;
+  Vec3 nearest = Vec3::Zero();  ///< where that is; the start, if infinite
 };
 
 /// Moves x within its chamber to where it breaks the limits least and records that place; true if it keeps them there.
 bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima);
 
+struct ScanSettings {
+  int points;  ///< of the grid along each axis
+  std::size_t most_valleys;  ///< from which to descend
+};
+
+/// Scans the chamber that `reach` knows, and adds the minima of those valleys that may be lower than the best of `minima`.
+void add_valleys(const PoseObjective& objective, const ScanSettings& settings, Reach& reach, Minima& minima);
+
 /// The smoothings of a descent to a minimum, decreasing.
 std::span<const double> final_epsilons();
 
-/// Searches the chamber of the objective from `start`, a point of it.
+/// Searches the chamber of the objective from `start`, a point of it, which may be within the clearance.
 Minima local_minima(const PoseObjective& objective, const Vec3& start);
 
 /// The minimum reached from `start`, a point of the chamber near it, such as the best point of a neighbouring pose: at

@@ -43,6 +43,11 @@ void add_soft_largest(const std::array<Jet, N>& jets, std::size_t count, double 
   out.hessian += mean.hessian + (spread - mean.gradient * mean.gradient.transpose()) / epsilon;
 }
 
+/// The bound that a least distance of O from joint k stands for; next to an external joint det N has no limit.
+int low_bound(int k) {
+  return k < 6 ? ActiveBounds::low(3 + k) : ActiveBounds::clearance(2);
+}
+
 }  // namespace
 
 bool PoseObjective::in_chamber(const Vec3& x) const {
@@ -51,7 +56,7 @@ bool PoseObjective::in_chamber(const Vec3& x) const {
 
 double PoseObjective::violation(const Vec3& x) const {
   double worst = -infinity;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const double length = (x - pose_.joint(k)).norm();
     worst = std::max({worst, pose_.low()[k] - length, length - pose_.high()[k]});
   }
@@ -90,7 +95,7 @@ bool PoseObjective::soft(const Vec3& x, double epsilon, Jet& out) const {
   if ((pose_.volumes(x).cwiseSign().array() != signs_.array()).any()) return false;
   const std::array<Jet, 3> logs = pose_.log_determinants(x);
   if (!add_clearance(logs, epsilon, out)) return false;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const double low = pose_.low()[k], high = pose_.high()[k];
     const bool finite = std::isfinite(high);
     if (!(low > 0.0) && !finite) continue;
@@ -99,7 +104,7 @@ bool PoseObjective::soft(const Vec3& x, double epsilon, Jet& out) const {
     if (!(above > 0.0) || !(below > 0.0)) return false;
     if (low > 0.0) add_barrier(above, 1.0, epsilon, length, out);
     if (finite) add_barrier(below, -1.0, epsilon, length, out);
-    if (problem_.criterion != Criterion::leg_centring) continue;
+    if (problem_.criterion != Criterion::leg_centring || k >= 6) continue;
     const double half = 0.5 * (high - low), z = (length.value - 0.5 * (low + high)) / half;
     out.add_function(z * z, 2.0 * z / half, 2.0 / (half * half), length);
   }
@@ -122,10 +127,11 @@ bool PoseObjective::soft_violation(const Vec3& x, double epsilon, Jet& out) cons
   out = Jet{};
   if ((pose_.volumes(x).cwiseSign().array() != signs_.array()).any()) return false;
   if (!add_clearance(pose_.log_determinants(x), epsilon, out)) return false;
-  std::array<Jet, 12> broken;
+  std::array<Jet, 24> broken;
   std::size_t count = 0;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const double low = pose_.low()[k], high = pose_.high()[k];
+    if (!(low > 0.0) && !std::isfinite(high)) continue;
     const Jet length = distance(x, pose_.joint(k));
     if (low > 0.0) broken[count++].add_function(low - length.value, -1.0, 0.0, length);
     if (std::isfinite(high)) broken[count++].add_function(length.value - high, 1.0, 0.0, length);
@@ -136,9 +142,9 @@ bool PoseObjective::soft_violation(const Vec3& x, double epsilon, Jet& out) cons
 
 ActiveBounds PoseObjective::touched(const Vec3& x, double contact) const {
   ActiveBounds out;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const double length = (x - pose_.joint(k)).norm();
-    if (pose_.low()[k] > 0.0 && length - pose_.low()[k] <= contact) out.add(ActiveBounds::low(3 + k));
+    if (pose_.low()[k] > 0.0 && length - pose_.low()[k] <= contact) out.add(low_bound(k));
     if (pose_.high()[k] - length <= contact) out.add(ActiveBounds::high(3 + k));
   }
   const Vec3 determinants = pose_.determinants(x).cwiseAbs();
@@ -150,11 +156,19 @@ ActiveBounds PoseObjective::touched(const Vec3& x, double contact) const {
 ActiveBounds PoseObjective::broken(const Vec3& x, double contact) const {
   ActiveBounds out;
   const double worst = violation(x) - contact;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const double length = (x - pose_.joint(k)).norm();
-    if (pose_.low()[k] - length >= worst) out.add(ActiveBounds::low(3 + k));
+    if (pose_.low()[k] - length >= worst) out.add(low_bound(k));
     if (length - pose_.high()[k] >= worst) out.add(ActiveBounds::high(3 + k));
   }
+  return out;
+}
+
+ActiveBounds PoseObjective::below_clearance(const Vec3& x) const {
+  ActiveBounds out;
+  const Vec3 determinants = pose_.determinants(x).cwiseAbs();
+  for (int k = 0; k < 3; ++k)
+    if (determinants[k] <= problem_.clearance) out.add(ActiveBounds::clearance(k));
   return out;
 }
 

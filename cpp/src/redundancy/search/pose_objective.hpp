@@ -47,6 +47,9 @@ class PoseObjective {
   /// The limits that x breaks most, all of those within `contact` of the worst.
   ActiveBounds broken(const Vec3& x, double contact) const;
 
+  /// The determinants that are not above the clearance at x.
+  ActiveBounds below_clearance(const Vec3& x) const;
+
  private:
   bool add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const;
 

@@ -9,6 +9,7 @@ namespace {
 
 // Lengths are in sizes of the robot.
 constexpr double on_singularity = 1e-12;  // |det| below which its sign is rounding
+constexpr double nearly_singular = 1e-10;  // |det| above which its sign is beyond doubt
 constexpr double contact = 1e-7;  // distance from a limit that counts as touching
 constexpr double broken_alike = 1e-6;  // violations closer than this count as equal
 constexpr std::array nudges{0.02, 0.1};  // shifts of the default start off det N = 0
@@ -51,7 +52,8 @@ ActiveBounds external_out_of_limits(const Geometry& g, const Vec3& position, con
 }  // namespace
 
 bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x) {
-  return (pose.determinants(x).cwiseAbs().array() > std::max(problem.clearance, on_singularity)).all();
+  return (pose.determinants(x).cwiseAbs().array() > std::clamp(problem.clearance, on_singularity, nearly_singular))
+      .all();
 }
 
 std::vector<Vec3> chamber_starts(const ScaledPose& pose, const InternalPointProblem& problem,
@@ -82,7 +84,8 @@ InternalPoint internal_point(const PoseObjective& objective, const Minima& minim
   InternalPoint out;
   if (minima.found.empty()) {
     out.status = InternalPointStatus::infeasible;
-    out.active = objective.broken(minima.nearest, broken_alike);
+    out.active = minima.violation < infinity ? objective.broken(minima.nearest, broken_alike)
+                                             : objective.below_clearance(minima.nearest);
     return out;
   }
   const LocalMinimum& best = minima.found.front();

@@ -10,7 +10,7 @@
 
 namespace ninedof {
 
-/// Whether x is off every singularity, so that it lies in a chamber.
+/// Whether x is off every singularity, so that it lies in a chamber; it may be within a clearance above 1e-10.
 bool in_some_chamber(const ScaledPose& pose, const InternalPointProblem& problem, const Vec3& x);
 
 /// One point in each chamber to search; none if the start is singular. The default start may happen to lie on det N =

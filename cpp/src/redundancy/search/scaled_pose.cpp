@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ninedof {
 namespace {
@@ -75,8 +76,9 @@ ScaledPose::ScaledPose(const Geometry& g, const Vec3& position, const Mat3& rota
   for (int k = 0; k < 12; ++k) unit_ = std::max(unit_, (at_[at_index(k)] - origin_).norm());
   for (Vec3& point : at_) point = scaled(point);
   characteristic_length_ = problem.characteristic_length / unit_;
-  low_ = problem.limits.low.tail<6>() / unit_;
-  high_ = problem.limits.high.tail<6>() / unit_;
+  low_ << problem.limits.low.tail<6>() / unit_,
+      Vec6::Constant(problem.criterion == Criterion::singularity ? joint_clearance : 0.0);
+  high_ << problem.limits.high.tail<6>() / unit_, Vec6::Constant(std::numeric_limits<double>::infinity());
   for (int i = 0; i < 3; ++i) {
     const Vec3 &r = at_[at_index(point_r + i)], &u = at_[at_index(point_u + i)];
     moment_[at_index(i)] = r.cross(u);

@@ -30,6 +30,14 @@ struct Jet {
   }
 };
 
+/// A limit for each joint of ScaledPose::joint.
+using Vec12 = Eigen::Matrix<double, 12, 1>;
+
+/// Least distance of O from an external joint, in sizes of the robot, for Criterion::singularity. det N has no limit
+/// there: d^_i takes every direction, and on the smallest sphere around the joint det N has every value down to 0. A
+/// large det N next to a joint is therefore next to a singularity.
+constexpr double joint_clearance = 0.05;
+
 /// Coordinates of O from the middle of the joints, in sizes of the robot: one set of tolerances serves every robot.
 class ScaledPose {
  public:
@@ -47,14 +55,15 @@ class ScaledPose {
   Vec3 unscaled(const Vec3& x) const { return origin_ + unit_ * x; }
 
   double characteristic_length() const { return characteristic_length_; }
-  /// Limits of q1 q2 q3 r1 r2 r3.
-  const Vec6& low() const { return low_; }
-  const Vec6& high() const { return high_; }
-  /// The far end of internal leg k of those six.
-  const Vec3& joint(int k) const { return at_[at_index(k < 3 ? point_u_tilde + k : point_r_hat + k - 3)]; }
-
-  /// Joint k of r1 r2 r3 u1 u2 u3.
-  const Vec3& external_joint(int k) const { return at_[at_index(k < 3 ? point_r + k : point_u + k - 3)]; }
+  /// Limits of the distance of O from joint k: of the internal legs, and for the criterion of the determinants a least
+  /// distance from the external joints (see joint_clearance).
+  const Vec12& low() const { return low_; }
+  const Vec12& high() const { return high_; }
+  /// The far ends of q1 q2 q3 r1 r2 r3, then the joints r1 r2 r3 u1 u2 u3 of the external legs.
+  const Vec3& joint(int k) const {
+    constexpr std::array first{point_u_tilde, point_r_hat, point_r, point_u};
+    return at_[at_index(first[at_index(k / 3)] + k % 3)];
+  }
 
   /// All points with O at x.
   Points points(const Vec3& x) const;
@@ -82,7 +91,7 @@ class ScaledPose {
   Points at_;
   Vec3 origin_ = Vec3::Zero();
   double unit_ = 1.0, characteristic_length_ = 1.0;
-  Vec6 low_, high_;
+  Vec12 low_, high_;
   Triple moment_, span_;  ///< r_i x u_i and u_i - r_i
   /// Normals of the planes of the lower and of the upper joints; their length is the area of the parallelogram.
   std::array<Vec3, 2> normal_;

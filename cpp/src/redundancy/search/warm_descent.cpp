@@ -28,7 +28,7 @@ class NearBounds {
  public:
   NearBounds(const PoseObjective& objective, const Vec3& x, double margin) : margin_(margin) {
     const ScaledPose& pose = objective.pose();
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 12; ++k) {
       const double low = pose.low()[k], high = pose.high()[k];
       const Vec3 leg = x - pose.joint(k);
       const double length = leg.norm();
@@ -140,7 +140,7 @@ bool enter_limits_warm(const PoseObjective& objective, Vec3& x, Minima& minima) 
 }  // namespace
 
 Minima warm_minimum(const PoseObjective& objective, const Vec3& start) {
-  Minima out{{}, infinity, Vec3::Zero()};
+  Minima out{{}, infinity, start};
   const Smoothed soft = [&objective](const Vec3& x, double epsilon, Jet& f) { return objective.soft(x, epsilon, f); };
   for (const std::span<const double> epsilons : {std::span<const double>(close), {near}}) {
     Descent d;
@@ -154,6 +154,7 @@ Minima warm_minimum(const PoseObjective& objective, const Vec3& start) {
     return out;
   }
   Vec3 x = start;
+  if (!objective.in_chamber(x)) return out;  // within the clearance
   if (objective.violation(x) >= limit_tolerance && !enter_limits_warm(objective, x, out)) return out;
   out.found.push_back(end_of(objective, descend(objective.pose(), soft, x, final_epsilons())));
   return out;
