@@ -110,12 +110,13 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
     return;
   }
   if (study_length.kind == LengthKind::platform_radius) {
-    int widest = 6;
-    for (int k = 7; k < 12; ++k)
-      if (blueprint.joint[at_index(k)].norm() > blueprint.joint[at_index(widest)].norm()) widest = k;
-    characteristic_length = blueprint.joint[at_index(widest)].norm();
+    int farthest = length_joint >= 0 ? length_joint : point_u;
+    for (int k = point_u + 1; k < 12 && length_joint < 0; ++k)
+      if (joint_distance(k) > joint_distance(farthest)) farthest = k;
+    characteristic_length = joint_distance(farthest);
     if (characteristic_length > 0.0)
-      add_joint(widest, blueprint.joint[at_index(widest)] / characteristic_length, length_gradient);
+      add_joint(farthest, blueprint.joint[at_index(farthest)] / characteristic_length, length_gradient);
+    else characteristic_length = trial_length();  // a platform of no size is singular under any length
     return;
   }
   set_natural_length(home);
@@ -124,7 +125,7 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
 void DesignState::set_natural_length(const PoseState& home) {
   // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of
   // the least sum of squared leg rates. The natural length is u times the root of their quotient, for any u.
-  const double trial = std::max(blueprint.zp, 1e-150);
+  const double trial = trial_length();
   PointGradient turning = zero_gradient(), shifting = zero_gradient();
   Spectrum s = spectrum(home.at, home.legs, trial);
   // Any orthonormal set of twists may replace the singular vectors.

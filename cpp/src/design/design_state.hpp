@@ -1,6 +1,7 @@
 #pragma once
 /// One design at every evaluated pose, and the derivatives of its points with respect to the solver's coordinates.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -52,6 +53,8 @@ class DesignState {
   double unit = 1.0;  ///< Problem::unit; lengths are divided by it before a logarithm is taken
   double characteristic_length = 1.0;
   Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
+  /// Input: the platform joint whose distance is the characteristic length "platform_radius"; -1: the farthest.
+  int length_joint = -1;
   std::vector<PoseState> poses;
 
   /// The evaluated poses: those of the objective, or the neutral one where there are none.
@@ -62,6 +65,8 @@ class DesignState {
   /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
   LegExtreme longest, shortest;
   std::array<int, 9> longest_of{}, shortest_of{};
+  /// Distance of a joint from the origin of its body's frame.
+  double joint_distance(int joint) const { return blueprint.joint[at_index(joint)].norm(); }
   double length(const LegExtreme& l) const { return pose(l.pose).legs.length[l.leg]; }
 
   // Chain rule: each adds to the row `out` of a number the effect of its derivative `g` with respect to ...
@@ -79,6 +84,7 @@ class DesignState {
  private:
   void set_length(const StudyLength& length, int coordinate);
   void set_natural_length(const PoseState& home);
+  double trial_length() const { return std::max(blueprint.zp, 1e-150); }
   void set_pose(const PoseSpec& spec, PoseState& out) const;
   void set_extremes();
 

@@ -142,7 +142,8 @@ void explain_failure(const PreparedProblem& p, const SearchRound& round, const S
                      Result& result) {
   if (std::optional<Candidate> best = best_feasible(round)) {
     result.candidates.push_back(*std::move(best));
-    result.reason = "no start passed the checks of optimality, so this is no optimum: raise starts or max_evaluations";
+    result.reason =
+        "no start passed the checks of optimality, so this is no optimum: raise starts, or try another seed";
     return;
   }
   std::optional<LeastViolation> least;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -14,6 +15,7 @@ from ninedof.design.study import LENGTH, Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.verify.nonsmooth import differences
 
 Indices = NDArray[np.intp]
 
@@ -64,6 +66,8 @@ class DesignSpace:
         self.names: list[str] = list(self.problem.names)
         self.x = np.array([variables[name] for name in self.names])
         self._fixed = None if isinstance(study.characteristic_length, str | tuple) else study.characteristic_length
+        self._farthest = study.characteristic_length == "platform_radius"
+        self._joint: int | None = None
         self.length = self._length(self.x.tolist())
         bounds = [_bound(study, name) for name in self.names]
         self.low = np.array([low for low, _ in bounds])
@@ -84,8 +88,36 @@ class DesignSpace:
         poses = every[1:] if len(every) > 1 else every
         return Robot(self.problem.geometry(values), every[0], poses, self._length(values), self.apart)
 
+    def pieces(self) -> list[DesignSpace]:
+        """Return the space once for each platform joint that ties for the largest distance, if that is l_c.
+
+        In each, l_c is the distance of that joint, which has no kink. Itself alone for any other l_c.
+        """
+        if not self._farthest:
+            return [self]
+        distances = platform_distances(self.robot(self.x))
+        slopes = differences(lambda y: platform_distances(self.robot(y)), self.x, self.size, self.low, self.high)
+        out: list[DesignSpace] = []
+        for joint in np.flatnonzero(distances >= distances.max() * (1.0 - _TIE)):
+            if any(np.allclose(slopes[:, joint], slopes[:, p._joint], rtol=0.0, atol=_TIE * self.length) for p in out):
+                continue  # equal in every design
+            piece = copy(self)
+            piece._joint = int(joint)
+            out.append(piece)
+        return out
+
+    def nearer(self, x: Floats) -> Floats:
+        """Return by how much each platform joint is nearer than that of this piece, in l_c; empty if it has none."""
+        if self._joint is None:
+            return np.empty(0)
+        distances = platform_distances(self.robot(x))
+        return np.asarray(1.0 - distances / distances[self._joint])
+
     def _length(self, values: list[float]) -> float:
         """Return the characteristic length; it may depend on the design."""
+        if self._joint is not None:
+            g = self.problem.geometry(values)
+            return float(np.linalg.norm(np.vstack([g.platform_external, g.platform_internal])[self._joint]))
         return float(self.problem.characteristic_length(values)) if self._fixed is None else self._fixed
 
     def inside(self, x: Floats) -> Floats:
@@ -100,6 +132,12 @@ class DesignSpace:
         return np.array([pair for pair in combinations(range(9), 2) if not all(_meet(g, *pair) for g in both)])
 
 
+def platform_distances(robot: Robot) -> Floats:
+    """Return the distances of the platform joints from the origin of their frame, shape (6,)."""
+    return np.asarray(np.linalg.norm(robot.joints("platform"), axis=1))
+
+
+_TIE = 1e-6  # relative difference of distances that count as equal
 _SAME = 1e-9  # of the size of a body: joints nearer than that coincide
 
 

@@ -34,7 +34,11 @@ class Stationarity:
 
 
 def stationarity(space: DesignSpace, objective: ObjectiveRule, limits: list[Limit]) -> Stationarity:
-    """Return the stationarity of a design over the free variables of its study."""
+    """Return the stationarity of a design over the free variables of its study; the worst where several pieces meet."""
+    return max((_of_piece(piece, objective, limits) for piece in space.pieces()), key=lambda s: s.residual)
+
+
+def _of_piece(space: DesignSpace, objective: ObjectiveRule, limits: list[Limit]) -> Stationarity:
     x, size, low, high = space.x, space.size, space.low, space.high
     free = space.free
     if not len(free):
@@ -46,7 +50,9 @@ def stationarity(space: DesignSpace, objective: ObjectiveRule, limits: list[Limi
     at_low = np.flatnonzero((x[free] - low[free]) * room <= ACTIVE)
     at_high = np.flatnonzero((high[free] - x[free]) * room <= ACTIVE)
     unit = np.eye(len(free))
-    cone = np.vstack([held, -unit[at_low], unit[at_high]])
+    nearer = -differences(space.nearer, x, size, low, high).T
+    tied = (space.nearer(x) <= ACTIVE) & (np.abs(nearer).max(axis=1) > ACTIVE)  # without those equal in every design
+    cone = np.vstack([held, -unit[at_low], unit[at_high], nearer[tied]])
     residual, used = least_combination(all_slopes, cone)
     return Stationarity(residual, used, len(cone))
 

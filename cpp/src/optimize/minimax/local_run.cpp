@@ -25,12 +25,17 @@ bool improves(const Candidate& next, const Candidate& now) {
   return next.optimality_residual < now.optimality_residual;
 }
 
+/// Pieces of the problem that one start goes on to, and the least gain, in the logarithm of the objective, that counts.
+constexpr int most_pieces = 12;
+constexpr double least_gain = 1e-10;
+
 /// Larger condition numbers differ from a singular design by rounding only.
 constexpr double largest_condition = 1e14;
 
 /// Whether Newton's method can start here.
 bool nearly_stationary(const PreparedProblem& p, const Eigen::VectorXd& y) {
   DesignEvaluation design;
+  design.state.length_joint = p.pieces(y).front();
   evaluate_design(p, y, design);
   return stationarity(p, design, active_set(p, design, y, Contact::near)).residual < 1e-2;
 }
@@ -39,7 +44,9 @@ bool nearly_stationary(const PreparedProblem& p, const Eigen::VectorXd& y) {
 
 Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
   const Eigen::VectorXd y = p.with_auxiliary(at);
+  const std::vector<int> pieces = p.pieces(y);
   DesignEvaluation design;
+  design.state.length_joint = pieces.front();
   evaluate_design(p, y, design);
   const ActiveSet active = active_set(p, design, y);
   Stationarity s = stationarity(p, design, active);
@@ -56,7 +63,41 @@ Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
   out.optimality_residual = s.residual;
   out.prices = std::move(s.prices);
   out.active = names(p, active);
+  // A minimum where pieces meet is one of each. Relaxing a limit gains what it gains in the best of them.
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    design.state.length_joint = pieces[k];
+    evaluate_design(p, y, design);
+    const Stationarity other = stationarity(p, design, active_set(p, design, y));
+    out.optimality_residual = std::max(out.optimality_residual, other.residual);
+    for (const auto& [name, price] : other.prices) out.prices[name] = std::max(out.prices[name], price);
+  }
   return out;
+}
+
+/// Continues `solve` where pieces of the problem meet: `solve(from, piece)` is the end of one piece.
+template <class Solve>
+Eigen::VectorXd solve_all_pieces(const PreparedProblem& p, const Eigen::VectorXd& from, double smoothing,
+                                 const Solve& solve) {
+  const auto value = [&](const Eigen::VectorXd& y) {
+    DesignEvaluation design;
+    design.smoothing = smoothing;
+    evaluate_design(p, y, design);
+    return violation(p, design, y) > clearly_feasible ? infinity : design.log_objective;
+  };
+  std::vector<int> tried{p.pieces(from).front()};  // since the objective fell
+  Eigen::VectorXd end = solve(from, tried.front());
+  for (int k = 0; k < most_pieces && !p.length_joints.empty(); ++k) {
+    const std::vector<int> meeting = p.pieces(end);
+    const auto next = std::ranges::find_if(meeting, [&](int j) { return std::ranges::find(tried, j) == tried.end(); });
+    if (next == meeting.end()) break;
+    const Eigen::VectorXd further = solve(end, *next);
+    if (value(further) < value(end) - least_gain) {
+      end = further;
+      tried.clear();
+    }
+    tried.push_back(*next);
+  }
+  return end;
 }
 
 LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, Formulation formulation,
@@ -75,7 +116,10 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
     return true;
   };
   const auto solve = [&](const Eigen::VectorXd& from, double smoothing, double tolerance) {
-    Eigen::VectorXd end = subproblem.solve(from, smoothing, tolerance, run_settings.max_evaluations);
+    const auto in_piece = [&](const Eigen::VectorXd& at, int piece) {
+      return subproblem.solve(at, piece, smoothing, tolerance, run_settings.max_evaluations);
+    };
+    Eigen::VectorXd end = solve_all_pieces(p, from, smoothing, in_piece);
     run.evaluations = subproblem.evaluations();
     return end;
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/constraints/length_joint.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
 
 namespace ninedof {
@@ -13,6 +14,9 @@ constexpr int probes = 3;
 
 /// Their size limit where single designs are evaluated.
 constexpr double probe_size = 100.0;
+
+/// Relative difference of distances that tie for the characteristic length.
+constexpr double same_distance = 1e-6;
 
 const std::string condition_limit_name = "condition_limit";
 
@@ -72,6 +76,13 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
     if (optimizes_internal_point(problem.objective.poses[at_index(k)])) optimized_points.push_back(k);
   if (purpose == Purpose::solve && !optimized_points.empty())
     constraints.push_back(make_between_plates(std::move(optimized_points)));
+  const StudyLength& length = problem.characteristic_length;
+  if (purpose == Purpose::solve && length.choice == StudyLength::Choice::kind &&
+      length.kind == LengthKind::platform_radius) {
+    length_joints = joints_of_distinct_distance(unrelated_designs(coordinates));
+    if (length_joints.size() > 1) constraints.push_back(make_length_joint(length_joints));
+    else length_joints.clear();
+  }
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
   if (std::isfinite(o.condition_limit))
@@ -80,11 +91,16 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
         margins.push_back({-1 - k, pair});
 }
 
-void PreparedProblem::learn_constraints(const Coordinates& within) {
-  if (constraints.empty()) return;
+std::vector<DesignState> PreparedProblem::unrelated_designs(const Coordinates& within) const {
   std::vector<DesignState> designs(probes);
   for (int k = 0; k < probes; ++k)
     designs[at_index(k)].set(*family, within, problem.characteristic_length, {{}}, 0, within.start(7 * k + 1, 12345));
+  return designs;
+}
+
+void PreparedProblem::learn_constraints(const Coordinates& within) {
+  if (constraints.empty()) return;
+  const std::vector<DesignState> designs = unrelated_designs(within);
   for (const auto& c : constraints) c->learn(designs);
 }
 
@@ -151,6 +167,17 @@ double PreparedProblem::violation_factor(int k) const {
 void PreparedProblem::set_state(const Eigen::VectorXd& y, DesignState& state) const {
   state.set(*family, coordinates, problem.characteristic_length, pose_specs, objective_poses, y);
   state.unit = problem.unit();
+}
+
+std::vector<int> PreparedProblem::pieces(const Eigen::VectorXd& y) const {
+  if (length_joints.empty()) return {-1};
+  DesignState state;
+  set_state(y, state);
+  std::vector<int> out = length_joints;
+  std::ranges::stable_sort(out, std::greater(), [&](int joint) { return state.joint_distance(joint); });
+  const double least = state.joint_distance(out.front()) * (1.0 - same_distance);
+  std::erase_if(out, [&](int joint) { return state.joint_distance(joint) < least; });
+  return out;
 }
 
 Eigen::VectorXd PreparedProblem::with_auxiliary(const Eigen::VectorXd& y) const {

@@ -43,6 +43,8 @@ struct PreparedProblem {
   std::vector<std::unique_ptr<Constraint>> constraints;
   std::vector<MarginRow> margins;
   std::vector<RowLevel> row_levels;
+  /// Platform joints whose distance may be the characteristic length, see length_joint.hpp; empty unless it has a kink.
+  std::vector<int> length_joints;
   int rows = 0, levels = 1;
   int auxiliary_count = 0;
 
@@ -52,6 +54,9 @@ struct PreparedProblem {
   double violation_factor(int k) const;
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;
+  /// The pieces of the characteristic length that a design at `y` belongs to, as DesignState::length_joint, the farthest
+  /// joint first; -1 alone where it has no kink.
+  std::vector<int> pieces(const Eigen::VectorXd& y) const;
   /// `y` with the best values of the constraints' auxiliary variables.
   Eigen::VectorXd with_auxiliary(const Eigen::VectorXd& y) const;
   /// A full set of variables without the auxiliary ones.
@@ -67,6 +72,7 @@ struct PreparedProblem {
 
  private:
   PreparedProblem(const Problem& problem, Coordinates solved, Purpose purpose);
+  std::vector<DesignState> unrelated_designs(const Coordinates& within) const;
   void learn_constraints(const Coordinates& within);
   void drop_repeated_margins();
 

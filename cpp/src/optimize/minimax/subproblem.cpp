@@ -154,11 +154,12 @@ Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, i
   return slsqp(nlp, full, {.tolerance = tolerance, .max_evaluations = max_evaluations}).head(n);
 }
 
-Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, double smoothing, double tolerance,
+Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, int piece, double smoothing, double tolerance,
                                   int max_evaluations) {
   best_seen_ = from;
   best_seen_objective_ = infinity;
   design_.smoothing = smoothing;
+  design_.state.length_joint = piece;
   evaluate_design(p_, from, design_);
   select_rows();
   Eigen::VectorXd y = from;

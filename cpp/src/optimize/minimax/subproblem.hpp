@@ -30,8 +30,9 @@ class Subproblem {
       : p_(p), formulation_(formulation), stop_(std::move(stop)), observer_(std::move(observer)) {}
 
   /// The end point of SLSQP from `from`, in solver coordinates. `smoothing` is that of the objective; `tolerance` is
-  /// relative, on objective and coordinates.
-  Eigen::VectorXd solve(const Eigen::VectorXd& from, double smoothing, double tolerance, int max_evaluations);
+  /// relative, on objective and coordinates; `piece` is one of PreparedProblem::pieces.
+  Eigen::VectorXd solve(const Eigen::VectorXd& from, int piece, double smoothing, double tolerance,
+                        int max_evaluations);
 
   /// The feasible design of least objective that the last call evaluated, or its start. NLopt returns another one of
   /// the evaluated points, by a measure that counts the levels.

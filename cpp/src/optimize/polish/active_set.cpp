@@ -44,7 +44,8 @@ std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a) {
   };
   for (const int k : a.at_low) report(k, p.coordinates.internal_low(k));
   for (const int k : a.at_high) report(k, p.coordinates.internal_high(k));
-  for (const int k : a.margins) add_once(out, p.margin_name(k));
+  for (const int k : a.margins)
+    if (!p.margin_name(k).empty()) add_once(out, p.margin_name(k));
   if (a.order) add_once(out, "zp > zs");
   return out;
 }

@@ -131,6 +131,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
   const int n = p.coordinates.size();
   Eigen::VectorXd y = start;
   DesignEvaluation design, ahead;
+  design.state.length_joint = ahead.state.length_joint = p.pieces(y).front();
   design.smoothing = smoothing;
   evaluate_design(p, y, design);
   const ActiveSet active = active_set(p, design, y, Contact::near);
