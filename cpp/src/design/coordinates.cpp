@@ -13,8 +13,13 @@ namespace {
 /// Least zp - zs in solver coordinates: at zero the upper internal legs would lie in the platform plane.
 constexpr double order_gap = 1e-10;
 
-/// Half range of an angle without bounds: more than one turn, so that no optimum has to lie on an internal bound.
-constexpr double turn = 1.25 * std::numbers::pi;
+constexpr double full_turn = 2.0 * std::numbers::pi;
+
+/// Half range of the starts of an angle without bounds.
+constexpr double turn = 0.625 * full_turn;
+
+/// Bounds this much less than a turn apart are a turn apart, but for rounding.
+constexpr double rounding = 1e-9;
 
 /// Distance from a bound that counts as rounding error.
 constexpr double snap = 1e-13;
@@ -67,14 +72,15 @@ Coordinates::Coordinates(const Problem& problem, double size_limit, int auxiliar
     fixed_[k] = x_low_[k];
     if (!free) continue;
     free_.push_back(static_cast<int>(i));
-    internal_low_.push_back(cut_low || all_[i].internal_bounds);
-    internal_high_.push_back(cut_high || all_[i].internal_bounds);
+    round_.push_back(angle && x_high_[k] - x_low_[k] >= full_turn - rounding);
+    internal_low_.push_back(!round_.back() && (cut_low || all_[i].internal_bounds));
+    internal_high_.push_back(!round_.back() && (cut_high || all_[i].internal_bounds));
   }
   low_.resize(size());
   high_.resize(size());
   for (int k = 0; k < size(); ++k) {
-    low_[k] = to_y(variable(k), x_low_[variable(k)]);
-    high_[k] = to_y(variable(k), x_high_[variable(k)]);
+    low_[k] = round_[at_index(k)] ? -infinity : to_y(variable(k), x_low_[variable(k)]);
+    high_[k] = round_[at_index(k)] ? infinity : to_y(variable(k), x_high_[variable(k)]);
   }
   zp_variable_ = design_family(problem.family).index("zp");
   length_variable_ = ninedof::length_variable(problem);
@@ -106,6 +112,7 @@ Coordinates Coordinates::plain(const Problem& problem) {
   c.fixed_.setZero(n);
   c.low_.setConstant(n, -infinity);
   c.high_.setConstant(n, infinity);
+  c.round_.assign(at_index(n), false);
   c.x_low_ = c.low_;
   c.x_high_ = c.high_;
   return c;
@@ -124,10 +131,20 @@ double Coordinates::to_x(int variable, double y) const {
   return scaled(variable) ? unit_ * std::sinh(y) : y;
 }
 
+double Coordinates::within_turn(int k, double y) const {
+  const double low = x_low_[variable(k)], high = x_high_[variable(k)];
+  if (y >= low && y <= high) return y;
+  return std::clamp(y - full_turn * std::floor((y - low) / full_turn), low, high);
+}
+
 Eigen::VectorXd Coordinates::variables(const Eigen::VectorXd& y) const {
   Eigen::VectorXd x = fixed_;
   for (int k = 0; k < size(); ++k) {
     const int v = variable(k);
+    if (round_[at_index(k)]) {
+      x[v] = within_turn(k, y[k]);
+      continue;
+    }
     // Exact bounds, not the round trip through asinh; a solver's rounding does not leave a side of 1e-16.
     if (y[k] <= low_[k] + snap) x[v] = x_low_[v];
     else if (y[k] >= high_[k] - snap) x[v] = x_high_[v];
@@ -160,7 +177,12 @@ Eigen::VectorXd Coordinates::start(int index, std::uint64_t seed) const {
     const double t = uniform_from(stream(seed, static_cast<std::uint64_t>(k))) + (index + 1.0) * step;
     u[k] = t - std::floor(t);
   }
-  Eigen::VectorXd y = low_ + u.cwiseProduct(high_ - low_);
+  Eigen::VectorXd y(size());
+  for (int k = 0; k < size(); ++k) {
+    const int v = variable(k);
+    const double low = round_[at_index(k)] ? x_low_[v] : low_[k], high = round_[at_index(k)] ? x_high_[v] : high_[k];
+    y[k] = low + u[k] * (high - low);
+  }
   // Draw zp above the smallest zs, then zs below zp.
   const double zs_floor = zs_ >= 0 ? low_[zs_] : y_zs_;
   if (zp_ >= 0) {

@@ -4,6 +4,8 @@
 /// This scale is linear below the unit and logarithmic above it. A bound at 0 stays reachable, steps are relative for
 /// sizes from 1 to 10^6, and a study in millimetres gives the same run as in metres. The unit is that of the problem,
 /// or less where the bounds allow only small robots. Angles and fractions are not scaled. zs < zp is linear in y.
+///
+/// Bounds of an angle that are a full turn apart, or none, are no bounds of y: it goes round, and x is within them.
 
 #include <vector>
 
@@ -57,6 +59,7 @@ class Coordinates {
  private:
   Coordinates() = default;
   bool scaled(int variable) const;
+  double within_turn(int k, double y) const;
   double to_y(int variable, double x) const;
   double to_x(int variable, double y) const;
 
@@ -66,7 +69,7 @@ class Coordinates {
   Eigen::VectorXd fixed_;  // all variables; free ones are overwritten
   Eigen::VectorXd x_low_, x_high_;
   std::vector<int> free_;
-  std::vector<bool> internal_low_, internal_high_;
+  std::vector<bool> internal_low_, internal_high_, round_;
   Eigen::VectorXd low_, high_;
   int zp_variable_, length_variable_;
   int zp_, zs_;            // free coordinate, or -1 where fixed

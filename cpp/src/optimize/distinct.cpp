@@ -44,11 +44,9 @@ bool represents(const Candidate& a, const Candidate& b) {
   return a.optimality_residual < b.optimality_residual;
 }
 
-/// On an internal bound of an angle or of an "optimal" length a run has found no optimum of the study.
+/// On an internal bound of an "optimal" length a run has found no optimum of the study.
 bool acceptable(const PreparedProblem& p, const Candidate& c) {
-  const auto counts = [](const Variable& v) {
-    return v.kind == VariableKind::angle || (v.kind == VariableKind::length && v.internal_bounds);
-  };
+  const auto counts = [](const Variable& v) { return v.kind == VariableKind::length && v.internal_bounds; };
   return c.feasible() && c.stationary() && c.regular() &&
          !near_internal_bound(p.coordinates, c.variables, 1e-6, counts);
 }

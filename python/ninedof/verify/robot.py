@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
@@ -73,6 +74,9 @@ class DesignSpace:
         self.low = np.array([low for low, _ in bounds])
         self.high = np.array([high for _, high in bounds])
         self.free = np.flatnonzero(self.low < self.high)
+        # An angle with bounds a full turn apart goes round: it has none.
+        turns = self.high - self.low >= 2.0 * math.pi - 1e-9
+        self.bounded = ~(turns & np.array([name in study.angles for name in self.names]))
         # The size of a length x is hypot(x, l_c); that of an angle or of a shift of O is 1.
         pure = {*study.angles, *(name for name in self.names if name.startswith("pose"))}
         relative = np.array([name in pure for name in self.names])

@@ -47,8 +47,8 @@ def _of_piece(space: DesignSpace, objective: ObjectiveRule, limits: list[Limit])
     all_slopes = Gradients(objective, space.robot(x), objective.matrices(space.robot(x)), slopes)
     held = -active_limits(space, limits, ACTIVE)
     room = 1.0 / np.maximum(size[free], 1e-300)
-    at_low = np.flatnonzero((x[free] - low[free]) * room <= ACTIVE)
-    at_high = np.flatnonzero((high[free] - x[free]) * room <= ACTIVE)
+    at_low = np.flatnonzero(space.bounded[free] & ((x[free] - low[free]) * room <= ACTIVE))
+    at_high = np.flatnonzero(space.bounded[free] & ((high[free] - x[free]) * room <= ACTIVE))
     unit = np.eye(len(free))
     nearer = -differences(space.nearer, x, size, low, high).T
     tied = (space.nearer(x) <= ACTIVE) & (np.abs(nearer).max(axis=1) > ACTIVE)  # without those equal in every design
