@@ -13,22 +13,49 @@ constexpr double same_objective = 1e-7, same_design = 1e-4;
 /// Optima need not be isolated: of many designs with one objective this many are returned.
 constexpr int most_alike = 4;
 
-/// Numbers that agree for equal robots up to reflection, renumbering and variables without effect: logarithms of
-/// neutral leg lengths, joint radii and heights, and of condition numbers.
+/// Lengths below this, in mean leg lengths, count as one.
+constexpr double negligible = 1e-9;
+
+/// Least slope of an objective row or margin, and least change, that counts as dependence on a variable.
+constexpr double dependence = 1e-9;
+
+/// The design at `y`, with every variable at its lower bound (or 0) that neither the objective nor a limit depends on.
+DesignEvaluation evaluate_what_matters(const PreparedProblem& p, Eigen::VectorXd y) {
+  DesignEvaluation design, moved;
+  evaluate_design(p, y, design);
+  const auto largest = [](const auto& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0; };
+  for (int k = 0; k < p.coordinates.size(); ++k) {
+    if (!(largest(design.row_gradient.col(k)) <= dependence && largest(design.margin_gradient.col(k)) <= dependence))
+      continue;
+    Eigen::VectorXd next = y;
+    next[k] = std::isfinite(p.coordinates.low()[k]) ? p.coordinates.low()[k] : 0.0;
+    evaluate_design(p, next, moved);
+    if (p.coordinates.order_margin(next) < 0.0 || !(largest(moved.margins - design.margins) <= dependence) ||
+        !(largest(moved.objective_rows - design.objective_rows) <= dependence))
+      continue;
+    y = next;
+    std::swap(design, moved);
+  }
+  return design;
+}
+
+/// Numbers that agree for equal robots up to reflection, renumbering, a shift along z, size where only the shape matters,
+/// and variables without effect: logarithms of neutral leg lengths, joint radii and the height of the platform above O
+/// in mean leg lengths, and of condition numbers.
 Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
-  DesignEvaluation design;
-  evaluate_design(p, p.coordinates.coordinates(c.variables), design);
+  const DesignEvaluation design = evaluate_what_matters(p, p.coordinates.coordinates(c.variables));
   std::vector<double> all(design.state.pose(0).legs.length.begin(), design.state.pose(0).legs.length.end());
   for (int joint = 0; joint < 12; ++joint) all.push_back(joint_radius(design.state, joint));
   std::sort(all.begin(), all.begin() + 9);
   std::sort(all.begin() + 9, all.begin() + 15);
   std::sort(all.begin() + 15, all.end());
-  all.push_back(design.state.blueprint.zp);
-  all.push_back(design.state.blueprint.zs);
-  all.push_back(c.condition_number);
+  all.push_back(design.state.blueprint.zp - design.state.blueprint.zs);
+  const double size = design.state.pose(0).legs.length.mean();
+  for (double& length : all) length = std::max(length / size, negligible);
+  all.push_back(neutral_condition(p, design));
   all.push_back(c.objective);
-  const auto conditions = all.insert(all.end(), c.conditions.begin(), c.conditions.end());
-  std::sort(conditions, all.end());
+  const std::vector<double> at_poses = conditions(p, design);
+  std::sort(all.insert(all.end(), at_poses.begin(), at_poses.end()), all.end());
   Eigen::VectorXd out = Eigen::VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size()));
   return out.cwiseMax(1e-300).cwiseMin(1e300).array().log();
 }

@@ -91,7 +91,8 @@ class Result:
     causes: tuple[str, ...]
     """Variables or constraints behind "unbounded" or "infeasible"."""
     candidates: tuple[Candidate, ...]
-    """Distinct local optima, best first. Mirror images count as one design."""
+    """Distinct local optima, best first; of many with the same objective, four. Mirror images count as one design, and
+    so do designs that differ in size where only the shape matters, or in a variable without effect."""
     evaluations: int
     starts_done: int
     seconds: float
