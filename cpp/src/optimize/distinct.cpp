@@ -86,7 +86,7 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
   for (std::size_t k = 0; k < round.runs.size(); ++k) {
     if (!round.runs[k] || !acceptable(p, round.runs[k]->end)) continue;
     ends.push_back(round.runs[k]->end);
-    if (k < round.from_starts) from_starts.push_back(ends.back().objective);
+    if (round.from_start[k]) from_starts.push_back(ends.back().objective);
   }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });

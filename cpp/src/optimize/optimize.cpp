@@ -9,9 +9,6 @@
 namespace ninedof {
 namespace {
 
-/// Relative gain by which a feasible design that is not stationary puts the best optimum in doubt.
-constexpr double noticeable_gain = 1e-6;
-
 /// The best design of a round with variables at the size limit moved to the next one.
 Eigen::VectorXd stretched(const PreparedProblem& p, const RoundBest& round, double next) {
   Eigen::VectorXd x = round.best.variables;
@@ -53,11 +50,19 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   std::vector<Eigen::VectorXd> further;
   for (const double size_limit : sizes) {
     const PreparedProblem p(problem, size_limit);
-    const SearchRound round = run_round(p, size_limit, further, settings, control, progress);
+    SearchRound round;
+    std::vector<Candidate> candidates;
+    for (bool more = true; more;) {
+      run_batch(p, size_limit, further, settings, control, progress, round);
+      candidates = distinct_candidates(p, round);
+      const bool at_limit = !candidates.empty() && round_best(p, size_limit, candidates.front()).at_size_limit;
+      more = settings.starts > 1 && round.batches < Settings::most_batches && !at_limit &&
+             starts_disagree(round, candidates) && !control.stop.stop_requested();
+      if (more) progress.expect(settings.starts);
+    }
     result.evaluations += round.evaluations;
     result.starts_done += round.done;
     result.runs_abandoned += round.runs_abandoned;
-    std::vector<Candidate> candidates = distinct_candidates(p, round);
     if (!candidates.empty()) {
       round_bests.push_back(round_best(p, size_limit, candidates.front()));
       const bool better =

@@ -11,6 +11,8 @@ namespace {
 
 /// More starts are run unless this share of the runs has the best objective.
 constexpr double agreement = 0.5;
+/// Another batch follows unless so many have, or more than that share.
+constexpr int enough = 16;
 constexpr double agreed = 1e-6;  // relative difference of objectives
 
 /// Where starts are expensive: how many at least are run to their end, and the length of the short runs before.
@@ -52,19 +54,27 @@ Eigen::VectorXd with_zero_offsets(const PreparedProblem& p, const Eigen::VectorX
   return p.coordinates.coordinates(out);
 }
 
-/// Start `index` in solver coordinates: the warm ones first.
-Eigen::VectorXd start_at(const PreparedProblem& p, const Settings& s, int index) {
-  const auto warm = static_cast<int>(s.warm.size());
-  return index < warm && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[at_index(index)])
-                                                  : p.coordinates.start(index - warm, s.seed);
-}
+/// The starts of a batch in solver coordinates; the first one begins with the warm starts.
+struct Batch {
+  const PreparedProblem& p;
+  const Settings& s;
+  int number;
+
+  int warm() const { return number == 0 ? static_cast<int>(s.warm.size()) : 0; }
+  int count() const { return number == 0 ? start_count(p, s) : s.starts; }
+  Eigen::VectorXd start(int index) const {
+    return index < warm() && p.coordinates.size() > 0 ? p.coordinates.coordinates(s.warm[at_index(index)])
+                                                      : p.coordinates.start(number * s.starts + index - warm(), s.seed);
+  }
+};
 
 /// Appends the runs of `count` starts, in their order.
-void run_all(const PreparedProblem& p, int count, const std::function<Eigen::VectorXd(int)>& start,
+void run_all(const PreparedProblem& p, int count, const std::function<Eigen::VectorXd(int)>& start, bool from_start,
              const RunSettings& run_settings, const Settings& s, const Control& control, Progress* progress,
              SearchRound& round) {
   const std::size_t before = round.runs.size();
   round.runs.resize(before + at_index(count));
+  round.from_start.resize(round.runs.size(), from_start);
   parallel_for(count, 1, s.threads, [&](long first, long) {
     if (control.stop.stop_requested()) return;
     LocalRun run = run_from_start(p, start(static_cast<int>(first)), Formulation::minimax, run_settings, control.stop);
@@ -74,36 +84,38 @@ void run_all(const PreparedProblem& p, int count, const std::function<Eigen::Vec
 }
 
 /// The same from a list.
-void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts, const RunSettings& run_settings,
-             const Settings& s, const Control& control, SearchRound& round) {
+void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts, bool from_start,
+             const RunSettings& run_settings, const Settings& s, const Control& control, SearchRound& round) {
   const auto at = [&](int k) { return starts[at_index(k)]; };
-  run_all(p, static_cast<int>(starts.size()), at, run_settings, s, control, nullptr, round);
+  run_all(p, static_cast<int>(starts.size()), at, from_start, run_settings, s, control, nullptr, round);
 }
 
-/// The most promising starts, by a short run of each.
-std::vector<Eigen::VectorXd> promising_starts(const PreparedProblem& p, double size_limit, const Settings& s,
-                                              const Control& control, Progress& progress, SearchRound& round) {
+/// The most promising starts of a batch, by a short run of each.
+std::vector<Eigen::VectorXd> promising_starts(const Batch& batch, double size_limit, const Control& control,
+                                              Progress& progress, SearchRound& round) {
+  const PreparedProblem& p = batch.p;
   const PreparedProblem scout(with_stated_internal_points(p.problem), size_limit);
-  const int warm = static_cast<int>(s.warm.size());
+  const int warm = batch.warm();
   const auto start = [&](int k) {
-    const Eigen::VectorXd x = p.coordinates.variables(start_at(p, s, warm + k));
+    const Eigen::VectorXd x = p.coordinates.variables(batch.start(warm + k));
     return scout.coordinates.coordinates(x.head(static_cast<Eigen::Index>(scout.problem.names().size())));
   };
   SearchRound short_runs;
-  run_all(scout, start_count(p, s) - warm, start,
-          {short_run_evaluations + evaluations_per_variable * scout.coordinates.size(), 0, false}, s, control,
+  run_all(scout, batch.count() - warm, start, true,
+          {short_run_evaluations + evaluations_per_variable * scout.coordinates.size(), 0, false}, batch.s, control,
           &progress, short_runs);
   // Warm starts are all run to their end.
   std::vector<Eigen::VectorXd> out;
-  for (int k = 0; k < warm; ++k) out.push_back(start_at(p, s, k));
-  round.done = warm;
+  for (int k = 0; k < warm; ++k) out.push_back(batch.start(k));
+  int done = warm;
   const auto full_runs = std::max<std::size_t>(least_full_runs, short_runs.runs.size() / 8) + out.size();
   for (const std::size_t k : ranked(short_runs)) {
     round.evaluations += short_runs.runs[k]->evaluations;
-    ++round.done;
+    ++done;
     if (out.size() < full_runs) out.push_back(with_zero_offsets(p, short_runs.runs[k]->end.variables));
   }
-  round.runs_abandoned = round.done - static_cast<int>(out.size());
+  round.done += done;
+  round.runs_abandoned += done - static_cast<int>(out.size());
   return out;
 }
 
@@ -123,7 +135,7 @@ std::vector<Eigen::VectorXd> recombined(const PreparedProblem& p, const Settings
     if (bases.size() == parents) break;
   }
   std::vector<Eigen::VectorXd> out;
-  for (int k = 0; k < count && !bases.empty(); ++k) {
+  for (int k = round.recombined; k < round.recombined + count && !bases.empty(); ++k) {
     // Better designs are chosen more often.
     const auto which =
         static_cast<std::size_t>(hash(s.seed, k, -1) * hash(s.seed, k, -2) * static_cast<double>(bases.size()));
@@ -136,10 +148,10 @@ std::vector<Eigen::VectorXd> recombined(const PreparedProblem& p, const Settings
   return out;
 }
 
-/// How many recombined starts: more for more variables.
-int extra_start_count(const PreparedProblem& p, const SearchRound& round) {
+/// How many recombined starts for so many runs: more for more variables.
+int extra_start_count(const PreparedProblem& p, std::size_t runs) {
   const double share = std::min(1.0, p.coordinates.size() / 25.0);
-  return std::max(1, static_cast<int>(share * static_cast<double>(round.runs.size())));
+  return std::max(1, static_cast<int>(share * static_cast<double>(runs)));
 }
 
 /// Whether enough runs have the best objective.
@@ -161,27 +173,37 @@ int start_count(const PreparedProblem& p, const Settings& s) {
   return p.coordinates.size() == 0 ? 1 : s.starts + static_cast<int>(s.warm.size());
 }
 
-SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
-                      const Settings& s, const Control& control, Progress& progress) {
+void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
+               const Settings& s, const Control& control, Progress& progress, SearchRound& round) {
   const RunSettings full_run{s.max_evaluations};
-  SearchRound round;
+  const Batch batch{p, s, round.batches++};
+  const std::size_t before = round.runs.size();
   // Starts are expensive with many poses, or if the index has kinks that are smoothed.
   if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {
-    const std::vector<Eigen::VectorXd> chosen = promising_starts(p, size_limit, s, control, progress, round);
-    run_all(p, chosen, full_run, s, control, round);
+    const std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round);
+    run_all(p, chosen, true, full_run, s, control, round);
   } else {
-    run_all(p, start_count(p, s), [&](int k) { return start_at(p, s, k); }, full_run, s, control, &progress, round);
-    for (const auto& run : round.runs) round.done += run != nullptr;
+    run_all(p, batch.count(), [&](int k) { return batch.start(k); }, true, full_run, s, control, &progress, round);
+    for (std::size_t k = before; k < round.runs.size(); ++k) round.done += round.runs[k] != nullptr;
   }
-  round.from_starts = round.runs.size();
   std::vector<Eigen::VectorXd> more;
   for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
-  run_all(p, more, full_run, s, control, round);
-  if (p.coordinates.size() > 1 && s.starts > 1 && !starts_agree(round))
-    run_all(p, recombined(p, s, round, extra_start_count(p, round)), full_run, s, control, round);
-  for (const auto& run : round.runs)
-    if (run) round.evaluations += run->evaluations;
-  return round;
+  if (batch.number == 0) run_all(p, more, false, full_run, s, control, round);
+  if (p.coordinates.size() > 1 && s.starts > 1 && !starts_agree(round)) {
+    const int count = extra_start_count(p, round.runs.size() - before);
+    run_all(p, recombined(p, s, round, count), false, full_run, s, control, round);
+    round.recombined += count;
+  }
+  for (std::size_t k = before; k < round.runs.size(); ++k)
+    if (round.runs[k]) round.evaluations += round.runs[k]->evaluations;
+}
+
+bool starts_disagree(const SearchRound& round, const std::vector<Candidate>& candidates) {
+  const std::optional<Candidate> feasible = best_feasible(round);
+  if (!feasible) return false;
+  if (candidates.empty() || feasible->objective < candidates.front().objective * (1.0 - noticeable_gain)) return true;
+  const int reached = candidates.front().reached;
+  return reached < enough && reached <= agreement * (round.done - round.runs_abandoned);
 }
 
 }  // namespace ninedof

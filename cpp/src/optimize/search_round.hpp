@@ -1,5 +1,5 @@
 #pragma once
-/// Many starts under one size limit, and which of their end points count.
+/// Many starts under one size limit, in batches, and which of their end points count.
 
 #include <algorithm>
 #include <memory>
@@ -15,7 +15,9 @@ namespace ninedof {
 /// The runs of one round, empty where one did not begin, and their cost.
 struct SearchRound {
   std::vector<std::unique_ptr<LocalRun>> runs;
-  std::size_t from_starts = 0;  ///< how many of the runs are starts; the others continue from end points
+  std::vector<bool> from_start;  ///< of each run: whether it began at a start, or continues from end points
+  int batches = 0;
+  int recombined = 0;  ///< runs from recombined end points
   long evaluations = 0;
   int done = 0;            ///< starts tried
   int runs_abandoned = 0;  ///< of those, given up after a short run
@@ -25,6 +27,11 @@ struct SearchRound {
 class Progress {
  public:
   Progress(const Control& control, int total) : control_(control), total_(total) {}
+  /// Counts starts that were not foreseen.
+  void expect(int more) {
+    const std::lock_guard lock(guard_);
+    total_ += more;
+  }
   void finished(const Candidate& c) {
     const std::lock_guard lock(guard_);
     ++done_;
@@ -39,13 +46,17 @@ class Progress {
   double best_ = infinity;
 };
 
-/// Starts of one round; a design without free variables is evaluated once.
+/// Starts of the first batch, warm ones included; a design without free variables is evaluated once.
 int start_count(const PreparedProblem& p, const Settings& s);
 
-/// Runs all starts and, where they do not agree, some more from recombined end points. The same bits for any number of
-/// threads. `further` starts, in full variables, are run as well and not counted.
-SearchRound run_round(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
-                      const Settings& s, const Control& control, Progress& progress);
+/// Runs the next batch of starts and, where they do not agree, some more from recombined end points. The same bits for
+/// any number of threads. `further` starts, in full variables, are run with the first batch and not counted.
+void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
+               const Settings& s, const Control& control, Progress& progress, SearchRound& round);
+
+/// Whether more starts are worth it: fewer than 16, and at most half, of those run to their end reached the best of
+/// `candidates`, or a feasible design is better than all of them.
+bool starts_disagree(const SearchRound& round, const std::vector<Candidate>& candidates);
 
 /// Whether a variable accepted by `counts` is within `near` of an internal bound, in solver coordinates.
 template <class Counts>
@@ -58,6 +69,9 @@ bool near_internal_bound(const Coordinates& c, const Eigen::VectorXd& x, double 
   }
   return false;
 }
+
+/// Relative gain by which a feasible design that is not stationary puts the best optimum in doubt.
+constexpr double noticeable_gain = 1e-6;
 
 /// Distinct acceptable end points, best first: feasible, stationary, regular, and on no internal bound.
 std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round);

@@ -62,7 +62,8 @@ class Study:
         neutral pose; or bounds, and it is a free variable. An upper bound of a variable of a million characteristic
         lengths or more counts as none.
     starts, seed : int
-        Number of low-discrepancy starts and the shift of their sequence.
+        Number of low-discrepancy starts and the shift of their sequence. `optimize` goes on to at most four times as
+        many while few of them agree.
 
     Raises
     ------

@@ -32,12 +32,13 @@ def optimize(
     ----------
     study : Study
     starts, seed : int, optional
-        In place of the study's own.
+        In place of the study's own. If fewer than 16, and at most half, of the starts run to their end reach the best
+        objective, as many starts again follow, up to four times `starts` in all: 256 by default. `starts = 1` is one.
     threads : int, optional
         One per processor by default. The result is the same, bit for bit, for any number.
     progress : callable, optional
         Called as progress(starts done, starts in all, best objective so far); infinite before a start has found a
-        feasible design.
+        feasible design. Starts in all grow where more starts follow.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
         Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
         are moved inside the bounds.

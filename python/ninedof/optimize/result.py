@@ -95,6 +95,7 @@ class Result:
     so do designs that differ in size where only the shape matters, or in a variable without effect."""
     evaluations: int
     starts_done: int
+    """Over all rounds; more than the study's `starts` where few agreed, see `optimize`."""
     seconds: float
     study: Study = field(metadata=DERIVED)
     interrupted: bool = False

@@ -74,4 +74,4 @@ def test_random_studies_end_at_an_optimum():
 def test_a_platform_that_shrinks_to_nothing_raises_nothing():
     """Measured in its own radius a smaller platform may always be better, until it has no size and is singular."""
     poses = [{"position": (0.1, 0.1, 0.0), "internal_point": "best"}, {"rotation_deg": (0.0, 10.0, 0.0)}]
-    assert nd.optimize(study("hexagonal", {}, poses), starts=8).status != "infeasible"
+    assert nd.optimize(study("hexagonal", {}, poses), starts=1).status != "infeasible"

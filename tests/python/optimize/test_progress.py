@@ -51,6 +51,28 @@ def test_unbounded_study_reports_all_its_rounds():
     assert result.starts_done in range(400, 2001, 200)
 
 
+def test_a_search_that_goes_on_reports_the_starts_it_adds():
+    """Half of the starts or fewer agree: further batches, at most four in all."""
+    seen = []
+    result = nd.optimize(DISAGREEING, starts=4, progress=lambda *arguments: seen.append(arguments))
+    assert result.starts_done == 16
+    assert seen[-1][:2] == (16, 16)
+    assert all(done <= total and total % 4 == 0 for done, total, _ in seen)
+    assert all(a[1] <= b[1] for a, b in itertools.pairwise(seen))
+    assert result.confidence == result.best.reached / 16
+    one = nd.optimize(DISAGREEING, starts=1)
+    assert one.starts_done == 1
+    runs = [nd.optimize(DISAGREEING, starts=4, threads=threads) for threads in (1, 2, 3)]
+    assert all(run.candidates[0].variables == result.candidates[0].variables for run in runs)
+    assert all(run.evaluations == result.evaluations for run in runs)
+
+
+DISAGREEING = nd.Study(
+    family="symmetric",
+    constraints={"radius_ratio": (None, 2.63), "leg_ratio": (None, 3.1), "leg_clearance": {"min": 0.05, "of": "zp"}},
+)
+
+
 def test_fixed_study_reports_a_total_it_reaches():
     seen = []
     fixed = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.3745}

@@ -19,7 +19,10 @@ namespace ninedof {
 
 /// How thorough the search is.
 struct Settings {
-  int starts = 64;                         ///< low-discrepancy starts
+  /// Low-discrepancy starts of one batch. If fewer than 16, and at most half, of those run to their end reach the best
+  /// objective, further batches follow, `most_batches` in all. One start alone is never followed by others.
+  int starts = 64;
+  static constexpr int most_batches = 4;
   std::uint64_t seed = 0;                  ///< shifts their sequence
   int threads = 0;                         ///< 0: one per processor; the result does not depend on it
   int max_evaluations = 500;               ///< of one SLSQP call; a start that does not converge makes up to four
@@ -29,8 +32,9 @@ struct Settings {
   void validate() const;
 };
 
-/// Multi-start minimax optimization; `control.progress` gets starts done, starts in all, and the best objective so far.
-/// Same problem and settings give the same bits for any number of threads.
+/// Multi-start minimax optimization; `control.progress` gets starts done, starts in all, and the best objective so
+/// far; starts in all grow where another batch follows. Same problem and settings give the same bits for any number of
+/// threads.
 Result optimize(const Problem& problem, const Settings& settings = {}, const Control& control = {});
 
 /// The starts that `optimize` would use, one per column.
