@@ -55,7 +55,8 @@ Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   all.push_back(neutral_condition(p, design));
   all.push_back(c.objective);
   const std::vector<double> at_poses = conditions(p, design);
-  std::sort(all.insert(all.end(), at_poses.begin(), at_poses.end()), all.end());
+  const auto sorted_too = all.insert(all.end(), at_poses.begin(), at_poses.end());
+  std::sort(sorted_too, all.end());
   Eigen::VectorXd out = Eigen::VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size()));
   return out.cwiseMax(1e-300).cwiseMin(1e300).array().log();
 }
