@@ -16,6 +16,14 @@ double sinc(double t) {
   return t > 1e-4 ? std::sin(t) / t : 1.0 - t * t / 6.0;
 }
 
+/// d exp(x) = skew(exp_spin(x) dx) exp(x).
+Mat3 exp_spin(const Vec3& x) {
+  const double t = x.norm(), half = sinc(0.5 * t);
+  const double cubic = t > 1e-2 ? (1.0 - sinc(t)) / (t * t) : (1.0 - t * t / 20.0) / 6.0;
+  const Mat3 cross = skew(x);
+  return Mat3::Identity() + 0.5 * half * half * cross + cubic * cross * cross;
+}
+
 }  // namespace
 
 Chart::Chart(const WorkspaceDomain& domain)
@@ -59,6 +67,21 @@ int Chart::first_wall() const {
 double Chart::turning() const {
   // exp never stretches; tilt and torsion may add up.
   return positional_ ? 0.0 : region_.chart == rotation_vector ? 1.0 : std::numbers::sqrt2;
+}
+
+Mat3 Chart::spin(const Vec3& x) const {
+  if (region_.chart == rotation_vector) return exp_spin(x);
+  const Vec3 y(-x[1], x[0], 0.0);
+  const Mat3 tilt = exp_spin(y);
+  Mat3 out;
+  out << tilt.col(1), -tilt.col(0), exp_rotation(y).col(2);
+  return out;
+}
+
+double Chart::bending() const {
+  // |d2 Q| <= |w|^2 + |dw| with the angular velocity w. exp has |w| <= 1 and |dw| <= 1/2 along a line. Tilt at speed a
+  // and torsion at speed b, a^2 + b^2 = 1, have |w| <= a + b and |dw| <= a^2/2 + a b: 1.5 a^2 + 3 a b + b^2 at most.
+  return region_.chart == rotation_vector ? 1.5 : 1.25 + std::sqrt(2.3125);
 }
 
 Mat3 Chart::rotation(const Vec3& x) const {

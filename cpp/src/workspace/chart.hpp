@@ -26,6 +26,10 @@ class Chart {
 
   /// Greatest rotation, in radians, per unit of the coordinates.
   double turning() const;
+  /// Angular velocity, base frame, per unit of each coordinate: the columns.
+  Mat3 spin(const Vec3& x) const;
+  /// Bound of the second derivative of Q w along a line of unit speed, for a unit vector w.
+  double bending() const;
 
   Mat3 rotation(const Vec3& x) const;
   /// The coordinates of a rotation; the inverse of the above.

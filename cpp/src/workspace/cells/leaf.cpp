@@ -56,10 +56,15 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
   leaf.fraction = cut.fraction();
   leaf.condition_number = centre.condition_number;
 
-  const double reach = margins.leg_speed() * 0.5 * lattice.size(cell.level).norm();
-  bool all_in = leaf.inside == 255, all_out = false;
+  // A group that has bounds is decided by them alone; any other by the nine points.
+  const Proof proof = margins.bounds().over(lattice.centre(cell), 0.5 * lattice.size(cell.level));
+  bool all_in = leaf.inside == 255, all_out = proof.outside;
   for (int g = 0; g < groups; ++g) {
     const auto k = at_index(g);
+    if (margins.bounded(g)) {
+      all_in = all_in && proof.inside;
+      continue;
+    }
     double least = centre.margin[k], most = least, mean = 0.0;
     for (const PointMargins* corner : corners) {
       least = std::min(least, corner->margin[k]);
@@ -70,12 +75,11 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
     if (!(least >= curve)) all_in = false;
     if (most < -curve) all_out = true;
   }
-  leaf.proved = centre.proof < -reach || (margins.legs_alone() && centre.proof > reach);
-  if (leaf.proved) {
-    all_in = centre.proof > 0.0;
-    all_out = !all_in;
-    leaf.inside = all_in ? 255 : 0;
-    leaf.fraction = all_in ? 1.0 : 0.0;
+  leaf.proved = proof.outside || ((all_in || all_out) && margins.all_bounded());
+  if (proof.outside) {
+    all_in = false;
+    leaf.inside = 0;
+    leaf.fraction = 0.0;
   }
   leaf.state = all_in ? CellState::inside : all_out ? CellState::outside : CellState::boundary;
   if (leaf.state == CellState::boundary && leaf.inside != 0 && leaf.inside != 255) {

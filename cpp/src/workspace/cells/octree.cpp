@@ -5,12 +5,13 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/parallel.hpp"
+#include "workspace/cells/volume_estimate.hpp"
 #include "workspace/methods/audit.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr double guard = 0.1;  // least error estimate, relative to the last change
+constexpr std::size_t blocks = 3;  // along each side, for the error of the volume
 constexpr long evaluations_a_cell = 15;  // of its eight children: centres, and corners shared with neighbours
 
 class OctreeBuilder {
@@ -21,20 +22,17 @@ class OctreeBuilder {
 
   WorkspaceStatus run(bool first_piece_alone) {
     try {
-      Audit audit;
+      Audit audit(lattice_, m_, settings_, control_);
       std::vector<Cell> open = lattice_.roots();
       for (int level = 0;; ++level) {
         std::vector<Leaf> now = leaves_of(open);
-        if (level == 0) {
-          audit.begin(now, lattice_, m_, settings_, control_);
-          evaluations_ = audit.count();
-          tree.unseen = audit.unseen();
+        if (level == 0) audit.begin(now);
+        judge(now, level, first_piece_alone, audit);
+        if (const long poses = poses_wanted(level, audit); poses > 0) {
+          audit.extend(settled_, now, poses);
+          judge(now, level, first_piece_alone, audit);
         }
-        tree.disagreement = audit.open(now);
-        open_home(now);
-        if (tree.disagreement.coarse) open_all(now);
-        keep(now);
-        measure(first_piece_alone, audit);
+        estimate_.keep();
         if (const std::optional<WorkspaceStatus> end = finished(level)) return *end;
         open = divided(now, audit);
       }
@@ -58,6 +56,18 @@ class OctreeBuilder {
     return out;
   }
 
+  /// Opens what poses contradict, and measures the level.
+  void judge(std::vector<Leaf>& now, int level, bool first_piece_alone, const Audit& audit) {
+    evaluations_ = audit.count();
+    tree.disagreement = audit.open(now);
+    open_home(now);
+    if (tree.disagreement.coarse) open_all(now);
+    keep(now);
+    measure(first_piece_alone, audit);
+    tree.levels.resize(at_index(level) + 1);
+    tree.levels.back() = {static_cast<long>(now.size()), evaluations(), volume_, error_};
+  }
+
   /// Divides the cell of an allowed home pose as long as it has no allowed corner.
   void open_home(std::vector<Leaf>& leaves) {
     if (!home_allowed_) return;
@@ -66,7 +76,6 @@ class OctreeBuilder {
                  half = 0.5 * lattice_.size(leaf.cell.level);
       if ((away.array() > half.array()).any() || leaf.inside != 0 || leaf.proved) continue;
       leaf.state = CellState::boundary;
-      tree.disagreement.measure += leaf.measure;
       tree.disagreement.coarse = true;
     }
   }
@@ -97,53 +106,71 @@ class OctreeBuilder {
       parents_.push_back(now[n].fraction * now[n].measure);
       for (int octant = 0; octant < 8; ++octant) next.push_back(now[n].cell.child(octant));
     }
-    audit.descend(now, rank, lattice_);
+    audit.descend(now, rank);
     return next;
+  }
+
+  /// The block of the chart that holds a leaf.
+  std::size_t block_of(const Leaf& leaf) const {
+    const Cell& c = leaf.cell;
+    const auto side = static_cast<std::uint32_t>(settings_.resolution);
+    const auto at = [&](std::uint32_t n) { return (n >> c.level) * blocks / side; };
+    return (at(c.k) * blocks + at(c.j)) * blocks + at(c.i);
   }
 
   void measure(bool first_piece_alone, const Audit& audit) {
     if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), m_.home());
-    double volume = 0.0, undecided = 0.0, change = 0.0;
-    for (std::size_t n = 0; n < tree.leaves.size(); ++n) {
-      const Leaf& leaf = tree.leaves[n];
-      if (leaf.counts(first_piece_alone)) volume += leaf.fraction * leaf.measure;
-      if (leaf.state != CellState::boundary) continue;
-      if (leaf.counts(first_piece_alone) || leaf.inside == 0) undecided += leaf.measure;
+    LevelVolumes level{std::vector<double>(blocks * blocks * blocks, 0.0), {}, 0.0};
+    level.change = level.held;
+    double uncut = 0.0;
+    unproved_ = 0.0;
+    for (const Leaf& leaf : tree.leaves) {
+      if (leaf.counts(first_piece_alone)) level.held[block_of(leaf)] += leaf.fraction * leaf.measure;
+      if (!leaf.proved && (leaf.inside == 0 || leaf.inside == 255)) uncut += leaf.measure;
+      if (!leaf.proved) unproved_ += lattice_.size(leaf.cell.level).prod();
+      if (leaf.state == CellState::boundary && (leaf.counts(first_piece_alone) || leaf.inside == 0))
+        level.undecided += leaf.measure;
     }
     for (std::size_t p = 0; p < parents_.size(); ++p) {
+      const std::size_t first = tree.first_open + 8 * p;
       double held = 0.0;
       bool any = !first_piece_alone;
-      for (std::size_t child = 0; child < 8; ++child) {
-        const Leaf& leaf = tree.leaves[tree.first_open + 8 * p + child];
-        held += leaf.fraction * leaf.measure;
-        any = any || leaf.piece == 0;
+      for (std::size_t child = first; child < first + 8; ++child) {
+        held += tree.leaves[child].fraction * tree.leaves[child].measure;
+        any = any || tree.leaves[child].piece == 0;
       }
-      if (!any) continue;
-      change += held - parents_[p];
+      if (any) level.change[block_of(tree.leaves[first])] += held - parents_[p];
     }
-    // The error falls by a factor of four from level to level, so that a third of the last change remains. It is
-    // estimated by the difference of two such extrapolations, and by no less than parts of the change and of the
-    // difference before: two extrapolations may agree by chance.
-    const double better = parents_.empty() ? volume : volume + change / 3.0;
-    const double moved = std::abs(better - volume_);
-    error_ = parents_.empty()         ? 0.5 * undecided
-             : tree.levels.size() < 2 ? std::abs(change) / 3.0
-                                      : std::max({moved, 0.25 * moved_, guard * std::abs(change)});
-    moved_ = tree.levels.size() < 2 ? 0.0 : moved;
-    error_ = tree.disagreement.coarse ? std::max(error_, undecided) : error_ + tree.disagreement.measure;
-    volume_ = std::clamp(better, 0.0, m_.chart().volume());
+    estimate_.set(level);
+    volume_ = std::clamp(estimate_.volume(), 0.0, m_.chart().volume());
     // For one piece of several the audit gives only an upper bound of the volume.
-    error_ = std::max(error_, audit.contradicts(volume_, first_piece_alone));
-    tree.levels.push_back({static_cast<long>(tree.leaves.size() - tree.first_open), evaluations(), volume_, error_});
+    resolved_ = std::max(estimate_.error(), audit.contradicts(volume_, first_piece_alone));
+    if (tree.disagreement.coarse) resolved_ = std::max(resolved_, level.undecided);
+    tree.unseen = std::min(audit.bound(tree.disagreement.poses), uncut);
+    error_ = resolved_ + tree.unseen;
+  }
+
+  /// How many poses the audit needs for the tolerance, if those are what is missing and cost less than division does.
+  long poses_wanted(int level, const Audit& audit) const {
+    const double wanted = settings_.tolerance * volume_;
+    const long cost = evaluations_a_cell * open_cells(), left = settings_.most_evaluations - evaluations();
+    if (error_ <= wanted || resolved_ >= wanted || tree.disagreement.coarse || (level == 0 && cost > 0)) return 0;
+    const long hits = tree.disagreement.poses;
+    const double now = audit.more(hits, unproved_, wanted - resolved_), least = audit.more(0, unproved_, wanted);
+    if (least > static_cast<double>(left)) return left;  // out of reach, but as near as possible
+    return now - least > static_cast<double>(cost) || now > static_cast<double>(left) ? 0 : std::lround(now);
+  }
+
+  long open_cells() const {
+    return std::count_if(tree.leaves.begin() + static_cast<std::ptrdiff_t>(tree.first_open), tree.leaves.end(),
+                         [](const Leaf& leaf) { return leaf.state == CellState::boundary; });
   }
 
   std::optional<WorkspaceStatus> finished(int level) {
-    long open = 0;
-    for (std::size_t n = tree.first_open; n < tree.leaves.size(); ++n)
-      open += tree.leaves[n].state == CellState::boundary ? 1 : 0;
-    if (open == 0) return WorkspaceStatus::converged;
-    if (level > 0 && !tree.disagreement.coarse && error_ <= settings_.tolerance * volume_)
-      return WorkspaceStatus::converged;
+    const long open = open_cells();
+    const bool reached = error_ <= settings_.tolerance * volume_ && !tree.disagreement.coarse;
+    if (open == 0) return reached || !(volume_ > 0.0) ? WorkspaceStatus::converged : WorkspaceStatus::limited;
+    if (level > 0 && reached) return WorkspaceStatus::converged;
     if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
       return WorkspaceStatus::limited;
     // From level to level the error falls and the work grows by a factor of four.
@@ -164,9 +191,11 @@ class OctreeBuilder {
   CellLattice& lattice_;
   std::vector<Leaf> settled_;  // the tree itself holds the state after the last complete level
   std::vector<double> parents_;
+  VolumeEstimate estimate_;
   long evaluations_ = 0, expected_ = 0;
-  double moved_ = 0.0;  // last change of the extrapolated volume
+  double unproved_ = 0.0;  // volume, in coordinates, of the cells that are not proved
   double volume_ = not_a_number, error_ = volume_;
+  double resolved_ = error_;  // the error without what may be unseen
 };
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace ninedof {
 /// Audit poses that are allowed, or not, in cells whose corners all say the opposite.
 struct Disagreement {
   long poses = 0;
-  double measure = 0.0;  ///< of those cells
   bool coarse = false;   ///< so many that the cells are too coarse
 };
 

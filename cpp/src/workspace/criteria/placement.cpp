@@ -36,6 +36,12 @@ Vec3 Placement::point(const Vec3& p, const Mat3& q) const {
   return lower_ + share_ * (p + q * upper_ - lower_);
 }
 
+Motion Placement::motion() const {
+  if (rule_.kind == Kind::fixed) return {0.0, Vec3::Zero(), rule_.point};
+  if (rule_.kind == Kind::platform) return {1.0, rule_.point, Vec3::Zero()};
+  return {share_, share_ * arm_, (1.0 - share_) * lower_};
+}
+
 InternalPoint Placement::best(const PlatformPose& pose) const {
   return best_internal_point(g_, pose.position, pose.rotation, problem_);
 }

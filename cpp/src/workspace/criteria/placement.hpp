@@ -1,7 +1,6 @@
 #pragma once
 /// The rule of a workspace for the position of O.
 
-#include <cmath>
 #include <span>
 #include <stop_token>
 
@@ -10,6 +9,12 @@
 #include "redundancy/map/continuation.hpp"
 
 namespace ninedof {
+
+/// The point share p + Q arm + at.
+struct Motion {
+  double share;
+  Vec3 arm, at;
+};
 
 class Placement {
  public:
@@ -27,13 +32,8 @@ class Placement {
   /// The result for a point that was found before; s may be NaN.
   InternalPoint found_before(const PlatformPose& pose, const Vec3& s) const;
 
-  /// Bounds on the speed of O, and of O relative to the joint u~, per unit of translation or per radian.
-  double speed_translating() const { return std::abs(share_); }
-  double speed_turning() const { return std::abs(share_) * arm_.norm(); }
-  double relative_translating() const { return std::abs(1.0 - share_); }
-  double relative_turning(const Vec3& u_tilde) const {
-    return rule_.kind == InternalPointRule::Kind::platform ? 0.0 : (share_ * arm_ - u_tilde).norm();
-  }
+  /// O as it moves with the platform.
+  Motion motion() const;
 
  private:
   const Geometry& g_;

@@ -87,25 +87,16 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   if (criteria.leg_clearance) groups(1, size_);
   if (criteria.condition_number) groups(1, 1.0);
   if (criteria.singularity_free) groups(3, 1.0);
-  legs_alone_ =
-      pose_groups_ > 0 && pose_groups_ == std::ssize(limited_legs_) && !chart_.has_region() && !placement_.searched();
   groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
-}
-
-double Margins::leg_speed() const {
-  const Placement& o = placement_;
-  const bool moves = chart_.positional();
-  const double turn = chart_.turning();
-  double most = 0.0;
-  for (const int leg : limited_legs_) {
-    const auto i = at_index(leg % 3);
-    const double speed = leg < 3 ? (moves ? 1.0 : turn * g_.platform_external()[i].norm())
-                         : leg < 6
-                             ? (moves ? o.relative_translating() : turn * o.relative_turning(g_.platform_internal()[i]))
-                             : (moves ? o.speed_translating() : turn * o.speed_turning());
-    most = std::max(most, speed);
+  bounds_.emplace(g_, domain_, chart_, placement_, criteria_, limited_legs_);
+  all_bounded_ = pose_groups_ == std::ssize(limited_legs_);
+  if (set_) {
+    bounded_[0] = all_bounded_;
+    for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[0] = bounded_[0] && !bounds_->constant(n);
+    return;
   }
-  return most;
+  for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[n] = !bounds_->constant(n);
+  if (chart_.has_region()) bounded_[at_index(groups_ - 1)] = true;
 }
 
 PlatformPose Margins::pose(const Vec3& x, std::size_t r) const {
@@ -139,7 +130,7 @@ void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const Be
 
 PointMargins Margins::judge_one(const Block& b, long k) const {
   PointMargins m;
-  m.proof = infinity;
+  double legs = infinity;
   std::size_t next = 0;
   const auto put = [&](double margin, int which) {
     m.margin[next] = margin;
@@ -149,11 +140,11 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
     const double length = b.length[Block::size(9 * k + leg)];
     const double above = length - criteria_.legs->low[leg], below = criteria_.legs->high[leg] - length;
     put(std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
-    m.proof = std::min({m.proof, above, below});
+    legs = std::min({legs, above, below});
   }
   // Only whether there is an admissible O is known. It was not searched for where an external leg breaks its limits.
   if (placement_.searched())
-    put(b.found[Block::size(k)] || m.proof < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
+    put(b.found[Block::size(k)] || legs < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
   const Configuration c = b.at(k);
   Points at;
   if (base_ || platform_ || criteria_.leg_clearance) at = points(g_, c);
@@ -218,17 +209,25 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
         all = one;
         continue;
       }
-      const double proof = some ? std::max(all.proof, one.proof) : std::min(all.proof, one.proof);
       const bool both = least >= 0.0 && all.margin[0] >= 0.0;
       // The condition number is that of the best allowed rotation, or of the worst of all.
       const double kappa = some && !both ? (least >= 0.0 ? one : all).condition_number
                            : some        ? std::min(all.condition_number, one.condition_number)
                                          : std::max(all.condition_number, one.condition_number);
       if (some ? least > all.margin[0] : least < all.margin[0]) all = one;
-      all.proof = proof;
       all.condition_number = kappa;
     }
   }
+}
+
+double Margins::least(const PointMargins& m) const {
+  double out = infinity;
+  for (std::size_t n = 0; n < at_index(groups_); ++n) {
+    const double scale = set_ || std::cmp_greater_equal(n, pose_groups_) ? 1.0 : scale_[n];
+    if (std::isnan(m.margin[n])) return -infinity;
+    out = std::min(out, m.margin[n] / scale);
+  }
+  return out;
 }
 
 int Margins::violated(const PointMargins& m) const {

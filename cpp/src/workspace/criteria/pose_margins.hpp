@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "workspace/chart.hpp"
+#include "workspace/criteria/cell_bounds.hpp"
 #include "workspace/criteria/cones.hpp"
 #include "workspace/criteria/limits.hpp"
 #include "workspace/criteria/placement.hpp"
@@ -20,7 +21,6 @@ constexpr int most_groups = limit::sum_before(limit::margins_of) + 1;
 struct PointMargins {
   std::array<double, most_groups> margin{};
   std::array<std::uint8_t, most_groups> limit{};  ///< index of each margin in limit_names()
-  double proof = 0.0;            ///< least margin of the legs; it cannot change faster than leg_speed()
   double condition_number = 0.0;
 
   bool allowed(int groups) const {
@@ -48,10 +48,11 @@ class Margins {
   /// The size of the robot, the scale of margins of lengths.
   double size() const { return size_; }
   int groups() const { return groups_; }
-  /// Bound on the change of a leg length per unit of the coordinates.
-  double leg_speed() const;
-  /// Whether leg lengths are the only criterion, so that `proof` decides.
-  bool legs_alone() const { return legs_alone_; }
+  const CellBounds& bounds() const { return *bounds_; }
+  /// Whether group g is a leg or the region, which only `bounds` decide.
+  bool bounded(int g) const { return bounded_[at_index(g)]; }
+  /// Whether leg lengths and the region are all that limits, so that `bounds` decide everything.
+  bool all_bounded() const { return all_bounded_; }
   /// The home pose in the chart.
   const Vec3& home() const { return home_at_; }
   bool in_chart(const Vec3& x) const {
@@ -68,6 +69,8 @@ class Margins {
   void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
                 const BestAt& best = {}) const;
 
+  /// The least margin, relative to its scale; minus infinity where one is unknown.
+  double least(const PointMargins& m) const;
   /// Index in limit_names() of the worst negative margin, relative to its scale; -1 for an allowed point.
   int violated(const PointMargins& m) const;
 
@@ -90,7 +93,9 @@ class Margins {
   std::array<double, 3> signs_{};
   std::array<double, most_groups> scale_{};  // of each group of one pose
   int pose_groups_ = 0, groups_ = 0;
-  bool set_ = false, legs_alone_ = false;
+  bool set_ = false, all_bounded_ = false;
+  std::optional<CellBounds> bounds_;
+  std::array<bool, most_groups> bounded_{};
 };
 
 }  // namespace ninedof

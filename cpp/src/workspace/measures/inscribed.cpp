@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "workspace/measures/body.hpp"
 #include "workspace/measures/near_points.hpp"
 #include "workspace/measures/summary.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr int rays = 500;  // directions in which a ball is checked
 constexpr int candidates = 6;  // cells from which the centre of the ball is optimised
 constexpr std::size_t most_points = 12'000;  // of the surface that are used
 
@@ -58,53 +58,15 @@ InscribedBall maximised(const FreeDistance& distance, InscribedBall ball, double
   return ball;
 }
 
-/// The greatest scale from `low` to `high`, by bisection, at which all points that `sample` gives are allowed.
-template <class Sample>
-double fitting_scale(const Margins& margins, const Control& control, double low, double high, const Sample& sample) {
-  const auto fits = [&](double scale) {
-    const std::vector<Vec3> x = sample(scale);
-    std::vector<PointMargins> out(x.size());
-    margins.evaluate(x.data(), static_cast<long>(x.size()), out.data(), control.stop);
-    return std::ranges::all_of(out, [&](const PointMargins& m) { return m.allowed(margins.groups()); });
-  };
-  if (fits(high)) return high;
-  for (int k = 0; k < 12; ++k) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  return low;
-}
-
-/// Evenly spread points of the unit sphere (Fibonacci lattice).
-Vec3 ray(int n) {
-  constexpr double golden = 2.399963229728653;
-  const double z = 1.0 - (2.0 * n + 1.0) / rays, r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(golden * n), r * std::sin(golden * n), z};
-}
-
-/// Shrinks a ball until sampled points of its surface are allowed.
-void shrink(InscribedBall& ball, const Margins& margins, const Control& control) {
-  ball.radius = fitting_scale(margins, control, 0.9 * ball.radius, ball.radius, [&](double radius) {
-    std::vector<Vec3> x;
-    for (int n = 0; n < rays; ++n) x.push_back(ball.centre + radius * ray(n));
-    return x;
-  });
-}
-
-/// Shrinks a box until sampled points of its faces are allowed.
-void shrink(InscribedBox& box, const Margins& margins, const Control& control) {
-  constexpr int steps = 9;
-  const Vec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
-  const double scale = fitting_scale(margins, control, 0.9, 1.0, [&](double tried) {
-    std::vector<Vec3> x;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int n = 0; n < 2 * steps * steps; ++n) {
-        Vec3 at;
-        at[axis] = n % 2 == 0 ? -1.0 : 1.0;
-        at[(axis + 1) % 3] = 2.0 * (n / 2 % steps) / (steps - 1) - 1.0;
-        at[(axis + 2) % 3] = 2.0 * (n / 2 / steps) / (steps - 1) - 1.0;
-        x.push_back(middle + tried * at.cwiseProduct(half));
-      }
-    return x;
-  });
-  if (scale < 1.0) box = {middle - scale * half, middle + scale * half};
+/// Least distance of x from the cells that are not inside.
+double distance_from_others(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Vec3& x) {
+  double least = infinity;
+  for (const Leaf& leaf : leaves) {
+    if (leaf.state == CellState::inside) continue;
+    const Vec3 away = (x - lattice.centre(leaf.cell)).cwiseAbs() - 0.5 * lattice.size(leaf.cell.level);
+    least = std::min(least, away.cwiseMax(0.0).norm());
+  }
+  return least;
 }
 
 }  // namespace
@@ -133,11 +95,24 @@ void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const
     const InscribedBall ball = maximised(distance, {lattice.centre(cell), found[n].first}, lattice.size(0).maxCoeff());
     if (ball.radius > map.ball.radius) map.ball = ball;
   }
-  if (const auto box = largest_box(leaves, lattice, points, margins.chart(), first_piece_alone, map.resolution))
+  if (const auto box =
+          largest_box(leaves, lattice, points, margins.chart(), first_piece_alone, map.resolution, margins.cheap()))
     map.box = *box;
-  if (!margins.cheap()) return;
-  if (map.ball.radius > 0.0) shrink(map.ball, margins, control);
-  if (!map.box.low.hasNaN()) shrink(map.box, margins, control);
+  if (!margins.cheap()) {
+    // Each pose would be a search: the ball is that of whole cells, as the box is.
+    if (map.ball.radius > 0.0)
+      map.ball.radius = std::min(map.ball.radius, distance_from_others(leaves, lattice, map.ball.centre));
+  } else {
+    if (map.ball.radius > 0.0)
+      map.ball.radius *= allowed_scale({map.ball.centre, Vec3::Constant(map.ball.radius), false}, margins, control);
+    if (!map.box.low.hasNaN()) {
+      const Vec3 middle = 0.5 * (map.box.low + map.box.high);
+      const Vec3 half = 0.5 * (map.box.high - map.box.low);
+      const double scale = allowed_scale({middle, half, true}, margins, control);
+      if (scale < 1.0) map.box = {middle - scale * half, middle + scale * half};
+    }
+  }
+  if (!(map.ball.radius > 0.0)) map.ball = {};
 }
 
 }  // namespace ninedof

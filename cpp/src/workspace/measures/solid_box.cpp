@@ -124,7 +124,7 @@ InscribedBox varied(InscribedBox box, const std::vector<Vec3>& surface, const Ch
 
 std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const CellLattice& lattice,
                                         const std::vector<Vec3>& surface, const Chart& chart, bool first_piece_alone,
-                                        int resolution) {
+                                        int resolution, bool vary) {
   const Raster raster(leaves, first_piece_alone, resolution);
   const Vec3 size = lattice.size(raster.level());
   const CellBox cells = largest_of_cells(raster, size);
@@ -132,7 +132,8 @@ std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const C
   const auto corner = [&](const int (&n)[3]) -> Vec3 {
     return chart.low() + size.cwiseProduct(Vec3(n[0], n[1], n[2]));
   };
-  return varied({corner(cells.low), corner(cells.high)}, surface, chart);
+  const InscribedBox whole{corner(cells.low), corner(cells.high)};
+  return vary ? varied(whole, surface, chart) : whole;
 }
 
 }  // namespace ninedof

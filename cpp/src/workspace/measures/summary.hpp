@@ -18,15 +18,15 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
 /// Indices, percentiles and cells of a map from leaves.
 void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map);
 
-/// Finds the largest ball and box that contain no point of the surface and stay in the chart, and shrinks both until a
-/// few hundred points of their own surfaces are allowed.
+/// Finds the largest ball and box that contain no point of the surface and stay in the chart, and shrinks both to what
+/// is allowed (allowed_scale), or with the best O to whole cells inside.
 void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const Margins& margins,
               const Surface& surface, bool first_piece_alone, const Control& control, WorkspaceMap& map);
 
 /// The largest box with edges along the axes: first one of whole cells (the largest for cells of one size); then its
-/// faces are moved to the surface and varied.
+/// faces are moved to the surface and varied if `vary` is set.
 std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const CellLattice& lattice,
                                         const std::vector<Vec3>& surface, const Chart& chart, bool first_piece_alone,
-                                        int resolution);
+                                        int resolution, bool vary);
 
 }  // namespace ninedof
