@@ -25,7 +25,7 @@ def workspace_table(found: WorkspaceMap) -> Table:
     table.add_row("  error, estimated", f"{found.error:.2g}")
     table.add_row("  share of the box or region", f"{100.0 * found.share:.3g} %")
     if found.unseen > 0.0:
-        table.add_row("  missed thin parts, at most (95 %)", f"{found.unseen:.2g}")
+        table.add_row("  of it, for parts that may be unseen", f"{found.unseen:.2g}")
     if len(found.pieces) > 1:
         table.add_row("  pieces", str(len(found.pieces)))
     if found.ball_radius > 0.0:

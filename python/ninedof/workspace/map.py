@@ -23,9 +23,9 @@ class WorkspaceStatus(StrEnum):
     CONVERGED = "converged"
     """The error is below the tolerance; also the status of every grid or sample, whose error is not controlled."""
     LIMITED = "limited"
-    """`most_evaluations` was reached first; see `error`."""
+    """`most_evaluations` or the smallest cells were reached first; see `error`."""
     EMPTY = "empty"
-    """No allowed pose was found, or none connected with home under "singularity_free"; see `unseen`."""
+    """No allowed pose was found, or none connected with home under "singularity_free"; see `error`."""
     STOPPED = "stopped"
     """Interrupted: the state after the last complete level, NaN if there was none."""
 
@@ -41,11 +41,11 @@ class WorkspaceMap(Saved):
     volume: float
     """Length unit cubed; of orientations by Haar's measure, radians cubed, 8 pi^2 being all of SO(3)."""
     error: float
-    """Estimate of the error of the volume. Octree: from the difference of levels. Grid: from random errors of the
-    boundary cells. Sample: the standard error over the shifts."""
+    """Estimate of the error of the volume. Octree: from the differences of levels, plus `unseen`. Grid: from random
+    errors of the boundary cells. Sample: the standard error over the shifts."""
     unseen: float
-    """Upper bound, at 95 % confidence, of the volume of features that the octree missed: too thin for all cells and all
-    audit poses. Zero if leg lengths alone prove the result."""
+    """Upper bound, at 95 % confidence, of the volume of features that corners of cells do not show, by the poses that
+    audit them: a part of `error` of an octree. Zero if leg lengths alone prove every cell that corners do not cut."""
     chart_volume: float
     """Volume of the whole box or region."""
     box_limits: bool
@@ -58,10 +58,11 @@ class WorkspaceMap(Saved):
     """Volumes of the connected pieces, the largest first; with "singularity_free" the one of home first."""
     ball_centre: Floats
     ball_radius: float
-    """The largest ball inside, in the coordinates of the map; radius 0 and centre NaN where there is none."""
+    """The largest ball inside, in the coordinates of the map; radius 0 and centre NaN where there is none. Leg limits
+    of positions are proved in it, other criteria sampled; see docs/workspace.md."""
     box_low: Floats
     box_high: Floats
-    """The largest box inside with edges along the axes (a local optimum of its six faces)."""
+    """The largest box inside with edges along the axes (a local optimum of its six faces), checked like the ball."""
     conditioning_index: float
     """Mean of 1 / condition number over the workspace (Gosselin and Angeles, 1991), 1 at best."""
     conditioning_index_error: float

@@ -58,11 +58,10 @@ def workspace(
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
-    Cells of an octree are divided at the boundary, so that the work grows with its area. A cell is proved to be outside
-    if a leg at its centre violates a limit by more than its length can change within the cell, and inside by the same
-    argument if leg limits are the only criterion. Other cells are judged by their corners and centre. Poses of a
-    low-discrepancy sequence audit this: a cell that one of them contradicts is divided too. In the smallest cells the
-    boundary is taken as linear, and the volume is extrapolated from two levels.
+    Cells of an octree are divided at the boundary, so that the work grows with its area. Legs and regions are decided
+    by bounds over whole cells: where nothing else limits, each cell inside or outside is proved. Other criteria are
+    judged by corners and centre. Poses of a low-discrepancy sequence audit this: a cell that one of them contradicts is
+    divided too. In the smallest cells the boundary is taken as linear, and the volume is extrapolated from two levels.
 
     Parameters
     ----------
@@ -108,12 +107,13 @@ def workspace(
         "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
         random shifts.
     tolerance : float
-        Largest error of an octree, relative to the volume.
+        Largest error of an octree, relative to the volume, including what may be unseen.
     resolution : int, optional
-        Cells along each side before any is divided, by default 16 (64 for a grid). Only the audit may find features
-        thinner than such a cell; `WorkspaceMap.unseen` bounds what it missed.
+        Cells along each side before any is divided, by default 16 (64 for a grid). Unless leg limits are the only
+        criterion, the audit alone may find features thinner than such a cell; `WorkspaceMap.unseen` bounds the rest.
     points : int, optional
-        Audit poses of an octree, or points of each shift of a sample; 16384 by default, 1024 if the best O is sought.
+        First audit poses of an octree, to which it adds as many as the tolerance needs, or points of each shift of a
+        sample; 16384 by default, 1024 if the best O is sought.
     shifts : int
         Number of shifts of a sample.
     seed : int

@@ -86,7 +86,7 @@ struct WorkspaceSettings {
   double tolerance = 1e-3;  ///< of the octree: wanted error relative to the volume
   int resolution = 16;  ///< cells along each side before any is divided
   long most_evaluations = 2'000'000;  ///< greatest number of poses evaluated
-  long points = 16384;  ///< of one shift of a sample; poses that audit an octree
+  long points = 16384;  ///< of one shift of a sample; the first poses that audit an octree
   int shifts = 16;
   std::uint64_t seed = 0;
   int threads = 0;
@@ -94,7 +94,7 @@ struct WorkspaceSettings {
 
 enum class WorkspaceStatus : std::uint8_t {
   converged,  ///< the wanted error is reached
-  limited,  ///< most_evaluations is reached
+  limited,  ///< most_evaluations or the smallest cells are reached
   empty,  ///< no allowed pose was found
   stopped,  ///< interrupted: the state after the last complete level
 };
@@ -133,8 +133,9 @@ struct WorkspaceLevel {
 struct WorkspaceMap {
   WorkspaceStatus status = WorkspaceStatus::empty;
   double volume = std::numeric_limits<double>::quiet_NaN();  ///< length^3, or radians^3 (8 pi^2 is all of SO(3))
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< estimate; a standard error for a sample
-  /// Upper bound, at 95 % confidence, of the volume of features that every cell and audit pose, or every point, missed.
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< estimate, with `unseen`; a standard error for a sample
+  /// Upper bound, at 95 % confidence, of the volume of features that corners of cells do not show, by the audit poses:
+  /// a part of `error`. Without cells, of what every point missed.
   double unseen = 0.0;
   double chart_volume = 0.0;  ///< of the box or region
   bool box_limits = false;  ///< the workspace reaches the faces of the box or region: a larger one would contain more
@@ -172,12 +173,12 @@ std::vector<Mat3> spread_rotations(int count, double angle = 3.14159265358979323
 /// default the middle of the box, or Q0, with O by the rule.
 ///
 /// Octree: the box is cut into resolution^3 cells, and the margins are evaluated at the corners and the centre of each.
-/// A cell is proved to be outside if an external leg, or any leg if O follows a rule, violates its limit at the centre
-/// by more than its length can change within the cell. Other cells are inside or outside if all nine points agree by
-/// more than the margins may curve between them. The rest are divided repeatedly. In the smallest cells the boundary is
-/// taken as linear in six tetrahedra, so that the error of the volume is proportional to the square of the cell size;
-/// `error` compares two levels. An audit evaluates poses of a low-discrepancy sequence: a cell that one of them
-/// contradicts is divided too. `unseen` bounds the volume of what may still be missed.
+/// Legs and the region are decided by bounds over the whole cell: it is proved to be outside if a leg violates its
+/// limit throughout, and inside if nothing else limits and all legs are within theirs throughout. Other criteria are
+/// judged: all nine points agree by more than the margins may curve between them. The rest are divided repeatedly. In
+/// the smallest cells the boundary is taken as linear in six tetrahedra, so that the error of the volume is proportional
+/// to the square of the cell size. An audit evaluates poses of a low-discrepancy sequence: a cell that one of them
+/// contradicts is divided too. `error` compares levels, and includes `unseen`: what may still be hidden.
 ///
 /// The best O is that of best_internal_map at the first corners (or the centres of a grid). At any other point it is
 /// continued from two known points around it; a pose where that fails is searched. A sample searches all its poses.

@@ -9,7 +9,7 @@ namespace ninedof {
 struct Leaf {
   Cell cell;
   CellState state = CellState::outside;
-  bool proved = false;            ///< the state follows from leg lengths alone
+  bool proved = false;            ///< the state follows from bounds of leg lengths and region
   std::uint8_t inside = 0;        ///< which corners are allowed
   std::int16_t limit = -1;
   double fraction = 0.0;          ///< allowed share
@@ -25,8 +25,8 @@ struct Leaf {
   bool counts(bool first_piece_alone) const { return inside != 0 && (!first_piece_alone || piece == 0); }
 };
 
-/// The leaf of a cell. Inside or outside if all nine points agree by more than the margins may curve between them, or
-/// if leg lengths prove it; else on the boundary.
+/// The leaf of a cell. Inside or outside if the bounds of legs and region decide, and for each other margin if all nine
+/// points agree by more than it may curve between them; else on the boundary.
 Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
 
 /// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their

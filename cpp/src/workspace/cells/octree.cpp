@@ -147,6 +147,8 @@ class OctreeBuilder {
     resolved_ = std::max(estimate_.error(), audit.contradicts(volume_, first_piece_alone));
     if (tree.disagreement.coarse) resolved_ = std::max(resolved_, level.undecided);
     tree.unseen = std::min(audit.bound(tree.disagreement.poses), uncut);
+    // Nothing is connected with a home pose that is not allowed.
+    if (first_piece_alone && !home_allowed_ && !(volume_ > 0.0)) resolved_ = tree.unseen = 0.0;
     error_ = resolved_ + tree.unseen;
   }
 
@@ -170,7 +172,7 @@ class OctreeBuilder {
     const long open = open_cells();
     const bool reached = error_ <= settings_.tolerance * volume_ && !tree.disagreement.coarse;
     if (open == 0) return reached || !(volume_ > 0.0) ? WorkspaceStatus::converged : WorkspaceStatus::limited;
-    if (level > 0 && reached) return WorkspaceStatus::converged;
+    if (reached && (level > 0 || error_ == 0.0)) return WorkspaceStatus::converged;
     if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
       return WorkspaceStatus::limited;
     // From level to level the error falls and the work grows by a factor of four.
