@@ -92,7 +92,8 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 
 /// The best internal point in the chamber of `start`, by default of default_internal_point.
 ///
-/// A multi-start search with a scan of the chamber: the best of the local optima found. Only `infeasible` for an external leg is proved.
+/// A multi-start search with a scan of the chamber: the best of the local optima found. Only `infeasible`
+/// for an external leg is proved.
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start = {});
 

@@ -47,7 +47,8 @@ struct InternalPointMap {
 /// The poses of a coarse lattice are searched. The others are reached by wavefront propagation: each pose continues the
 /// points of its neighbours, extrapolated where two lie on one line. A better point replaces that of a pose and is
 /// passed on, so that the result is the lower envelope of all branches found. Poses that no front reaches are searched
-/// on ever finer lattices. Every pose is then scanned for better valleys. Finally an audit searches poses drawn at random; its improvements are passed on too.
+/// on ever finer lattices. Every pose is then scanned for better valleys. Finally an audit searches poses drawn at
+/// random; its improvements are passed on too.
 ///
 /// Each front reads only the one before, so that the result does not depend on the number of threads. Reports the poses
 /// placed. Throws InvalidArgument as best_internal_point does, if shape or starts do not fit the poses, or for a zero

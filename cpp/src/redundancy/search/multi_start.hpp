@@ -36,7 +36,7 @@ struct ScanSettings {
   std::size_t most_valleys;  ///< from which to descend
 };
 
-/// Scans the chamber that `reach` knows, and adds the minima of those valleys that may be lower than the best of `minima`.
+/// Scans the chamber that `reach` knows, and adds the minima of those valleys that may be lower than the best so far.
 void add_valleys(const PoseObjective& objective, const ScanSettings& settings, Reach& reach, Minima& minima);
 
 /// The smoothings of a descent to a minimum, decreasing.
