@@ -56,7 +56,7 @@ def best_internal_map(
     audit_seed: int = 0,
     progress: Progress | None = None,
 ) -> InternalPointMap:
-    """Return the best internal point of every pose of a grid, about two to eight times faster than one by one.
+    """Return the best internal point of every pose of a grid, up to eight times faster than one by one.
 
     The poses of a coarse lattice are searched as by `best_internal_point`. The others are reached by wavefront
     propagation: Newton's method continues the points of neighbours to each pose, extrapolated where two lie on one

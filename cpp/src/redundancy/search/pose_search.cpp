@@ -1,5 +1,7 @@
 #include "redundancy/search/pose_search.hpp"
 
+#include <algorithm>
+
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"

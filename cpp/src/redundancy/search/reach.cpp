@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <queue>
 #include <utility>
+#include <vector>
 
 namespace ninedof {
 namespace {
