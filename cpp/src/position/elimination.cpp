@@ -51,7 +51,7 @@ double value(const Quartic& a, double x, double y) {
 /// Columns x1, x2, n: a frame with the third axis n and the second component of `towards` zero.
 Mat3 frame(const Vec3& n, const Vec3& towards) {
   Vec3 x = towards - n.dot(towards) * n;
-  if (x.squaredNorm() < 1e-4) x -= n.dot(x) * n;  // nearly parallel: perpendicular to rounding again
+  if (x.squaredNorm() < 1e-6) x -= n.dot(x) * n;  // nearly parallel: perpendicular to rounding again
   const double size2 = x.squaredNorm();
   x = size2 > 1e-24 ? Vec3(x / std::sqrt(size2)) : n.unitOrthogonal();
   Mat3 m;
