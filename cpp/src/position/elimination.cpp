@@ -102,7 +102,11 @@ RotationCandidates eliminated_rotations(const RotationProblem& problem, int pivo
   double largest = 0.0;
   for (const double coefficient : p) largest = std::max(largest, std::abs(coefficient));
   const double octic_error = std::max(rounding, error) * size;
-  const CircleRoots roots = circle_roots(p, octic_error);
+  CircleRoots roots = circle_roots(p, octic_error);
+  if (!roots.certain && error > rounding) {  // roots of the equations as given, though the count is uncertain
+    roots = circle_roots(p, rounding * size);
+    roots.certain = false;
+  }
   RotationCandidates out;
   out.reliable = roots.certain && octic_error <= coarse * largest;
   for (int k = 0; k < roots.count; ++k) {
