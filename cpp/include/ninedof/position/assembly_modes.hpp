@@ -21,8 +21,8 @@ const char* to_string(PositionStatus status);
 /// Which legs make the lengths infeasible.
 enum class PositionObstacle {
   none,
-  lower_legs,      ///< the spheres of r1 r2 r3 have no common point
-  upper_legs,      ///< the spheres of q1 q2 q3 have no common point
+  lower_legs,  ///< the spheres of r1 r2 r3 have no common point
+  upper_legs,  ///< the spheres of q1 q2 q3 have no common point
   external_leg_1,  ///< in every branch this leg is too long or too short for the position of O
   external_leg_2,
   external_leg_3,
