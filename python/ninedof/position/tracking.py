@@ -78,10 +78,10 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     """Return the assembly mode reached from `start` when the leg lengths change along a straight path.
 
     O stays on its side of the plane of the base's internal joints and of that of the platform's, and follows in closed
-    form from three spheres. The rotation follows by Newton's method on SO(3). "tracked" is a proof: while the lengths go
-    straight from those of the start to the given ones, no singularity is passed, and the mode returned is the one that
-    the start's becomes. It uses Kantorovich's theorem with bounds over the whole step; where they are too wide the step
-    is divided. At a singularity the mode can continue in two ways: it is lost there, and NaN is returned.
+    form from three spheres. The rotation follows by Newton's method on SO(3). "tracked" is a proof: while the lengths
+    go straight from those of the start to the given ones, no singularity is passed, and the mode returned is the one
+    that the start's becomes. It uses Kantorovich's theorem with bounds over the whole step; where they are too wide the
+    step is divided. At a singularity the mode can continue in two ways: it is lost there, and NaN is returned.
 
     Parameters
     ----------
