@@ -8,11 +8,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/position/tracking.hpp"
@@ -55,7 +57,7 @@ std::optional<Configuration> continued(const Geometry& g, Configuration c, const
     if (stride < 1e-14) return {};
     const double next = std::min(1.0, t + stride);
     const Vec9 lengths = from + next * (to - from);
-    const Vec9 tangent = lu.solve(Vec9(from + next * (to - from) - ninedof::leg_lengths(g, c)));
+    const Vec9 tangent = lu.solve(Vec9(lengths - ninedof::leg_lengths(g, c)));
     bool good = tangent.norm() <= longest;
     Configuration at = good ? ninedof::plus(c, tangent) : c;
     Eigen::PartialPivLU<Mat9> there;
@@ -150,13 +152,16 @@ void trajectory(bench::Random& random, int kind, Tally& tally) {
   Configuration at = c;
   Tally steps;
   const std::vector<Tracked> path = ninedof::track(g, lengths, c);
-  for (std::size_t k = 0; k < lengths.size() && path[k].status == TrackStatus::tracked; ++k) {
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
     compare(g, at, lengths[k], path[k], steps);
+    if (path[k].status != TrackStatus::tracked) break;
     at = path[k].configuration;
   }
   tally.tracked += path.back().status == TrackStatus::tracked;
   tally.wrong += steps.wrong > 0;
   tally.through += steps.through > 0;
+  tally.divided += steps.divided > 0;
+  tally.given_up += steps.given_up > 0;
 }
 
 template <class Case>

@@ -65,7 +65,12 @@ void Problem::validate() const {
     throw InvalidArgument("variables", std::to_string(variables.size()) + " bounds",
                           std::to_string(info.size()) + ", one for each variable of " + family);
   for (std::size_t k = 0; k < info.size(); ++k) require_bounds(info[k].name, info[k].kind, variables[k]);
-  for (const Limit& limit : limits) limit.validate();
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    limits[k].validate();
+    for (std::size_t j = 0; j < k; ++j)
+      if (limits[j].name == "singularity_free" && limits[j].label() == limits[k].label())
+        throw InvalidArgument(limits[k].label(), "two limits", "one, with one number of steps");
+  }
   objective.validate();
   if (objective.index == Index::six_legged && !f.symmetric())
     throw InvalidArgument("objective.index", "\"six_legged\"", "a family symmetric about z with it, not " + family);

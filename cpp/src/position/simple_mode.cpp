@@ -35,7 +35,7 @@ bool linear_along_weakest(const RotationProblem& problem, const PolishedRotation
       const Vec3 f = RotationResidual(problem, q).value;
       q = turned(-(u.col(0).dot(f) / size[0]) * v.col(0) - (u.col(1).dot(f) / size[1]) * v.col(1), q);
     }
-    const double changed = side * u.col(2).dot(RotationResidual(problem, q).value);
+    const double changed = side * u.col(2).dot(RotationResidual(problem, q).value - mode.at.value);
     if (!(std::abs(changed - error) <= 0.5 * error)) return false;
   }
   return true;

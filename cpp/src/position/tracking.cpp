@@ -20,12 +20,12 @@ constexpr double certified = 0.5;  // Kantorovich's theorem
 constexpr double proved = 0.499;  // the same for bounds, with room for their rounding
 constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation: Newton converges from nearer starts
 constexpr double hopeless = 2.0;  // certificate above which a step is not tried
-constexpr int uncertified_steps = 12;  // of Newton's method without a certificate
+constexpr int uncertified_steps = 12;  // of Newton's method where it is not proved to converge
 constexpr int most_halvings = 5;  // of the lengths of a step, for its proof
 constexpr double shortest = 0x1p-18;  // step, as a fraction of the path
 constexpr double aim = 0.4;  // desired certificate of a step; it grows with the length of the step
 constexpr int most_attempts = 1000;
-constexpr double angle_rounding = 1e-7;  // rad: half the digits, since the angle comes from a cosine
+constexpr double known_to = 1e-13;  // residual of a mode that is known
 
 /// The robot, and three numbers of the start that no step lets change their sign: the heights of O over the two plates,
 /// which are det B and det C but for positive factors, and such a multiple of det N.
@@ -52,12 +52,13 @@ struct Waypoint {
 /// A later point of the path, and Kantorovich's number of its equations at the rotation from which the step starts.
 struct Target {
   Target(const Robot& robot, const Vec9& lengths, const InternalPoints& there, const ScaledRotationProblem& problem,
-         const Mat3& rotation)
+         const Mat3& rotation, double point_error)
       : at(there),
         scaled(problem),
         seed(problem.unit, rotation),
         scale(problem.base_distance.cwiseProduct(problem.platform_distance)),
         waypoint(robot, lengths, there, seed.value.cwiseProduct(scale)),
+        error(known_to + point_error * lengths.head<3>().maxCoeff() / scale.minCoeff()),
         beta(seed.inverse_norm()),
         eta(seed.newton_step().norm()) {}
 
@@ -68,6 +69,7 @@ struct Target {
   RotationResidual seed;
   Vec3 scale;  ///< of the residuals
   Waypoint waypoint;
+  double error;  ///< of the equations, from rounding and from that of O
   double beta, eta;
 };
 
@@ -81,28 +83,28 @@ struct Step {
 };
 
 /// Sets `point` to the position of O on the side of the start.
-Meeting::Kind locate(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
+Meeting locate(const SphereCentres& plate, const Vec3& radii, double side, Vec3& point) {
   const Meeting m = meet(plate, radii);
   if (m.kind == Meeting::two_points) point = side < 0.0 ? plate.mirrored(m.above) : m.above;
-  return m.kind;
+  return m;
 }
 
 Reach set_target(const Robot& robot, const Vec9& lengths, const Mat3& rotation, std::optional<Target>& out) {
   InternalPoints at;
-  const Meeting::Kind lower = locate(robot.base, lengths.tail<3>(), robot.base_height, at.s),
-                      upper = locate(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
-  if (lower == Meeting::none || upper == Meeting::none) return Reach::infeasible;
+  const Meeting lower = locate(robot.base, lengths.tail<3>(), robot.base_height, at.s),
+                upper = locate(robot.platform, lengths.segment<3>(3), robot.platform_height, at.o);
+  if (lower.kind == Meeting::none || upper.kind == Meeting::none) return Reach::infeasible;
   // A singularity: the mode can continue in two ways.
-  if (lower == Meeting::touching || upper == Meeting::touching) return Reach::not_certified;
+  if (lower.kind == Meeting::touching || upper.kind == Meeting::touching) return Reach::not_certified;
   const ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
   if ((p.unit.c.array().abs() > 1.0).any()) return Reach::infeasible;
   if (!p.unit.c.allFinite()) return Reach::not_certified;  // O on an external joint
-  out.emplace(robot, lengths, at, p, rotation);
+  out.emplace(robot, lengths, at, p, rotation, lower.error + upper.error);
   return Reach::yes;
 }
 
-/// Whether, for all lengths between two points of the path, Kantorovich's number stays below 1/2 and a mode within `away`
-/// is the only one there, by bounds of the derivatives of the equations along the path (docs/theory/position.md).
+/// Whether, for all lengths between two points of the path, Kantorovich's number stays below 1/2 and a mode within
+/// `away` is the only one there, by bounds of the derivatives of the equations along the path (docs/theory/position.md).
 bool bounded(const Robot& robot, const Waypoint& from, const Target& to, double away) {
   const PathBounds lower = path_bounds(robot.base, from.lower, to.waypoint.lower),
                    upper = path_bounds(robot.platform, from.upper, to.waypoint.upper);
@@ -121,7 +123,7 @@ bool bounded(const Robot& robot, const Waypoint& from, const Target& to, double 
   const double kept = 1.0 - to.beta * std::sqrt(change2);
   if (!(kept > 0.0)) return false;
   const double start = to.seed.newton_step(from.residual.cwiseQuotient(to.scale)).norm();
-  const double eta = std::max(start, to.eta) + to.beta * std::sqrt(bend2);
+  const double eta = std::max(start, to.eta) + to.beta * (std::sqrt(bend2) + to.error);
   const double scale = std::sqrt(lipschitz2) * to.beta / kept;
   return scale * eta / kept <= proved && scale * away <= 1.0;
 }
@@ -151,7 +153,7 @@ Mat3 middle_rotation(const Mat3& a, const Mat3& b) {
 /// only mode near it is the start's at the start, and the one reached at the end.
 bool proved_from_middle(const Robot& robot, const Vec9& from, const Vec9& to, const Mat3& start, const Mat3& end) {
   const Mat3 middle = middle_rotation(start, end);
-  const double away = 0.5 * angle_between(start, end) + angle_rounding;
+  const double away = 0.5 * angle_between(start, end);
   std::optional<Target> first, last;
   return set_target(robot, from, middle, first) == Reach::yes && set_target(robot, to, middle, last) == Reach::yes &&
          proved_between(robot, first->waypoint, *last, middle, away);
@@ -175,7 +177,8 @@ Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, con
   if (out.certificate <= certified) out.alone_within = (1.0 + root) / scale;
   const double angle = angle_between(polished.rotation, rotation);
   // The mode whose existence near the start is proved lies within the first radius of Kantorovich's theorem.
-  if (forward && !(angle <= (1.0 - root) / scale + angle_rounding)) return out;
+  const double angle_error = known_to / out.separation + 8.0 * eps;
+  if (forward && !(angle <= (1.0 - root) / scale + angle_error)) return out;
   if (!forward) {
     if (out.certificate > certified && !(angle < ball * out.separation)) return out;
     if (!proved_from_middle(robot, start.lengths, lengths, rotation, polished.rotation)) return out;
@@ -190,11 +193,12 @@ Vec3 platform_point(const Configuration& c) {
   return c.rotation.transpose() * (c.internal_point - c.position);
 }
 
-/// det N times a positive number: of rows (Q w) x d with vectors d and w of any length.
+/// det N times a positive number: of unit rows (Q w) x d with vectors d and w of any length.
 double scaled_det_n(const Geometry& g, const InternalPoints& at, const Mat3& rotation) {
   Triple row;
   for (std::size_t i = 0; i < 3; ++i)
-    row[i] = (rotation * (g.platform_external()[i] - at.o)).cross(g.base_external()[i] - at.s);
+    row[i] =
+        (rotation * (g.platform_external()[i] - at.o)).normalized().cross((g.base_external()[i] - at.s).normalized());
   return row[0].dot(row[1].cross(row[2]));
 }
 

@@ -97,7 +97,7 @@ class DesignSpace:
 
         In each, l_c is the distance of that joint, which has no kink. Itself alone for any other l_c.
         """
-        if not self._farthest:
+        if not self._farthest or not len(self.free):
             return [self]
         distances = platform_distances(self.robot(self.x))
         slopes = differences(lambda y: platform_distances(self.robot(y)), self.x, self.size, self.low, self.high)

@@ -42,10 +42,12 @@ class WorkspaceMap(Saved):
     """Length unit cubed; of orientations by Haar's measure, radians cubed, 8 pi^2 being all of SO(3)."""
     error: float
     """Estimate of the error of the volume. Octree: from the differences of levels, plus `unseen`. Grid: from random
-    errors of the boundary cells. Sample: the standard error over the shifts."""
+    errors of the boundary cells. Sample: the standard error over the shifts. With `singularity_free` it does not
+    include a part that only a neck thinner than the smallest cell connects with home."""
     unseen: float
-    """Upper bound, at 95 % confidence, of the volume of features that corners of cells do not show, by the poses that
-    audit them: a part of `error` of an octree. Zero if leg lengths alone prove every cell that corners do not cut."""
+    """Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor the poses that
+    audit them show: a part of `error` of an octree. Many separate ones, of which some were found, may be larger.
+    Zero if leg lengths alone prove every cell that corners do not cut."""
     chart_volume: float
     """Volume of the whole box or region."""
     box_limits: bool

@@ -21,7 +21,7 @@ struct Design {
   Geometry geometry;
   std::vector<Configuration> at;
 
-  std::vector<Configuration> looked(const Limit& limit) const {
+  std::vector<Configuration> looked(const Limit& limit = {}) const {
     if (limit.at == ninedof::LimitAt::neutral) return {at.front()};
     return at.size() > 1 ? std::vector(at.begin() + 1, at.end()) : at;
   }

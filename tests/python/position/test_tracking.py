@@ -139,6 +139,17 @@ def test_random_steps_end_where_short_ones_do(published, design):
     assert tracked > size(60, 6_000)
 
 
+@pytest.mark.parametrize("unit", [1e-60, 1e-30, 1e30, 1e60])
+def test_any_length_unit(published, home, unit):
+    there = home.moved([0.02, 0.01, 0.03, 0.02, 0.01, 0.01, 0.03, 0.01, 0.02])
+    big = nd.Geometry.hexagonal(a1=0.0, a2=5.8124 * unit, b1=2.9062 * unit, b2=0.0)
+    start = nd.Configuration(home.position * unit, home.rotation, home.internal_point * unit)
+    found = nd.track(big, nd.leg_lengths(published, there) * unit, start)
+    assert found.status == "tracked"
+    assert_allclose(found.rotation, there.rotation, atol=1e-12)
+    assert_allclose(found.position / unit, there.position, atol=1e-12)
+
+
 def test_a_trajectory_is_its_steps(published, home):
     t = np.linspace(0.0, 2.0 * np.pi, 60)[:, None]
     a, b, c, ramp = np.sin(t), np.sin(2.0 * t), np.cos(t) - 1.0, t / 6.0

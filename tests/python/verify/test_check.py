@@ -255,3 +255,11 @@ def test_beside_the_optimum_every_kind_of_study_fails(name):
     wrong = check(moved(solved(name), zs=1e-3), perturbations=0)
     assert not wrong["stationarity"].passed
     assert wrong["stationarity"].figure > 1e-5
+
+
+def test_a_design_without_a_free_variable_is_checked_in_its_own_radius():
+    """Three platform joints tie for the characteristic length, and nothing can be varied."""
+    values = {"a1": 1.0, "a2": 5.0, "b1": 2.5, "b2": 0.5, "zp": 4.0, "zs": 2.4}
+    study = nd.Study(variables={k: (x, x) for k, x in values.items()}, characteristic_length="platform_radius")
+    found = check(nd.optimize(study))
+    assert found.passed, found.report()

@@ -20,12 +20,13 @@ namespace ninedof {
 /// How thorough the search is.
 struct Settings {
   /// Low-discrepancy starts of one batch. If fewer than 16, and at most half, of those run to their end reach the best
-  /// objective, further batches follow, `most_batches` in all. One start alone is never followed by others.
+  /// objective, or a feasible design is better than all ends, further batches follow: `most_batches` in all for each cap
+  /// of open variables. One start alone is never followed by others.
   int starts = 64;
   static constexpr int most_batches = 4;
   std::uint64_t seed = 0;                  ///< shifts their sequence
   int threads = 0;                         ///< 0: one per processor; the result does not depend on it
-  int max_evaluations = 500;               ///< of one SLSQP call; a start that does not converge makes up to four
+  int max_evaluations = 500;               ///< of one SLSQP call; a start makes several where it does not converge
   std::vector<Eigen::VectorXd> warm = {};  ///< additional starts, full sets of variables
 
   /// Throws InvalidArgument naming what is wrong.

@@ -133,9 +133,12 @@ struct WorkspaceLevel {
 struct WorkspaceMap {
   WorkspaceStatus status = WorkspaceStatus::empty;
   double volume = std::numeric_limits<double>::quiet_NaN();  ///< length^3, or radians^3 (8 pi^2 is all of SO(3))
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< estimate, with `unseen`; a standard error for a sample
-  /// Upper bound, at 95 % confidence, of the volume of features that corners of cells do not show, by the audit poses:
-  /// a part of `error`. Without cells, of what every point missed.
+  double error =
+      std::numeric_limits<double>::quiet_NaN();  ///< estimate, with `unseen`; a standard error for a sample. Not of
+  ///< a part beyond a neck thinner than the smallest cell.
+  /// Upper bound, at 95 % confidence, of the volume of a feature that neither corners of cells nor audit poses show: a
+  /// part of `error`. Many separate ones, of which the audit found some, may be larger. Without cells, of what every
+  /// point missed.
   double unseen = 0.0;
   double chart_volume = 0.0;  ///< of the box or region
   bool box_limits = false;  ///< the workspace reaches the faces of the box or region: a larger one would contain more
@@ -176,8 +179,8 @@ std::vector<Mat3> spread_rotations(int count, double angle = 3.14159265358979323
 /// Legs and the region are decided by bounds over the whole cell: it is proved to be outside if a leg violates its
 /// limit throughout, and inside if nothing else limits and all legs are within theirs throughout. Other criteria are
 /// judged: all nine points agree by more than the margins may curve between them. The rest are divided repeatedly. In
-/// the smallest cells the boundary is taken as linear in six tetrahedra, so that the error of the volume is proportional
-/// to the square of the cell size. An audit evaluates poses of a low-discrepancy sequence: a cell that one of them
+/// the smallest cells the boundary is taken as linear in six tetrahedra, so that the error of the volume is
+/// proportional to the square of the cell size. An audit evaluates poses of a low-discrepancy sequence: a cell that one of them
 /// contradicts is divided too. `error` compares levels, and includes `unseen`: what may still be hidden.
 ///
 /// The best O is that of best_internal_map at the first corners (or the centres of a grid). At any other point it is

@@ -1,8 +1,8 @@
 #pragma once
 /// The kink of the characteristic length "platform_radius", the largest of several distances.
 ///
-/// The designs where one platform joint k is the farthest are one smooth piece of the problem: l_c is the distance of k,
-/// and no other distance is larger. The pieces meet where distances tie. A design there is a minimum if it is one of
+/// The designs where one platform joint k is the farthest are one smooth piece of the problem: l_c is the distance of
+/// k, and no other distance is larger. The pieces meet where distances tie. A design there is a minimum if it is one of
 /// every piece it belongs to.
 
 #include "design/constraints/constraint.hpp"

@@ -54,8 +54,8 @@ struct PreparedProblem {
   double violation_factor(int k) const;
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;
-  /// The pieces of the characteristic length that a design at `y` belongs to, as DesignState::length_joint, the farthest
-  /// joint first; -1 alone where it has no kink.
+  /// The pieces of the characteristic length that a design at `y` belongs to, as DesignState::length_joint, the
+  /// farthest joint first; -1 alone where it has no kink.
   std::vector<int> pieces(const Eigen::VectorXd& y) const;
   /// `y` with the best values of the constraints' auxiliary variables.
   Eigen::VectorXd with_auxiliary(const Eigen::VectorXd& y) const;

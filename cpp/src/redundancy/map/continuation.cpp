@@ -42,7 +42,8 @@ Continuation continued_from(const Geometry& g, const PlatformPose& pose, const I
     seen.push_back(found.s);
     if (!replaces(problem.criterion, found, out.best)) continue;
     // Of the same signs there may be several chambers.
-    if (has_point(found.point) && !reach[at_index(chamber - signs.begin())].reaches(scaled.scaled(found.s))) continue;
+    if (!reach[at_index(chamber - signs.begin())].reaches(has_point(found.point) ? scaled.scaled(found.s) : x))
+      continue;
     out.best = found;
   }
   return out;

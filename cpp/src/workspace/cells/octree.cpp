@@ -160,7 +160,8 @@ class OctreeBuilder {
     const long hits = tree.disagreement.poses;
     const double now = audit.more(hits, unproved_, wanted - resolved_), least = audit.more(0, unproved_, wanted);
     if (least > static_cast<double>(left)) return left;  // out of reach, but as near as possible
-    return now - least > static_cast<double>(cost) || now > static_cast<double>(left) ? 0 : std::lround(now);
+    const bool dividing_is_cheaper = cost > 0 && now - least > static_cast<double>(cost);
+    return dividing_is_cheaper || now > static_cast<double>(left) ? 0 : std::lround(now);
   }
 
   long open_cells() const {

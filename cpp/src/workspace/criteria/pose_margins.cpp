@@ -93,6 +93,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   if (set_) {
     bounded_[0] = all_bounded_;
     for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[0] = bounded_[0] && !bounds_->constant(n);
+    all_bounded_ = bounded_[0];
     return;
   }
   for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[n] = !bounds_->constant(n);

@@ -109,7 +109,8 @@ void inscribe(const std::vector<Leaf>& leaves, const CellLattice& lattice, const
       const Vec3 middle = 0.5 * (map.box.low + map.box.high);
       const Vec3 half = 0.5 * (map.box.high - map.box.low);
       const double scale = allowed_scale({middle, half, true}, margins, control);
-      if (scale < 1.0) map.box = {middle - scale * half, middle + scale * half};
+      if (!(scale > 0.0)) map.box = {};
+      else if (scale < 1.0) map.box = {middle - scale * half, middle + scale * half};
     }
   }
   if (!(map.ball.radius > 0.0)) map.ball = {};
