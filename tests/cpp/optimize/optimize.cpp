@@ -192,9 +192,9 @@ TEST_SUITE("optimize") {
     for (int n = 0; n < cases(10); ++n) problems.push_back(random_problem(random));
     problems.push_back(pose_study(ninedof::Aggregate::weighted));
     for (const Problem& p : problems) {
-      const Result one = optimize(p, {.starts = 24, .seed = 5, .threads = 1});
+      const Result one = optimize(p, {.starts = cases(24), .seed = 5, .threads = 1});
       for (const int threads : {1, 2, 3})
-        CHECK(same_bits(optimize(p, {.starts = 24, .seed = 5, .threads = threads}), one));
+        CHECK(same_bits(optimize(p, {.starts = cases(24), .seed = 5, .threads = threads}), one));
     }
   }
 
