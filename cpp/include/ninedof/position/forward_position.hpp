@@ -14,7 +14,8 @@ namespace ninedof {
 /// error of a leg much shorter than the robot is larger in proportion, because the equations contain squared lengths.
 /// If base and platform are both planar, half the modes are mirror images of the other half.
 ///
-/// The length unit does not matter: times a power of two, the same bits.
+/// The length unit does not matter: in one that is larger or smaller by a power of two the bits are the same, unless a
+/// leg is 1e-40 times as long as the robot.
 ///
 /// Throws InvalidArgument unless all lengths are finite, none is negative and one is positive.
 AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths,
