@@ -40,8 +40,8 @@ DesignEvaluation evaluate_what_matters(const PreparedProblem& p, Eigen::VectorXd
 }
 
 /// Numbers that agree for equal robots up to reflection, renumbering, a shift along z, size where only the shape
-/// matters, and variables without effect: logarithms of neutral leg lengths, joint radii and the height of the platform above O
-/// in mean leg lengths, and of condition numbers.
+/// matters, and variables without effect: logarithms of neutral leg lengths, joint radii and the height of the platform
+/// above O in mean leg lengths, and of condition numbers.
 Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   const DesignEvaluation design = evaluate_what_matters(p, p.coordinates.coordinates(c.variables));
   std::vector<double> all(design.state.pose(0).legs.length.begin(), design.state.pose(0).legs.length.end());

@@ -186,9 +186,11 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
     run_all(p, batch.count(), [&](int k) { return batch.start(k); }, true, full_run, s, control, &progress, round);
     for (std::size_t k = before; k < round.runs.size(); ++k) round.done += round.runs[k] != nullptr;
   }
-  std::vector<Eigen::VectorXd> more;
-  for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
-  if (batch.number == 0) run_all(p, more, false, full_run, s, control, round);
+  if (batch.number == 0) {
+    std::vector<Eigen::VectorXd> more;
+    for (const Eigen::VectorXd& x : further) more.push_back(p.coordinates.coordinates(x));
+    run_all(p, more, false, full_run, s, control, round);
+  }
   if (p.coordinates.size() > 1 && s.starts > 1 && !starts_agree(round)) {
     const int count = extra_start_count(p, round.runs.size() - before);
     run_all(p, recombined(p, s, round, count), false, full_run, s, control, round);

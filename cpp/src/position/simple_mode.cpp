@@ -1,9 +1,9 @@
 #include "position/simple_mode.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "math/linear/jacobi_svd.hpp"
 #include "math/rows_of.hpp"
 
 namespace ninedof {
@@ -25,9 +25,7 @@ bool linear_along_weakest(const RotationProblem& problem, const PolishedRotation
   if (!(reach <= farthest)) return false;
   // Turn by `reach` along the weakest direction, on the path where the other two equations hold. There the third one
   // must have changed by `error`, as the linear equations predict.
-  const Eigen::JacobiSVD<Mat3> svd(rows_of(mode.at.row), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat3 &u = svd.matrixU(), &v = svd.matrixV();
-  const Vec3 size = svd.singularValues();
+  const auto [size, u, v] = jacobi_svd(rows_of(mode.at.row));
   if (!(size[1] * size[1] >= 3.5 * error)) return false;  // two weak directions
   for (const double side : {1.0, -1.0}) {
     Mat3 q = turned(side * reach * v.col(2), mode.rotation);
@@ -42,7 +40,7 @@ bool linear_along_weakest(const RotationProblem& problem, const PolishedRotation
 }
 
 Vec3 weakest_direction(const RotationResidual& at) {
-  return Eigen::JacobiSVD<Mat3>(rows_of(at.row), Eigen::ComputeFullU | Eigen::ComputeFullV).matrixV().col(2);
+  return jacobi_svd(rows_of(at.row)).v.col(2);
 }
 
 }  // namespace ninedof
