@@ -19,6 +19,7 @@
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "support/baseline_motion.hpp"
 #include "support/data.hpp"
 
 namespace {
@@ -33,17 +34,7 @@ using ninedof::Vec9;
 
 /// Derivative of the nine lengths by the coordinates of `plus`.
 Mat9 rates(const Geometry& g, const Configuration& c) {
-  Mat9 h = Mat9::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const Vec3 v = c.rotation * g.platform_external()[i], u = c.rotation * g.platform_internal()[i];
-    const Vec3 l = (c.position + v - g.base_external()[i]).normalized(),
-               q = (c.position + u - c.internal_point).normalized();
-    h.row(row) << v.cross(l).transpose(), l.transpose(), 0.0, 0.0, 0.0;
-    h.row(row + 3) << u.cross(q).transpose(), q.transpose(), -q.transpose();
-    h.row(row + 6).tail<3>() = (c.internal_point - g.base_internal()[i]).normalized();
-  }
-  return h;
+  return bench::plain::rates(bench::plain::Legs(g, c));
 }
 
 /// The configuration at the end of a straight path of lengths, with steps so small that Newton's corrections are a

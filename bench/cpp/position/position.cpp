@@ -4,6 +4,7 @@
 #include "ninedof/position/tracking.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/baseline.hpp"
+#include "support/baseline_motion.hpp"
 #include "support/over_poses.hpp"
 
 namespace bench {
@@ -70,17 +71,7 @@ Configuration plain_newton(const Geometry& g, const Vec9& lengths, Configuration
   for (int k = 0; k < 20; ++k) {
     const Vec9 error = lengths - plain::leg_lengths(g, c);
     if (error.cwiseAbs().maxCoeff() < 1e-13) break;
-    Eigen::Matrix<double, 9, 9> h = Eigen::Matrix<double, 9, 9>::Zero();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      const Vec3 u = c.rotation * g.platform_external()[i], u_tilde = c.rotation * g.platform_internal()[i];
-      const Vec3 e = (c.position + u - g.base_external()[i]).normalized();
-      const Vec3 e_tilde = (c.internal_point - c.position - u_tilde).normalized();
-      h.row(row) << u.cross(e).transpose(), e.transpose(), 0.0, 0.0, 0.0;
-      h.row(row + 3) << -u_tilde.cross(e_tilde).transpose(), -e_tilde.transpose(), e_tilde.transpose();
-      h.row(row + 6).tail<3>() = (c.internal_point - g.base_internal()[i]).normalized();
-    }
-    c = ninedof::plus(c, h.partialPivLu().solve(error));
+    c = ninedof::plus(c, plain::NineFactors(plain::Legs(g, c)).solve(error));
   }
   return c;
 }

@@ -23,27 +23,26 @@ using ninedof::Velocity;
 
 /// Leg vectors with their lengths and directions, platform joints in base axes; eqs. (11)-(13).
 struct Legs {
+  Legs(const Geometry& g, const Configuration& c);
   Mat3 e, e_tilde, e_hat, u, u_tilde;  // columns
   Vec3 l, q, r;
 };
 
-inline Legs legs(const Geometry& g, const Configuration& c) {
-  Legs k;
+inline Legs::Legs(const Geometry& g, const Configuration& c) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto n = static_cast<Eigen::Index>(i);
-    k.u.col(n) = c.rotation * g.platform_external()[i];
-    k.u_tilde.col(n) = c.rotation * g.platform_internal()[i];
-    k.e.col(n) = c.position + k.u.col(n) - g.base_external()[i];
-    k.e_tilde.col(n) = c.internal_point - c.position - k.u_tilde.col(n);
-    k.e_hat.col(n) = c.internal_point - g.base_internal()[i];
-    k.l[n] = k.e.col(n).norm();
-    k.q[n] = k.e_tilde.col(n).norm();
-    k.r[n] = k.e_hat.col(n).norm();
-    k.e.col(n) /= k.l[n];
-    k.e_tilde.col(n) /= k.q[n];
-    k.e_hat.col(n) /= k.r[n];
+    u.col(n) = c.rotation * g.platform_external()[i];
+    u_tilde.col(n) = c.rotation * g.platform_internal()[i];
+    e.col(n) = c.position + u.col(n) - g.base_external()[i];
+    e_tilde.col(n) = c.internal_point - c.position - u_tilde.col(n);
+    e_hat.col(n) = c.internal_point - g.base_internal()[i];
+    l[n] = e.col(n).norm();
+    q[n] = e_tilde.col(n).norm();
+    r[n] = e_hat.col(n).norm();
+    e.col(n) /= l[n];
+    e_tilde.col(n) /= q[n];
+    e_hat.col(n) /= r[n];
   }
-  return k;
 }
 
 /// F and G of eqs. (30)-(35) without the characteristic length, and B.
@@ -92,7 +91,7 @@ inline Mat9 rates(const Legs& k) {
 }
 /// Condition number of that matrix: how much of an answer rounding may take.
 inline double conditioning(const Geometry& g, const Configuration& c) {
-  const Vec9 sigma = Eigen::JacobiSVD<Mat9>(rates(legs(g, c))).singularValues();
+  const Vec9 sigma = Eigen::JacobiSVD<Mat9>(rates(Legs(g, c))).singularValues();
   return sigma[0] / sigma[8];
 }
 
@@ -104,7 +103,7 @@ struct NineFactors {
 
 template <class Solver>
 Velocity forward_velocity(const Geometry& g, const Configuration& c, const Vec9& leg_rates) {
-  const Vec9 v = Solver(legs(g, c)).solve(leg_rates);
+  const Vec9 v = Solver(Legs(g, c)).solve(leg_rates);
   return {v.head<3>(), v.segment<3>(3), v.tail<3>()};
 }
 
@@ -112,7 +111,7 @@ Velocity forward_velocity(const Geometry& g, const Configuration& c, const Vec9&
 template <class Solver>
 Acceleration forward_acceleration(const Geometry& g, const Configuration& c, const Vec9& leg_rates,
                                   const Vec9& leg_accelerations) {
-  const Legs k = legs(g, c);
+  const Legs k(g, c);
   const Solver solver(k);
   const Vec9 v = solver.solve(leg_rates);
   const Vec3 omega = v.head<3>(), pdot = v.segment<3>(3), sdot = v.tail<3>();
@@ -133,7 +132,7 @@ Acceleration forward_acceleration(const Geometry& g, const Configuration& c, con
 
 /// F^-1 (Gdot - Fdot J'), with d/dt(C B^-1) = (Cdot - C B^-1 Bdot) B^-1.
 inline Mat69 jacobian_rate(const Geometry& g, const Configuration& c, const Velocity& v, double characteristic_length) {
-  const Legs k = legs(g, c);
+  const Legs k(g, c);
   const Systems s = systems(k);
   const auto direction_dot = [](const Vec3& e, double length, const Vec3& speed) {
     return Vec3((speed - e.dot(speed) * e) / length);

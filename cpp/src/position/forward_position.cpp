@@ -4,15 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "ninedof/math/error.hpp"
 #include "ninedof/position/trilateration.hpp"
 #include "position/branch.hpp"
+#include "position/length_unit.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr double planar = 1e-14;  // distance from a plane, relative to the triangle of joints, that is rounding
-constexpr double ordinary = 0x1p100;  // between 2^-100 and 2^100 no product of up to five lengths overflows
 
 bool in_plane(const SphereCentres& plate, const Triple& joints) {
   return std::ranges::all_of(joints, [&](const Vec3& j) { return std::abs(plate.height(j)) <= planar * plate.length; });
@@ -32,27 +31,6 @@ struct SidedPoints {
 SidedPoints sided_points(const SphereCentres& plate, const Meeting& m) {
   if (m.kind == Meeting::touching) return {{{{m.above, 0}}}, 1};
   return {{{{m.above, 1}, {plate.mirrored(m.above), -1}}}, 2};
-}
-
-double largest_coordinate(const Geometry& g) {
-  const auto largest = [](const Triple& t) { return Eigen::Map<const Vec9>(t[0].data()).lpNorm<Eigen::Infinity>(); };
-  return std::max({largest(g.base_external()), largest(g.base_internal()), largest(g.platform_external()),
-                   largest(g.platform_internal())});
-}
-
-/// The joints times a power of two; none if a plate is lost by underflow.
-std::optional<Geometry> scaled(const Geometry& g, int exponent) {
-  const auto times = [&](Triple t) {
-    for (Vec3& joint : t)
-      for (double& x : joint) x = std::ldexp(x, exponent);
-    return t;
-  };
-  try {
-    return Geometry(times(g.base_external()), times(g.base_internal()), times(g.platform_external()),
-                    times(g.platform_internal()));
-  } catch (const InvalidArgument&) {
-    return {};
-  }
 }
 
 Mat3 mirror(const Vec3& normal) {
@@ -152,33 +130,26 @@ AssemblyModes solve_ordinary(const Geometry& g, const Vec9& leg_lengths, Rotatio
   return out;
 }
 
-/// In a unit that makes the largest number about 1. A power of two changes no digits.
-AssemblyModes solve_scaled(const Geometry& g, const Vec9& leg_lengths, int exponent, RotationMethod method) {
-  AssemblyModes out;
-  const std::optional<Geometry> unit = scaled(g, -exponent);
-  Vec9 lengths = leg_lengths;
-  for (double& length : lengths) length = std::ldexp(length, -exponent);
-  if (!unit || lengths.isZero(0.0)) {
-    out.obstacle = PositionObstacle::external_legs;
-    out.certain = false;
-    return out;
-  }
-  out = solve_ordinary(*unit, lengths, method);
-  for (int k = 0; k < out.count; ++k) {
-    Configuration& c = out.mode[at_index(k)].configuration;
-    for (Vec3* point : {&c.position, &c.internal_point})
-      for (double& x : *point) x = std::ldexp(x, exponent);
-  }
-  return out;
-}
-
 }  // namespace
 
 AssemblyModes forward_position(const Geometry& g, const Vec9& leg_lengths, RotationMethod method) {
   require_leg_lengths(leg_lengths);
-  const double largest = std::max(largest_coordinate(g), leg_lengths.maxCoeff());
-  if (largest < ordinary && largest > 1.0 / ordinary) return solve_ordinary(g, leg_lengths, method);
-  return solve_scaled(g, leg_lengths, std::ilogb(largest), method);
+  const int exponent = unit_exponent(std::max(largest_coordinate(g), leg_lengths.maxCoeff()));
+  if (exponent == 0) return solve_ordinary(g, leg_lengths, method);
+  const std::optional<Geometry> in_unit = scaled(g, -exponent);
+  const Vec9 lengths = scaled(leg_lengths, -exponent);
+  if (!in_unit || lengths.isZero(0.0)) {
+    AssemblyModes out;
+    out.obstacle = PositionObstacle::external_legs;
+    out.certain = false;
+    return out;
+  }
+  AssemblyModes out = solve_ordinary(*in_unit, lengths, method);
+  for (int k = 0; k < out.count; ++k) {
+    Configuration& c = out.mode[at_index(k)].configuration;
+    c = scaled(c, exponent);
+  }
+  return out;
 }
 
 }  // namespace ninedof

@@ -8,6 +8,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/robot/legs.hpp"
+#include "position/length_unit.hpp"
 #include "position/path_bounds.hpp"
 #include "position/polish_rotation.hpp"
 #include "position/rotation_problem.hpp"
@@ -230,10 +231,21 @@ Tracked Tracked::not_tried() {
   return {TrackStatus::lost, nowhere, not_a_number, not_a_number, not_a_number, 0, 0.0};
 }
 
-Tracker::Tracker(const Geometry& g) : geometry_(g), base_(g.base_internal()), platform_(g.platform_internal()) {}
+Tracker::Tracker(const Geometry& g)
+    : exponent_(unit_exponent(largest_coordinate(g))),
+      geometry_(exponent_ == 0 ? g : scaled(g, -exponent_).value_or(g)),
+      base_(geometry_.base_internal()),
+      platform_(geometry_.platform_internal()) {}
 
 Tracked Tracker::operator()(const Vec9& leg_lengths, const Configuration& start) const {
   require_leg_lengths(leg_lengths);
+  if (exponent_ == 0) return follow(leg_lengths, start);
+  Tracked out = follow(scaled(leg_lengths, -exponent_), scaled(start, -exponent_));
+  out.configuration = scaled(out.configuration, exponent_);
+  return out;
+}
+
+Tracked Tracker::follow(const Vec9& leg_lengths, const Configuration& start) const {
   const Vec3 o = platform_point(start);
   const Robot robot{geometry_,           base_,
                     platform_,           base_.height(start.internal_point),

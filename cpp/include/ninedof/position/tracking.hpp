@@ -54,6 +54,9 @@ class Tracker {
   Tracked operator()(const Vec9& leg_lengths, const Configuration& start) const;
 
  private:
+  Tracked follow(const Vec9& leg_lengths, const Configuration& start) const;
+
+  int exponent_;  ///< of two: all that follows is in this unit, 1 for robots of ordinary size
   Geometry geometry_;
   SphereCentres base_, platform_;
 };
