@@ -1,6 +1,7 @@
 #include "ninedof/design/objective.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "ninedof/math/error.hpp"
 
@@ -25,8 +26,13 @@ Aggregate aggregate_from(const std::string& word) {
 void Objective::validate() const {
   if (!(weight >= 0.0 && weight <= 1.0))
     throw InvalidArgument("objective.weight", format_number(weight), "a number from 0 to 1");
-  if (!(condition_limit >= 1.0))
-    throw InvalidArgument("objective.condition_limit", format_number(condition_limit), "a number of at least 1");
+  for (const auto& [name, limit] : {std::pair{"objective.condition_limit", condition_limit},
+                                    std::pair{"objective.neutral_condition_limit", neutral_condition_limit}}) {
+    if (!(limit >= 1.0)) throw InvalidArgument(name, format_number(limit), "a number of at least 1");
+    if (index == Index::six_legged && std::isfinite(limit))
+      throw InvalidArgument(name, format_number(limit),
+                            "none with the index six_legged: the limit is of the nine-legged robot");
+  }
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Pose& p = poses[k];
     if (!p.position.allFinite() || !p.rotation.allFinite() || !p.internal.allFinite())
@@ -36,9 +42,6 @@ void Objective::validate() const {
   if (index == Index::six_legged && !poses.empty())
     throw InvalidArgument("objective.poses", std::to_string(poses.size()) + " poses",
                           "none: the index six_legged is for the neutral pose");
-  if (index == Index::six_legged && std::isfinite(condition_limit))
-    throw InvalidArgument("objective.condition_limit", format_number(condition_limit),
-                          "none with the index six_legged: the limit is of the nine-legged robot");
 }
 
 }  // namespace ninedof

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -157,8 +157,9 @@ def _unit(axis: Sequence[float]) -> list[float]:
 
 def _each_of(limits: Limits) -> Sequence[Limit]:
     """Return one limit or several in normal form as a sequence; a pair of numbers is one limit."""
-    several = isinstance(limits, tuple) and isinstance(limits[0], Mapping)
-    return limits if several else (limits,)  # type: ignore[return-value]
+    if isinstance(limits, tuple) and isinstance(limits[0], Mapping):
+        return cast("tuple[Limit, ...]", limits)
+    return (cast("Limit", limits),)
 
 
 def _table(low: float | None, high: float | None, options: Mapping[str, Any]) -> dict[str, Any]:

@@ -20,6 +20,8 @@ AGGREGATES = {
     "mean_inverse": "harmonic mean of the {index}",
     "weighted": "worst and harmonic mean, weighted, of the {index}",
 }
+CONDITION_LIMITS = ("condition_limit", "neutral_condition_limit")
+NUMBERS = ("aggregate", "weight", *CONDITION_LIMITS)
 SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
 SET_KEYS = {name: list(signature(make).parameters) for name, make in SETS.items()}  # the first of each is required
 
@@ -42,6 +44,8 @@ class Objective:
         Share of the worst in "weighted", in logarithms, from 0 to 1; 0.5 by default.
     condition_limit : float, optional
         Bound on the condition number at every pose, whatever the index; at least 1. None by default.
+    neutral_condition_limit : float, optional
+        The same at the neutral configuration alone, whatever the poses.
     poses : sequence of Pose or mappings
         Where the design is evaluated; by default at the neutral pose only. See `ninedof.poses`.
 
@@ -63,6 +67,7 @@ class Objective:
     aggregate: str = "worst"
     weight: float = 0.5
     condition_limit: float | None = None
+    neutral_condition_limit: float | None = None
     poses: tuple[Pose, ...] = ()
 
     def __post_init__(self) -> None:
@@ -72,7 +77,7 @@ class Objective:
             "index": _index(self.index),
             "aggregate": choice("objective.aggregate", self.aggregate, AGGREGATES),
             "weight": finite("objective.weight", self.weight, 0.0, 1.0),
-            "condition_limit": _condition_limit(self.condition_limit),
+            **{name: _condition_limit(name, getattr(self, name)) for name in CONDITION_LIMITS},
             "poses": tuple(_pose(k, pose) for k, pose in enumerate(listed)),
         }.items():
             object.__setattr__(self, name, value)
@@ -98,7 +103,7 @@ class Objective:
         known_keys(
             "objective",
             data,
-            ["index", "aggregate", "weight", "condition_limit", "internal_point", "unit", "poses", *SETS],
+            ["index", *NUMBERS, "internal_point", "unit", "poses", *SETS],
         )
         defaults = {name: data[name] for name in ("internal_point", "unit") if name in data}
         found: list[Pose] = []
@@ -113,12 +118,12 @@ class Objective:
                 found.extend(_named(where, make, **(defaults | dict(data[name]))))
         if defaults:
             _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
-        rest = {n: data[n] for n in ("index", "aggregate", "weight", "condition_limit") if n in data}
+        rest = {name: data[name] for name in ("index", *NUMBERS) if name in data}
         return cls(poses=tuple(found), **rest)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""
-        numbers = {name: getattr(self, name) for name in ("aggregate", "weight", "condition_limit")}
+        numbers = {name: getattr(self, name) for name in NUMBERS}
         changed = {name: value for name, value in numbers.items() if value != getattr(Objective, name)}
         poses = {"poses": [pose.to_dict() for pose in self.poses]} if self.poses else {}
         return {"index": self.index, **changed, **poses}
@@ -129,7 +134,7 @@ class Objective:
             "index": self.index,
             "aggregate": self.aggregate,
             "weight": self.weight,
-            "condition_limit": math.inf if self.condition_limit is None else self.condition_limit,
+            **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
             "poses": [pose.for_core() for pose in self.poses],
         }
 
@@ -140,10 +145,10 @@ def _index(value: Any) -> str:
     return str(known[choice("objective.index", value, known)].objective)
 
 
-def _condition_limit(value: Any) -> float | None:
-    if value is None or (number("objective.condition_limit", value) == math.inf):
+def _condition_limit(name: str, value: Any) -> float | None:
+    if value is None or (number(f"objective.{name}", value) == math.inf):
         return None
-    return finite("objective.condition_limit", value, least=1.0)
+    return finite(f"objective.{name}", value, least=1.0)
 
 
 def _pose(index: int, value: Any, **defaults: Any) -> Pose:

@@ -23,12 +23,14 @@ class ObjectiveRule:
     aggregate: str = "worst"
     weight: float = 0.5
     condition_limit: float = math.inf
+    neutral_condition_limit: float = math.inf
 
     @classmethod
     def of(cls, study: Study) -> ObjectiveRule:
         """Return the objective of a study."""
         o = study.objective
-        return cls(o.index, o.aggregate, o.weight, math.inf if o.condition_limit is None else o.condition_limit)
+        limits = (math.inf if limit is None else limit for limit in (o.condition_limit, o.neutral_condition_limit))
+        return cls(o.index, o.aggregate, o.weight, *limits)
 
     def values(self, robot: Robot) -> Floats:
         """Return the index at every pose of the objective, shape (n,), by the general path."""
@@ -55,10 +57,28 @@ class ObjectiveRule:
         return math.exp(self.weight * math.log(worst) + (1.0 - self.weight) * math.log(harmonic))
 
     def matrices(self, robot: Robot) -> Floats:
-        """Return the matrices whose singular values define the index, shape (n, 6, 9) or (1, 6, 6)."""
+        """Return the matrices whose singular values define the index, shape (n, 6, 9) or (1, 6, 6).
+
+        One more, that of the neutral configuration, comes last where its condition number has a limit of its own.
+        """
         if self.index == "six_legged":
             return six_legged(robot)
-        return jacobian(robot.geometry, robot.poses, robot.length)
+        poses = jacobian(robot.geometry, robot.poses, robot.length)
+        if math.isinf(self.neutral_condition_limit):
+            return poses
+        return np.concatenate([poses, jacobian(robot.geometry, robot.neutral, robot.length)[None]])
+
+    def condition_margins(self, robot: Robot) -> dict[str, Floats]:
+        """Return log(limit / condition number) of each pose with a limit, in the order of `matrices`, by limit."""
+        stated = {
+            "condition_limit": (self.condition_limit, robot.poses),
+            "condition_limit at neutral": (self.neutral_condition_limit, robot.neutral),
+        }
+        return {
+            name: np.log(limit / np.asarray(condition_number(robot.geometry, poses, robot.length)))
+            for name, (limit, poses) in stated.items()
+            if math.isfinite(limit)
+        }
 
 
 class Gradients:
@@ -70,9 +90,12 @@ class Gradients:
         self._values = objective.values(robot)
         self._ends = [ends_of(m, slopes[:, k]) for k, m in enumerate(matrices)]
         self._smooth = [_frobenius(m, slopes[:, k]) for k, m in enumerate(matrices)]
-        limited = math.isfinite(objective.condition_limit) and objective.index != "six_legged"
-        conditions = np.asarray(condition_number(robot.geometry, robot.poses, robot.length)) if limited else np.empty(0)
-        self._held = np.flatnonzero(np.log(conditions) >= math.log(objective.condition_limit) - TIE)
+        first = {"condition_limit": 0, "condition_limit at neutral": len(matrices) - 1}
+        self._held = [
+            first[name] + int(k)
+            for name, margins in objective.condition_margins(robot).items()
+            for k in np.flatnonzero(margins <= TIE)
+        ]
 
     def steepest(self, direction: Floats) -> Floats:
         """Return the gradient of log(objective) with the least slope along a direction; at a tie there are many."""
@@ -86,7 +109,7 @@ class Gradients:
         return mean if o.aggregate == "mean_inverse" else o.weight * best_of_worst + (1.0 - o.weight) * mean
 
     def held(self, direction: Floats) -> list[Floats]:
-        """Return, for each pose on the condition limit, the gradient of log(condition number) with the least slope."""
+        """Return, for each pose on its condition limit, the gradient of log(condition number) with the least slope."""
         return [self._ends[k].steepest(direction) for k in self._held]
 
     def _one(self, k: int, direction: Floats) -> Floats:

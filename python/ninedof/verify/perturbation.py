@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ninedof.conditioning.conditioning import condition_number
 from ninedof.support.arrays import Floats
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.robot import DesignSpace, Indices
@@ -92,7 +91,5 @@ def _judge(
     worst = min((float(m.min()) for m in every if m.size), default=np.inf)
     zp, zs = float(robot.neutral.position[2]), float(robot.neutral.internal_point[2])
     worst = min(worst, zs / zp, 1.0 - zs / zp)
-    if np.isfinite(objective.condition_limit):
-        conditions = np.asarray(condition_number(robot.geometry, robot.poses, robot.length))
-        worst = min(worst, float(np.log(objective.condition_limit / conditions.max())))
+    worst = min([worst, *(float(m.min()) for m in objective.condition_margins(robot).values())])
     return gain, worst, np.concatenate([m[i] for m, i in zip(every, near, strict=True)] or [np.empty(0)])

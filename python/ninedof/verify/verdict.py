@@ -188,10 +188,10 @@ def _numbers(space: DesignSpace, objective: ObjectiveRule, best: Any) -> Iterato
     where = "1 pose" if len(values) == 1 else f"{len(values)} poses"
     sentence = f"{words} {objective.index.replace('_', ' ')} of {where}: {total:.9g}, difference {figure:.1e}"
     yield Finding("objective", figure <= EQUAL * max(1.0, float(ours.max())), figure, sentence)
-    if math.isfinite(objective.condition_limit):
-        margin = float(np.log(objective.condition_limit / poses.max()))
-        sentence = f"worst condition number {poses.max():.6f}, limit {objective.condition_limit:g}"
-        yield Finding("condition_limit", margin >= -FEASIBLE, margin, sentence)
+    for name, each in objective.condition_margins(robot).items():
+        margin = float(each.min())
+        sentence = f"the largest condition number is {math.exp(-margin):.9f} of its limit"
+        yield Finding(name, margin >= -FEASIBLE, margin, sentence)
 
 
 def _limit(space: DesignSpace, limit: Limit, core: float | None) -> Finding:

@@ -2,6 +2,7 @@
 
 import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -198,7 +199,37 @@ def test_an_objective_is_a_value():
 
 
 def test_an_infinite_condition_limit_is_none():
-    assert nd.Objective(condition_limit=INF) == nd.Objective()
+    assert nd.Objective(condition_limit=INF, neutral_condition_limit=INF) == nd.Objective()
+
+
+def test_a_limit_on_the_neutral_condition_number_alone():
+    study = nd.Study(
+        "symmetric",
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
+        objective={"poses": [{"position": [0.3, 0.1, 0.2], "unit": "zp"}, {"rotation_deg": [0, 20, 0]}]},
+        starts=6,
+    )
+    free = nd.optimize(study).best
+    limit = 0.5 * (2.3430924 + free.condition_number)
+    objective = replace(study.objective, neutral_condition_limit=limit)
+    found = nd.optimize(replace(study, objective=objective)).best
+    assert limit < free.condition_number
+    assert found.condition_number == pytest.approx(limit, rel=1e-8)
+    assert found.active.count("condition_limit at neutral") == 1
+    assert found.objective > free.objective
+    # The margin and its gradient, by the number that the point itself has.
+    tight = replace(study, objective=objective, constraints={})
+    at = {name: value * (1.0 + 0.01 * k) for k, (name, value) in enumerate(free.variables.items())}
+
+    def margin(variables):
+        return math.log(limit / tight.evaluate(variables).condition_number)
+
+    point = tight.evaluate(at)
+    assert point.margins == {"condition_limit at neutral": pytest.approx(margin(at), abs=1e-13)}
+    for name, slope in point.margin_gradients["condition_limit at neutral"].items():
+        h = 1e-5
+        up, down = (margin(at | {name: at[name] + way * h}) for way in (1, -1))
+        assert slope == pytest.approx((up - down) / (2 * h), abs=1e-7)
 
 
 BAD = {
@@ -206,6 +237,7 @@ BAD = {
     "aggregate": ("aggregate", ["mean", None, 0.5]),
     "weight": ("weight", [-0.1, 1.1, NAN, True, "0.5", None]),
     "condition_limit": ("condition_limit", [0.9, NAN, -INF, True, "10", (1.0, 2.0)]),
+    "neutral": ("neutral_condition_limit", [0.9, NAN, True, "10"]),
     "poses": ("poses", [None, 3, "stay", nd.Pose(), {"position": [0, 0, 0]}, iter([nd.Pose()])]),
     "entries": (r"poses\[0\]", [[3], [None], ["stay"], [(0.1, 0, 0)], [{"positon": (0, 0, 0)}]]),
 }

@@ -52,6 +52,7 @@ STUDIES = {
             aggregate="weighted",
             weight=1 / 3,
             condition_limit=12.5,
+            neutral_condition_limit=4.5,
             poses=(
                 nd.Pose(),
                 nd.Pose(rotation=(1 / 3, 0, -0.1), unit="zp", internal_point="best"),

@@ -63,6 +63,7 @@ STUDIES = {
         starts=size(2, 8),
     ),
     "neutral": nd.Study("symmetric_nonplanar", constraints=NEUTRAL, objective={"poses": FEW}, starts=8),
+    "neutral condition": nd.Study(constraints=RATIO, objective={"poses": FEW, "neutral_condition_limit": 3.8}),
     "mean leg": nd.Study(constraints=RATIO | {"footprint": (None, 3.0)}, characteristic_length="mean_leg"),
     "general": nd.Study(
         "general", variables=dict.fromkeys(PLATFORM, (-6.0, 6.0)), constraints=LEGS, objective={"poses": FEW}, starts=16

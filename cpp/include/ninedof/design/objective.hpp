@@ -34,6 +34,7 @@ struct Objective {
   double weight = 0.5;  ///< of the worst, where weighted
   /// Bound on the 2-norm condition number at every evaluated pose.
   double condition_limit = std::numeric_limits<double>::infinity();
+  double neutral_condition_limit = std::numeric_limits<double>::infinity();  ///< the same at the neutral configuration
   std::vector<Pose> poses;  ///< none: the neutral configuration alone
 
   /// Throws InvalidArgument naming what is wrong.

@@ -8,7 +8,7 @@
 namespace ninedof {
 namespace {
 
-/// The singular values compared by a margin of condition_limit: log(limit) less the difference of their logarithms.
+/// The singular values compared by a margin of a limit on the condition number: log(limit) less the difference of their logarithms.
 struct ConditionPair {
   int top, bottom;
 };
@@ -29,7 +29,7 @@ void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, D
     if (constraint < 0) {
       const PoseSpectrum& s = spectrum_of(constraint);
       const auto [top, bottom] = condition_pair(s, row);
-      out.margins[k] = std::log(p.problem.objective.condition_limit) - (s.log_sigma[top] - s.log_sigma[bottom]);
+      out.margins[k] = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
     } else out.margins[k] = p.constraints[at_index(constraint)]->margin(out.state, row);
     if (!(out.margins[k] > worst_margin)) out.margins[k] = worst_margin;
   }
@@ -57,14 +57,15 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
   const Eigen::Index n = p.coordinates.size();
   const int poses = p.evaluated_poses();
   const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
-  out.spectra.resize(at_index(poses));
+  out.spectra.resize(at_index(p.evaluated_spectra()));
   out.objective_rows.resize(p.rows);
   out.row_gradient.resize(p.rows, n);
-  for (int k = 0; k < poses; ++k) {
+  for (int k = 0; k < p.evaluated_spectra(); ++k) {
     PoseSpectrum& s = out.spectra[at_index(k)];
-    const int pose = out.state.first_pose + k;
+    const int pose = k < poses ? out.state.first_pose + k : 0;
     if (p.closed[at_index(k)]) closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
-    else general_spectrum(out.state, pose, s, selection == nullptr || selection->poses[at_index(k)]);
+    else general_spectrum(out.state, pose, s, selection == nullptr || selection->spectra[at_index(k)]);
+    if (k >= poses) continue;
     if (out.smoothing > 0.0 && p.has_kinks() && !s.closed)
       fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.objective_rows,
                       out.row_gradient);
@@ -100,7 +101,10 @@ double neutral_condition(const PreparedProblem& p, const DesignEvaluation& desig
 std::vector<double> conditions(const PreparedProblem& p, const DesignEvaluation& design) {
   if (p.problem.objective.index == Index::six_legged) return {neutral_condition(p, design)};
   std::vector<double> out;
-  for (const PoseSpectrum& s : design.spectra) out.push_back(std::exp(s.log_max() - s.log_min()));
+  for (int k = 0; k < p.evaluated_poses(); ++k) {
+    const PoseSpectrum& s = design.spectra[at_index(k)];
+    out.push_back(std::exp(s.log_max() - s.log_min()));
+  }
   return out;
 }
 

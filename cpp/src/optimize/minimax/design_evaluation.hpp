@@ -8,7 +8,7 @@ namespace ninedof {
 /// A design and the derivatives of its rows with respect to the free coordinates.
 struct DesignEvaluation {
   DesignState state;
-  std::vector<PoseSpectrum> spectra;  ///< of the evaluated poses
+  std::vector<PoseSpectrum> spectra;  ///< see PreparedProblem::evaluated_spectra
   Eigen::VectorXd objective_rows, margins;
   Rows row_gradient, margin_gradient;
   Eigen::VectorXd levels;  ///< each the largest of its rows
@@ -20,7 +20,7 @@ struct DesignEvaluation {
 /// The rows that SLSQP is given, and whose derivatives are computed.
 struct RowSelection {
   std::vector<int> row_levels, margins;  ///< indices into those of PreparedProblem, ascending
-  std::vector<bool> poses;  ///< of each evaluated pose: whether a selected row needs its singular values
+  std::vector<bool> spectra;  ///< whether a selected row needs the singular values
 };
 
 /// Evaluates the design at `y` into `out`; all derivatives, or those of a selection. The others are left as they were.

@@ -18,7 +18,7 @@ constexpr double probe_size = 100.0;
 /// Relative difference of distances that tie for the characteristic length.
 constexpr double same_distance = 1e-6;
 
-const std::string condition_limit_name = "condition_limit";
+const std::string condition_limit_name = "condition_limit", neutral_condition_limit_name = "condition_limit at neutral";
 
 int count_auxiliary(const Problem& problem) {
   int count = 0;
@@ -85,8 +85,9 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
   }
   for (std::size_t k = 0; k < constraints.size(); ++k)
     for (int row = 0; row < constraints[k]->rows(); ++row) margins.push_back({static_cast<int>(k), row});
-  if (std::isfinite(o.condition_limit))
-    for (int k = 0; k < poses; ++k)
+  if (std::isfinite(o.neutral_condition_limit)) closed.push_back(on_axis(problem, pose_specs.front().pose));
+  for (int k = 0; k < evaluated_spectra(); ++k)
+    if (std::isfinite(condition_limit(k)))
       for (int pair = 0; pair < index_rows(Index::condition_number, closed[at_index(k)]); ++pair)
         margins.push_back({-1 - k, pair});
 }
@@ -140,7 +141,8 @@ void PreparedProblem::drop_repeated_margins() {
 
 const std::string& PreparedProblem::margin_name(int k) const {
   const int constraint = margins[at_index(k)].constraint;
-  return constraint < 0 ? condition_limit_name : constraints[at_index(constraint)]->label();
+  if (constraint >= 0) return constraints[at_index(constraint)]->label();
+  return -1 - constraint < evaluated_poses() ? condition_limit_name : neutral_condition_limit_name;
 }
 
 bool PreparedProblem::has_kinks() const {

@@ -21,8 +21,8 @@ struct RowLevel {
   int row, level;
 };
 
-/// A row of a constraint, or (constraint = -1 - k) a pair of singular values under the limit of pose k on the
-/// condition number.
+/// A row of a constraint, or (constraint = -1 - k) a pair of singular values of spectrum k under a limit on the condition
+/// number.
 struct MarginRow {
   int constraint, row;
 };
@@ -39,7 +39,7 @@ struct PreparedProblem {
   Coordinates coordinates;
   std::vector<PoseSpec> pose_specs;
   int objective_poses;       ///< 0: the neutral one is evaluated
-  std::vector<bool> closed;  ///< of each evaluated pose: whether the closed form is used
+  std::vector<bool> closed;  ///< of each evaluated spectrum: whether the closed form is used
   std::vector<std::unique_ptr<Constraint>> constraints;
   std::vector<MarginRow> margins;
   std::vector<RowLevel> row_levels;
@@ -49,6 +49,12 @@ struct PreparedProblem {
   int auxiliary_count = 0;
 
   int evaluated_poses() const { return std::max(objective_poses, 1); }
+  /// Those of the evaluated poses, then that of the neutral one where its condition number has a limit of its own.
+  int evaluated_spectra() const { return static_cast<int>(closed.size()); }
+  double condition_limit(int spectrum) const {
+    const Objective& o = problem.objective;
+    return spectrum < evaluated_poses() ? o.condition_limit : o.neutral_condition_limit;
+  }
   const std::string& margin_name(int k) const;
   double margin_price(int k) const;
   double violation_factor(int k) const;

@@ -75,13 +75,13 @@ void Subproblem::select_rows() {
     if (design_.margins[k] <= large_margin) selection_.margins.push_back(static_cast<int>(k));
 }
 
-void Subproblem::select_poses() {
-  selection_.poses.assign(at_index(p_.evaluated_poses()), false);
+void Subproblem::select_spectra() {
+  selection_.spectra.assign(at_index(p_.evaluated_spectra()), false);
   for (const int k : selection_.row_levels)
-    selection_.poses[at_index(p_.pose_of(p_.row_levels[at_index(k)].row))] = true;
+    selection_.spectra[at_index(p_.pose_of(p_.row_levels[at_index(k)].row))] = true;
   for (const int k : selection_.margins) {
     const int constraint = p_.margins[at_index(k)].constraint;
-    if (constraint < 0) selection_.poses[at_index(-1 - constraint)] = true;
+    if (constraint < 0) selection_.spectra[at_index(-1 - constraint)] = true;
   }
 }
 
@@ -133,7 +133,7 @@ void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
 
 Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, int max_evaluations) {
   const int n = p_.coordinates.size();
-  select_poses();
+  select_spectra();
   Nlp nlp = bounded_nlp(p_, minimax() ? p_.levels : 0,
                         (minimax() ? selection_.row_levels.size() : 0) + selection_.margins.size() + 1);
   nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
