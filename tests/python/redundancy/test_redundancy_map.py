@@ -162,7 +162,7 @@ def test_the_audit_counts_misses_and_corrects_them():
     assert whole.audit.largest > 1e-2
     # A small audit corrects some of the misses that the audit of all poses counts.
     seen = set()
-    for seed in range(4):
+    for seed in range(size(3, 4)):
         part = nd.best_internal_map(g, p, q, seed_every=200, audit_every=100, audit_seed=seed)
         assert part.audit.poses == 32
         lost = gain("condition_number", part.value[both], single.value[both])

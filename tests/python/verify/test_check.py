@@ -62,7 +62,7 @@ STUDIES = {
         objective={"box": {"half": [0.1, 0.1, 0.1], "unit": "zp"}},
         starts=size(2, 8),
     ),
-    "neutral": nd.Study("symmetric_nonplanar", constraints=NEUTRAL, objective={"poses": FEW}, starts=8),
+    "neutral": nd.Study("symmetric_nonplanar", constraints=NEUTRAL, objective={"poses": FEW}, starts=2),
     "neutral condition": nd.Study(constraints=RATIO, objective={"poses": FEW, "neutral_condition_limit": 3.8}),
     "mean leg": nd.Study(constraints=RATIO | {"footprint": (None, 3.0)}, characteristic_length="mean_leg"),
     "general": nd.Study(

@@ -37,16 +37,22 @@ def test_leg_limits_give_balls(published, rotation):
     low, high = np.full(9, 2.5), np.full(9, 6.5)
     o = np.array([0.1, -0.2, -2.4])
     high[3:6], low[3:6] = np.inf, 0.0  # lengths that the platform fixes
+    tolerance = size(4e-3, 1e-3)
     found = nd.workspace(
-        published, BOX, rotation=rotation, criteria={"leg_limits": (low, high)}, internal_point={"platform": o}
+        published,
+        BOX,
+        rotation=rotation,
+        criteria={"leg_limits": (low, high)},
+        internal_point={"platform": o},
+        tolerance=tolerance,
     )
     centres = [
         *(published.base_external - published.platform_external @ rotation.T),
         *(published.base_internal - rotation @ o),
     ]
-    exact = oracle.volume_of_balls([(c, 6.5) for c in centres], [(c, 2.5) for c in centres], *BOX, size(300, 600))
+    exact = oracle.volume_of_balls([(c, 6.5) for c in centres], [(c, 2.5) for c in centres], *BOX, size(200, 600))
     assert found.status == "converged"
-    assert found.error < 1e-3 * found.volume
+    assert found.error < tolerance * found.volume
     assert abs(found.volume - exact) <= found.error
     assert found.unseen < 1e-3 * found.volume
 
@@ -55,14 +61,14 @@ def test_internal_legs_with_o_half_way_give_balls_of_twice_the_radius(published)
     found = nd.workspace(published, BOX, criteria={"leg_limits": ([0.0] * 6 + [3.4] * 3, [np.inf] * 6 + [4.4] * 3)})
     middle = published.platform_internal.mean(axis=0)
     centres = [2.0 * r - middle - published.base_internal.mean(axis=0) for r in published.base_internal]
-    exact = oracle.volume_of_balls([(c, 8.8) for c in centres], [(c, 6.8) for c in centres], *BOX, size(300, 600))
+    exact = oracle.volume_of_balls([(c, 8.8) for c in centres], [(c, 6.8) for c in centres], *BOX, size(200, 600))
     assert abs(found.volume - exact) <= found.error < 1e-3 * found.volume
 
 
 @pytest.mark.slow
 def test_the_error_estimate_bounds_the_error(published):
     criteria = {"leg_limits": (2.5, 6.5), "condition_number": 5.0, "singularity_free": True}
-    best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=size(3e-4, 1e-4), resolution=20)
+    best = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=size(6e-4, 1e-4), resolution=20)
     for tolerance in (3e-2, 1e-2, 1e-3):
         found = nd.workspace(published, BOX, criteria=criteria, home=HOME, tolerance=tolerance)
         assert found.error <= tolerance * found.volume
@@ -174,7 +180,7 @@ def test_pieces_below_and_above_the_base(published):
     """The robot is its own mirror image: two pieces of equal volume."""
     criteria = {"leg_limits": (3.0, 6.5)}
     box = ([-4.0, -4.0, -8.0], [4.0, 4.0, 8.0])
-    tolerance = size(3e-3, 1e-3)
+    tolerance = size(1e-2, 1e-3)
     both = nd.workspace(published, box, criteria=criteria, tolerance=tolerance)
     assert_allclose(both.pieces[0], both.pieces[1], rtol=1e-3)
     assert_allclose(both.pieces[:2].sum(), both.volume, rtol=1e-3)
@@ -239,7 +245,7 @@ def test_orientations_against_numpy(published, region):
 def test_reachable_and_inclusive_against_numpy(published):
     rng = np.random.default_rng(6)
     q = Rotation.from_rotvec(0.25 * rng.normal(size=(5, 3))).as_matrix()
-    asked = {"criteria": {"leg_limits": (2.4, 6.6), "condition_number": 7.0}, "tolerance": size(4e-3, 1e-3)}
+    asked = {"criteria": {"leg_limits": (2.4, 6.6), "condition_number": 7.0}, "tolerance": size(1e-2, 1e-3)}
     p = sampled(rng, size(10_000, 30_000))
     each = []
     for one in q:

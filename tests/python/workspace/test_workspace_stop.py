@@ -13,7 +13,7 @@ LEGS = {"leg_limits": (2.5, 6.5)}
 
 
 def test_progress_counts_up(published):
-    seen, tolerance = [], size(3e-4, 1e-4)
+    seen, tolerance = [], size(6e-4, 1e-4)
     found = nd.workspace(published, BOX, criteria=LEGS, tolerance=tolerance, progress=lambda *told: seen.append(told))
     assert seen
     done = [told[0] for told in seen]
