@@ -21,6 +21,7 @@ void require_limits(bool fine, const LegLimits& l, int k, const char* expected) 
 const char* to_string(InternalPointStatus status) {
   switch (status) {
     case InternalPointStatus::found: return "found";
+    case InternalPointStatus::local: return "local";
     case InternalPointStatus::stopped: return "stopped";
     case InternalPointStatus::infeasible: return "infeasible";
     case InternalPointStatus::unbounded: return "unbounded";

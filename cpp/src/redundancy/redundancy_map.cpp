@@ -112,12 +112,30 @@ class WavefrontMap {
       next[n] = scanned_from(geometry_, grid_.poses[k], problem_, start(k), results_[k]);
     });
     if (!whole) return false;
-    Indices improved;
+    Indices improved, unclear;
     for (std::size_t n = 0; n < some.size(); ++n) {
       out_.followed += at_index(next[n].count);
+      if (!next[n].examined) unclear.push_back(some[n]);
       if (!replaces(problem_.criterion, next[n].best, results_[some[n]])) continue;
       enter(some[n], next[n].best);
       improved.push_back(some[n]);
+    }
+    return spread(improved) && search_again(unclear);
+  }
+
+  /// Searches poses with more valleys than the scan could examine, and propagates what is better.
+  bool search_again(const Indices& poses) {
+    std::vector<PoseResult> found;
+    if (!search(poses, found)) return false;
+    Indices improved;
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+      PoseResult& known = results_[poses[n]];
+      if (replaces(problem_.criterion, found[n], known)) {
+        enter(poses[n], found[n]);
+        improved.push_back(poses[n]);
+      } else if (found[n].point.status == InternalPointStatus::local && has_point(known.point)) {
+        known.point.status = InternalPointStatus::local;
+      }
     }
     return spread(improved);
   }

@@ -20,8 +20,10 @@ class InternalPointStatus(StrEnum):
     """How the search for an internal point ended."""
 
     FOUND = "found"
-    """Within the limits and stationary by independent checks: a local optimum, the best found. That no other is better
-    is not proved."""
+    """Within the limits and stationary by independent checks: the best of all valleys that a scan of the chamber saw.
+    That no other is better is not proved."""
+    LOCAL = "local"
+    """The same, but the scan saw more valleys than were examined: one of the others may be better."""
     STOPPED = "stopped"
     """Within the limits, but the checks failed: the best point evaluated."""
     INFEASIBLE = "infeasible"

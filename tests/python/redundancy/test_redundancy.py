@@ -132,6 +132,21 @@ def test_limits_hold_and_are_named(published):
     assert_allclose(nd.leg_lengths(published, bound.configuration)[3], high[3], rtol=1e-7)
 
 
+def test_more_valleys_than_are_examined_are_said():
+    """Far off to the side of a robot in general position, condition numbers of 50: many shallow valleys."""
+    rng = np.random.default_rng(5)
+    for _ in range(28):
+        g = numpy_model.random_robots(rng, 1).at(0).geometry()
+        q = Rotation.from_rotvec(0.3 * rng.normal(size=3)).as_matrix()
+        z = rng.uniform(2.0, 5.0)
+    p = np.array([[-1.0, -0.2, z], [1.0, 0.4, z], [0.0, 0.0, z]])
+    best = nd.best_internal_point(g, p, q)
+    assert list(best.status) == ["local", "local", "found"]
+    assert np.isfinite(best.configuration.internal_point).all()
+    line = nd.best_internal_map(g, p, q)
+    assert (line.value <= best.value * (1.0 + 1e-6)).all()
+
+
 def test_statuses_without_a_point(published):
     legs = nd.best_internal_point(published, [0.0, 0.0, 3.98], limits=(0.0, 4.0))
     assert (legs.status, legs.active) == ("infeasible", ("l1 high", "l2 high", "l3 high"))

@@ -44,7 +44,8 @@ struct InternalPointProblem {
 };
 
 enum class InternalPointStatus : std::uint8_t {
-  found,  ///< within the limits and stationary by independent checks
+  found,  ///< within the limits, stationary by independent checks, and the best of all valleys of a scan of the chamber
+  local,  ///< within the limits and stationary, but the scan saw more valleys that may be lower than were examined
   stopped,  ///< within the limits, but the checks failed: the best point evaluated
   /// An external leg is out of its limits, or no point of the chamber keeps the internal ones; `active` names them.
   infeasible,
@@ -53,7 +54,7 @@ enum class InternalPointStatus : std::uint8_t {
   missing,  ///< the pose has NaN
 };
 
-/// "found", "stopped", "infeasible", "unbounded", "singular", "missing".
+/// "found", "local", "stopped", "infeasible", "unbounded", "singular", "missing".
 const char* to_string(InternalPointStatus status);
 
 /// A set of bounds: those that hold an internal point in place, or that leave none.

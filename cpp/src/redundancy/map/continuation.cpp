@@ -51,7 +51,7 @@ Continuation continued_from(const Geometry& g, const PlatformPose& pose, const I
 
 Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
                           const std::optional<Vec3>& chamber_start, const PoseResult& so_far) {
-  constexpr ScanSettings settings{8, 3};
+  constexpr ScanSettings settings{12, 8};
   Continuation out{so_far};
   const ScaledPose scaled(g, pose.position, pose.rotation, problem);
   PoseObjective objective(scaled, problem);
@@ -62,6 +62,7 @@ Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const Int
     const std::size_t known = minima.found.size();
     Reach reach(scaled, x);
     add_valleys(objective, settings, reach, minima);
+    out.examined &= minima.examined;
     minima.found.erase(minima.found.begin(), minima.found.begin() + static_cast<std::ptrdiff_t>(known));
     std::ranges::stable_sort(minima.found, {}, &LocalMinimum::value);
     for (const LocalMinimum& m : minima.found) {

@@ -14,6 +14,7 @@ bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b);
 struct Continuation {
   PoseResult best;
   int count = 0;  ///< local optima sought
+  bool examined = true;  ///< as in Minima
 };
 
 /// An initial guess. An optimum within `reach` of it is taken to be of the same branch.

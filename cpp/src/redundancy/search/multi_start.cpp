@@ -23,7 +23,7 @@ constexpr double same_minimum = 1e-6;  // greatest distance of two minima that c
 constexpr std::size_t first_starts = 8, more_starts = 8, limit_starts = 6;
 constexpr std::size_t sampled_from = 5;  // best ends from which rays are sampled again
 constexpr int most_rounds = 4;
-constexpr int points_of_scan = 12;  // along each axis
+constexpr int points_of_scan = 20;  // along each axis
 constexpr std::size_t most_valleys = 8;
 constexpr double next_cells = 0.6;  // of the diagonal of a cell
 constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
@@ -205,9 +205,12 @@ void add_valleys(const PoseObjective& objective, const ScanSettings& settings, R
   }
   std::size_t tried = 0;
   for (const Valley& valley : valleys) {
-    if (tried == settings.most_valleys) break;
     if (valley.value - valley.drop > best_of(minima) || is_known(minima, valley, found.cell)) continue;
     if (!reach.reaches(valley.x)) continue;  // another chamber with the same signs
+    if (tried == settings.most_valleys) {
+      minima.examined = false;
+      break;
+    }
     ++tried;
     for (const LocalMinimum& m : warm_minimum(objective, valley.x).found) add_minimum(m, minima);
   }

@@ -26,6 +26,7 @@ struct Minima {
   /// was found that keeps the clearance.
   double violation = 0.0;
   Vec3 nearest = Vec3::Zero();  ///< where that is; the start, if infinite
+  bool examined = true;  ///< whether a descent began in every valley of the scan that may be lower than the best
 };
 
 /// Moves x within its chamber to where it breaks the limits least and records that place; true if it keeps them there.

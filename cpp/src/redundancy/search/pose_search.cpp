@@ -92,7 +92,9 @@ InternalPoint internal_point(const PoseObjective& objective, const Minima& minim
   }
   const LocalMinimum& best = minima.found.front();
   switch (best.ending) {
-    case Ending::minimum: return internal_point(objective, best.x, InternalPointStatus::found);
+    case Ending::minimum:
+      return internal_point(objective, best.x,
+                            minima.examined ? InternalPointStatus::found : InternalPointStatus::local);
     case Ending::stuck: return internal_point(objective, best.x, InternalPointStatus::stopped);
     case Ending::away:
     case Ending::in_joint: return unbounded(best);
@@ -101,7 +103,8 @@ InternalPoint internal_point(const PoseObjective& objective, const Minima& minim
 }
 
 bool has_point(const InternalPoint& p) {
-  return p.status == InternalPointStatus::found || p.status == InternalPointStatus::stopped;
+  using enum InternalPointStatus;
+  return p.status == found || p.status == local || p.status == stopped;
 }
 
 bool better(Criterion criterion, const InternalPoint& a, const InternalPoint& b) {

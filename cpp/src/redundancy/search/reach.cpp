@@ -9,7 +9,7 @@ namespace ninedof {
 namespace {
 
 constexpr double grid_reach = 2.0;  // half the edge of the grid, in sizes of the robot
-constexpr int grid_points = 24;     // along each axis
+constexpr int grid_points = 40;     // along each axis
 constexpr double grid_step = 2.0 * grid_reach / grid_points;
 constexpr int first_steps = 3;  // farthest points of the grid to which a search begins, along each axis
 
