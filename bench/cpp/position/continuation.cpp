@@ -80,13 +80,15 @@ double distance(const Configuration& a, const Configuration& b) {
 }
 
 struct Tally {
-  long tracked = 0, divided = 0, wrong = 0, through = 0, given_up = 0;
+  /// `through` a singularity: the determinant has changed its sign. `open`: the continuation itself gives up next to one.
+  long tracked = 0, divided = 0, wrong = 0, through = 0, open = 0, given_up = 0;
 
   void add(const Tally& t) {
     tracked += t.tracked;
     divided += t.divided;
     wrong += t.wrong;
     through += t.through;
+    open += t.open;
     given_up += t.given_up;
   }
 };
@@ -100,7 +102,14 @@ void compare(const Geometry& g, const Configuration& from, const Vec9& to, const
   tally.tracked += tracked;
   tally.divided += tracked && t.steps > 1;
   tally.wrong += tracked && end && distance(*end, t.configuration) > near;
-  tally.through += tracked && !end;
+  if (tracked) {
+    const auto determinant = [&](const Configuration& c) {
+      return Eigen::PartialPivLU<Mat9>(rates(g, c)).determinant();
+    };
+    const bool same_side = determinant(from) * determinant(t.configuration) > 0.0;
+    tally.through += !same_side;
+    tally.open += same_side && !end;
+  }
   tally.given_up += !tracked && end;
 }
 
@@ -151,6 +160,7 @@ void trajectory(bench::Random& random, int kind, Tally& tally) {
   tally.tracked += path.back().status == TrackStatus::tracked;
   tally.wrong += steps.wrong > 0;
   tally.through += steps.through > 0;
+  tally.open += steps.open > 0;
   tally.divided += steps.divided > 0;
   tally.given_up += steps.given_up > 0;
 }
@@ -173,8 +183,8 @@ long check(const char* what, long cases, unsigned seed, const Case& one) {
     });
     std::printf(
         "%ld %s, %s: %ld tracked (%ld of them divided), %ld to another mode, %ld through a singularity; "
-        "%ld not tracked that can be continued\n",
-        cases, what, kinds[kind], all.tracked, all.divided, all.wrong, all.through, all.given_up);
+        "%ld too near one to compare, %ld not tracked that can be continued\n",
+        cases, what, kinds[kind], all.tracked, all.divided, all.wrong, all.through, all.open, all.given_up);
     std::fflush(stdout);
     bad += all.wrong + all.through;
   }
