@@ -7,6 +7,7 @@ namespace ninedof {
 namespace {
 
 constexpr double guard = 0.1;          // least error, relative to the last change
+constexpr double unconfirmed = 2.0;    // on the first move of the extrapolation: that the next is smaller is not known
 constexpr double random_signs = 2.0;   // standard deviations of a sum of differences with random signs
 constexpr double coarse_share = 0.25;  // of the volume: while more than this changes, the cells are too coarse
 constexpr double rounding = 1e-13;     // relative
@@ -42,7 +43,8 @@ void VolumeEstimate::set(const LevelVolumes& level) {
     std::vector<double> difference = better_;
     for (std::size_t n = 0; n < difference.size(); ++n) difference[n] -= before_[n];
     moved_ = spread(difference);
-    error_ += std::max({moved_, 0.25 * moved_before_, guard * changed});
+    const double doubt = levels_ == 2 ? unconfirmed : 1.0;
+    error_ += std::max({doubt * moved_, 0.25 * moved_before_, guard * changed});
   }
   if (levels_ == 0 || changed > coarse_share * volume_) error_ = std::max(error_, level.undecided);
 }
