@@ -23,6 +23,7 @@ from ninedof.design import poses as poses
 from ninedof.design.design_point import DesignPoint
 from ninedof.design.objective import Objective
 from ninedof.design.pose import Pose
+from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.kinematics.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
@@ -81,6 +82,7 @@ __all__ = [
     "Objective",
     "Pose",
     "PositionStatus",
+    "Region",
     "Result",
     "Singularity",
     "SingularityDistance",

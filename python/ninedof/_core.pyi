@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
 _Out = _Floats | None
+_Triple = tuple[float, float, float]
 _Progress = Callable[[int, int, float | None], object]
 
 version: str
@@ -220,6 +221,10 @@ class Settings:
         warm: Sequence[Sequence[float]] | _Floats | None = ...,
     ) -> None: ...
 
+def region_pose(region: dict[str, Any], at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
+def search_region(
+    problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
+) -> dict[str, Any]: ...
 def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> dict[str, Any]: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> tuple[list[float], dict[str, Any]]: ...
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "ninedof/optimize/region_search.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
@@ -57,6 +58,61 @@ py::dict fields_of(const Problem& problem, const Result& r) {
   return out;
 }
 
+Region region_from(const py::dict& d) {
+  Region out;
+  const auto shape = d["shape"].cast<std::string>();
+  if (shape == "ball") out.shape = Region::Shape::ball;
+  else if (shape == "cylinder") out.shape = Region::Shape::cylinder;
+  else if (shape == "path") out.shape = Region::Shape::path;
+  using Three = std::array<double, 3>;
+  const auto three = [](const Three& v) { return Vec3(v[0], v[1], v[2]); };
+  out.size = three(d["size"].cast<Three>());
+  for (const Three& corner : d["corners"].cast<std::vector<Three>>()) out.corners.push_back(three(corner));
+  out.tilt = d["tilt"].cast<double>();
+  out.yaw = d["yaw"].cast<double>();
+  out.carried = d["carried"].cast<bool>();
+  out.in_zp = d["in_zp"].cast<bool>();
+  return out;
+}
+
+std::array<double, 6> numbers(const Vec6& at) {
+  std::array<double, 6> out;
+  Vec6::Map(out.data()) = at;
+  return out;
+}
+
+/// Shift of p, rotation vector and shift of s at given coordinates.
+py::tuple region_pose(const py::dict& region, const std::array<double, 6>& at) {
+  const Region r = region_from(region);
+  const Pose pose = r.pose(r.nearest(Vec6::Map(at.data())));
+  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
+  return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal));
+}
+
+/// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates where each
+/// leg is longest and shortest.
+py::dict worst_of_region(const Problem& problem, const py::dict& region, const std::vector<double>& x, long samples,
+                         std::uint64_t seed, int threads) {
+  const Region r = region_from(region);
+  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+  const RegionWorst found = interruptible(py::none(), [&](const Control& control) {
+    return search_region(problem, r, variables, {samples, seed, threads}, control);
+  });
+  py::list limits, index, longest, shortest;
+  for (const RegionWorst::Index& end : found.index) index.append(py::make_tuple(end.logarithm, numbers(end.at)));
+  for (const RegionWorst::Limit& limit : found.limits)
+    limits.append(py::make_tuple(limit.name, limit.row, limit.margin, numbers(limit.at)));
+  for (const Vec6& at : found.longest_at) longest.append(numbers(at));
+  for (const Vec6& at : found.shortest_at) shortest.append(numbers(at));
+  py::dict out;
+  out["limits"] = limits;
+  out["index"] = index;
+  out["longest_at"] = longest;
+  out["shortest_at"] = shortest;
+  out["poses"] = found.poses;
+  return out;
+}
+
 }  // namespace
 
 void bind_optimize(py::module_& m) {
@@ -79,6 +135,8 @@ void bind_optimize(py::module_& m) {
            py::kw_only(), py::arg("starts") = defaults.starts, py::arg("seed") = defaults.seed,
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
            py::arg("warm") = py::none());
+  m.def("region_pose", &region_pose);
+  m.def("search_region", &worst_of_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },

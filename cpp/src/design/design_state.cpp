@@ -44,11 +44,15 @@ void DesignState::set(const DesignFamily& family, const Coordinates& c, const St
   first_pose = objective_poses > 0 ? 1 : 0;
   pose_count = std::max(objective_poses, 1);
   poses.resize(specs.size());
-  for (std::size_t k = 0; k < specs.size(); ++k) set_pose(specs[k], poses[k]);
-  set_extremes();
+  set_poses(specs);
   const bool as_variable = c.length_variable() >= 0;
   set_length(study_length, as_variable ? c.coordinate(c.length_variable()) : -1);
   if (as_variable) characteristic_length = x[c.length_variable()];
+}
+
+void DesignState::set_poses(const std::vector<PoseSpec>& specs) {
+  for (std::size_t k = 0; k < specs.size(); ++k) set_pose(specs[k], poses[k]);
+  set_extremes();
 }
 
 void DesignState::set_pose(const PoseSpec& spec, PoseState& out) const {

@@ -48,6 +48,9 @@ class DesignState {
   void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
            const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y);
 
+  /// The same design at other poses, as many as before. Those of the neutral configuration must come first.
+  void set_poses(const std::vector<PoseSpec>& specs);
+
   Eigen::VectorXd x;  ///< full variables
   Blueprint blueprint;
   double unit = 1.0;  ///< Problem::unit; lengths are divided by it before a logarithm is taken

@@ -49,17 +49,18 @@ def price_text(result: Result) -> list[str]:
     sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
     if result.runs_abandoned:
         sure += f"; {result.runs_abandoned} of {result.starts_done} were abandoned early"
-    return ["\n".join([*price_words(result.study, result.best.variables, result.best.prices), sure])]
+    region = [] if result.region is None else [result.region.words]
+    return ["\n".join([*region, *price_words(result.study, result.best.variables, result.best.prices), sure])]
 
 
 def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:
     """Add the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
     objective = result.study.objective
-    plain = objective.index == "condition_number" and not objective.poses
+    plain = objective.index == "condition_number" and not objective.poses and objective.region is None
     table.add_row(objective.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
     if plain:
         return
-    several = len(objective.poses) > 1
+    several = len(result.solved.objective.poses) > 1
     table.add_row("neutral condition number", *(f"{c.condition_number:.6f}" for c in shown), end_section=not several)
     if several:
         table.add_row("worst over the poses", *(f"{max(c.conditions):.6f}" for c in shown))

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from ninedof.design import poses
 from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
+from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
 
 Made = TypeVar("Made")
@@ -48,6 +49,8 @@ class Objective:
         The same at the neutral configuration alone, whatever the poses.
     poses : sequence of Pose or mappings
         Where the design is evaluated; by default at the neutral pose only. See `ninedof.poses`.
+    region : Region or mapping, optional
+        A continuous set of poses: limits hold and the index is the worst in all of it, and at the listed poses.
 
     Raises
     ------
@@ -69,6 +72,7 @@ class Objective:
     condition_limit: float | None = None
     neutral_condition_limit: float | None = None
     poses: tuple[Pose, ...] = ()
+    region: Region | None = None
 
     def __post_init__(self) -> None:
         """Check and normalize every entry."""
@@ -79,6 +83,7 @@ class Objective:
             "weight": finite("objective.weight", self.weight, 0.0, 1.0),
             **{name: _condition_limit(name, getattr(self, name)) for name in CONDITION_LIMITS},
             "poses": tuple(_pose(k, pose) for k, pose in enumerate(listed)),
+            "region": _region(self.region),
         }.items():
             object.__setattr__(self, name, value)
         if len(self.poses) > poses.MOST_POSES:
@@ -87,11 +92,18 @@ class Objective:
             raise ValueError(
                 f"objective.poses: got {len(self.poses)}, expected none: {self.index} is for the neutral pose only"
             )
+        if self.region is not None:
+            if objectives()[self.index].function is None:
+                raise ValueError(f"objective.region: got a region, expected none: {self.index} is for the neutral pose")
+            if self.aggregate != "worst":
+                raise ValueError(f'objective.aggregate: got "{self.aggregate}", expected "worst" over a region')
 
     @property
     def words(self) -> str:
         """The objective in words."""
         index = objectives()[self.index].words
+        if self.region is not None:
+            return f"worst {index} over {self.region.words}"
         if not self.poses:
             return index
         over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"
@@ -103,7 +115,7 @@ class Objective:
         known_keys(
             "objective",
             data,
-            ["index", *NUMBERS, "internal_point", "unit", "poses", *SETS],
+            ["index", *NUMBERS, "internal_point", "unit", "poses", *SETS, "region"],
         )
         defaults = {name: data[name] for name in ("internal_point", "unit") if name in data}
         found: list[Pose] = []
@@ -116,17 +128,19 @@ class Objective:
                 if SET_KEYS[name][0] not in data[name]:
                     raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
                 found.extend(_named(where, make, **(defaults | dict(data[name]))))
+        region = _region(data.get("region"), **defaults)
         if defaults:
             _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
         rest = {name: data[name] for name in ("index", *NUMBERS) if name in data}
-        return cls(poses=tuple(found), **rest)
+        return cls(poses=tuple(found), region=region, **rest)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""
         numbers = {name: getattr(self, name) for name in NUMBERS}
         changed = {name: value for name, value in numbers.items() if value != getattr(Objective, name)}
         poses = {"poses": [pose.to_dict() for pose in self.poses]} if self.poses else {}
-        return {"index": self.index, **changed, **poses}
+        region = {} if self.region is None else {"region": self.region.to_dict()}
+        return {"index": self.index, **changed, **poses, **region}
 
     def for_core(self) -> dict[str, Any]:
         """Return the objective as the core takes it."""
@@ -149,6 +163,13 @@ def _condition_limit(name: str, value: Any) -> float | None:
     if value is None or (number(f"objective.{name}", value) == math.inf):
         return None
     return finite(f"objective.{name}", value, least=1.0)
+
+
+def _region(value: Any, **defaults: Any) -> Region | None:
+    """Return a region, made from a table if one is given; a default of a pose that is no shift is one of a region."""
+    if value is None or isinstance(value, Region):
+        return value
+    return _named("objective.region", Region.from_dict, defaults | dict(table("objective.region", value)))
 
 
 def _pose(index: int, value: Any, **defaults: Any) -> Pose:

@@ -8,6 +8,7 @@ from time import perf_counter
 
 from ninedof import _core
 from ninedof.design.study import Study
+from ninedof.optimize.exchange import optimize_region
 from ninedof.optimize.result import Candidate, Result, candidate_from, result_from
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
@@ -65,12 +66,17 @@ def optimize(
         raise ValueError(f"study: got {type(study).__name__}, expected a Study")
     progress_argument(progress)
     study = study.with_solver(starts, seed)
-    settings = _core.Settings(
-        starts=study.starts, seed=study.seed, threads=thread_argument(threads), warm=warm_starts(study, warm)
-    )
-    begin = perf_counter()
-    found = _core.optimize(study.problem(), settings, progress)
-    return result_from(study, found | {"seconds": perf_counter() - begin})
+    count = thread_argument(threads)
+
+    def solve(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
+        settings = _core.Settings(starts=starts, seed=study.seed, threads=count, warm=warm_starts(posed, warm))
+        begin = perf_counter()
+        found = _core.optimize(posed.problem(), settings, progress)
+        return result_from(posed, found | {"seconds": perf_counter() - begin})
+
+    if study.objective.region is not None:
+        return optimize_region(study, solve, warm, count)
+    return solve(study, study.starts, warm)
 
 
 @dataclass(frozen=True)

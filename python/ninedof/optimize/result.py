@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ninedof.design.study import Study
 from ninedof.optimize.prices import price_words
+from ninedof.optimize.region_report import RegionReport
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 
@@ -102,8 +103,15 @@ class Result:
     """Whether Ctrl-C ended the run."""
     runs_abandoned: int = field(default=0, kw_only=True)
     """Starts among those done that were given up after a short run."""
+    region: RegionReport | None = field(default=None, kw_only=True)
+    """Of a region study: what was looked at, and the worst that was found."""
     runs_completed: int | None = field(default=None, kw_only=True)
     """Starts run to their end in the round that found the best design, where that is known."""
+
+    @property
+    def solved(self) -> Study:
+        """The study with the poses that were solved for: those listed and, of a region, those that ruled."""
+        return self.study if self.region is None else self.region.posed(self.study)
 
     @property
     def best(self) -> Candidate | None:
@@ -145,12 +153,14 @@ class Result:
             return lines[0]
         objective = self.study.objective
         value = f"{objective.words} {best.objective:.6f}"
-        if objective.index != "condition_number" or objective.poses:
+        if objective.index != "condition_number" or objective.poses or objective.region is not None:
             value += f"; condition number {best.condition_number:.6f} at the neutral pose"
         if len(best.conditions) > 1:
             value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
         lines.append(value)
         lines.append(f"limits reached: {', '.join(best.active) or 'nothing'}")
+        if self.region is not None:
+            lines.append(self.region.words)
         lines.extend(price_words(self.study, best.variables, best.prices))
         found = f"{best.reached} of {self.starts_done} starts ended here ({100.0 * self.confidence:.0f} %)"
         if len(self.candidates) > 1:
@@ -173,8 +183,10 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as the core (with `seconds`) or `Result.to_dict` makes it."""
-    problem = study.problem()
+    region = RegionReport.from_dict(data["region"]) if data.get("region") else None
+    problem = (study if region is None else region.posed(study)).problem()
     known = _known(Result, data) | {
+        "region": region,
         "status": Status(data["status"]),
         "candidates": tuple(candidate_from(problem, entry) for entry in data["candidates"]),
     }
@@ -188,6 +200,8 @@ def _to_dict(found: Candidate | Result) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     if isinstance(value, Status):
         return str(value)
+    if isinstance(value, RegionReport):
+        return value.to_dict()
     return list(value) if isinstance(value, tuple) else value
 
 

@@ -47,7 +47,8 @@ def _value_taken(sweep: Sweep, result: Result) -> float:
     assert result.best is not None
     if sweep.against == CONDITION_LIMIT:
         return max(result.best.conditions)
-    return value_at(sweep.study, sweep.against, result.best.variables)
+    study = replace(sweep.study, objective=result.solved.objective)
+    return value_at(study, sweep.against, result.best.variables)
 
 
 def _between_indices(sweep: Sweep) -> tuple[float, float] | None:

@@ -106,7 +106,7 @@ def _curves(
 
 def _traces(result: Result, formulation: str) -> list[tuple[float, ...]]:
     """Return the course of single starts, low-discrepancy ones; none where no variable is free."""
-    study = result.study
+    study = result.solved
     if not any(isinstance(bound, tuple) for bound in study.variables.values()):
         return []
     problem = study.problem()

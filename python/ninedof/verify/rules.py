@@ -23,7 +23,7 @@ from ninedof.support.arrays import Floats
 from ninedof.verify import directions, spacing
 from ninedof.verify.robot import Robot
 
-MOST_PAIRED = 60  # poses; for more, all pairs of lengths would need too much memory
+MOST_PAIRED = 100  # poses; for more, all pairs of lengths would need too much memory
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.perturbation import SCALES, perturb
+from ninedof.verify.region import worst_at_random
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import Limit, limits_of, margins
 from ninedof.verify.stationarity import stationarity
@@ -25,6 +26,8 @@ EQUAL = 1e-9  # relative: two ways to one number
 FEASIBLE = 1e-8  # by how much a margin may be negative
 STATIONARY = 1e-6
 BETTER = 1e-8  # relative: a smaller improvement is rounding or the tolerance of the limits
+BETWEEN = 1e-6  # by which a limit may be passed between the poses that ruled
+IN_REGION = 4000
 BOUND = 1e-7  # close to 1 a condition number has half the digits only
 
 
@@ -126,7 +129,7 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
 
 def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
     best: Any = result.best
-    study = result.study
+    study = result.solved
     space, objective, limits = DesignSpace(study, best.variables), ObjectiveRule.of(study), limits_of(study)
     yield _design(space, best)
     yield from _numbers(space, objective, best)
@@ -136,6 +139,8 @@ def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
         finding = _limit(space, limit, core.get(limit.label))
         worst = max(worst, -finding.figure)
         yield finding
+    if result.region is not None:
+        yield _region(result, seed)
     if str(result.status) == "optimal":
         found = stationarity(space, objective, limits)
         sentence = (
@@ -155,6 +160,15 @@ def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
         above = neutral / bound.value - 1.0
         proof = "proved" if bound.proved else "searched"
         yield Finding(f"bound: {bound.name}", above >= -BOUND, above, f"{above:.2%} above; {bound.sentence} ({proof})")
+
+
+def _region(result: Result, seed: int) -> Finding:
+    """Test limits and index at random poses of the region."""
+    best: Any = result.best
+    index, margin = worst_at_random(result.study, best.variables, IN_REGION, seed)
+    above = index / best.objective - 1.0
+    sentence = f"at {IN_REGION} random poses the index is at most {index:.9g}, the least margin {margin:.1e}"
+    return Finding("region", above <= BETWEEN and margin >= -BETWEEN, max(above, -margin), sentence)
 
 
 def _design(space: DesignSpace, best: Any) -> Finding:

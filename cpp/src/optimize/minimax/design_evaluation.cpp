@@ -54,6 +54,10 @@ void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, D
 void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignEvaluation& out,
                      const RowSelection* selection) {
   p.set_state(y, out.state);
+  evaluate_rows(p, out, selection);
+}
+
+void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection) {
   const Eigen::Index n = p.coordinates.size();
   const int poses = p.evaluated_poses();
   const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;

@@ -27,6 +27,9 @@ struct RowSelection {
 void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignEvaluation& out,
                      const RowSelection* selection = nullptr);
 
+/// The same for a design whose state is set.
+void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection = nullptr);
+
 /// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
 double violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
 

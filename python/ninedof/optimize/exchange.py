@@ -1,0 +1,208 @@
+"""A study over a region of poses: a semi-infinite program, solved by exchange.
+
+The limits and the index are imposed at a few poses first. The design found is searched over the whole region, and the
+poses at which it is worse than it may be join. That is repeated until there are none.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.design.pose import Pose
+from ninedof.design.region import Region
+from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.region_report import RegionReport, posed
+from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.warm import Warm
+from ninedof.support.arrays import Floats
+
+At = tuple[float, ...]
+"""The six coordinates of a pose of a region."""
+Cause = tuple[str, int]
+"""The index, or a limit and its leg or pair of legs."""
+Solve = Callable[[Study, int, Any], Result]
+
+PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
+QUICK, DENSE = 4_000, 100_000  # poses of a search: while the design still moves, and at the end
+MOST_ROUNDS = 60
+SAME = 1e-6  # of the region: nearer poses are one
+BRANCH = 0.25  # of the region: a pose where the same thing is worst, nearer than that, has only moved
+NEAR = 1e-5  # relative: a pose where nothing is as near to its limit or to the worst does not rule
+SETTLED = 25  # rounds after which poses are added only, so that the exchange comes to an end
+SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
+
+
+@dataclass(frozen=True)
+class Look:
+    """A search of the region for where a design is worst."""
+
+    objective: float
+    objective_at: At
+    margin: float
+    limit: str
+    looked_at: int
+    worse: tuple[tuple[Cause, At], ...]
+    """What is worse than it may be and where, the worst first."""
+
+
+def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
+    """Solve a region study by `solve`, which takes a study with poses, a number of starts and designs to start from."""
+    region = study.objective.region
+    assert region is not None
+    ruling = [(("", 0), at) for at in first_poses(region)]
+    starts, thorough = study.starts, False
+    seconds, evaluations = 0.0, 0
+    for rounds in range(1, MOST_ROUNDS + 1):
+        poses = tuple(_pose(region, at) for _, at in ruling)
+        result = solve(posed(study, poses), starts, warm)
+        seconds, evaluations = seconds + result.seconds, evaluations + result.evaluations
+        best = result.best
+        if best is None or result.interrupted:
+            break
+        look = search(study, best, QUICK, rounds, threads)
+        if not look.worse:
+            look = search(study, best, DENSE, rounds, threads)
+        if not look.worse and (thorough or starts == 1 == study.starts):
+            break
+        # The last run from all starts has all poses: it shows whether another design is better with them.
+        thorough = not look.worse
+        starts, warm = (study.starts if thorough else 1), result.candidates[:4]
+        ruling = _joined(region, ruling, look.worse, rounds > SETTLED)
+    report = None
+    if best is not None:
+        if not look.worse:
+            result, poses = _only_ruling(study, result, poses)
+        if result.interrupted:
+            look = search(study, best, QUICK, rounds, threads)
+        report = RegionReport(
+            poses, rounds, look.looked_at, look.objective, _pose(region, look.objective_at), look.margin, look.limit
+        )
+        if look.worse and result.status == Status.OPTIMAL:
+            reason = f"after {rounds} rounds the design is still worse between the poses than at them"
+            result = replace(result, status=Status.STOPPED, reason=reason)
+    return replace(
+        result,
+        study=study,
+        region=report,
+        candidates=result.candidates[:1],
+        evaluations=evaluations,
+        seconds=seconds,
+    )
+
+
+def search(study: Study, best: Candidate, samples: int, seed: int, threads: int) -> Look:
+    """Search a region for where a design is worst."""
+    region = study.objective.region
+    assert region is not None
+    plain = replace(study, objective=replace(study.objective, poses=(), region=None)).problem()
+    x = [best.variables[name] for name in plain.names]
+    found = _core.search_region(plain, region.for_core(), x, samples, seed, threads)
+    limits = [
+        (margin, (name, row), at)
+        for name, row, margin, at in found["limits"]
+        if name not in SPREADS and not name.endswith(" at neutral")
+    ]
+    extremes = [*found["longest_at"], *found["shortest_at"]]
+    there = posed(study, tuple(_pose(region, at) for at in extremes))
+    point = there.evaluate(best.variables)
+    lengths = leg_lengths(point.geometry, point.configurations[-18:])
+    limits += [(margin, (name, k), extremes[k]) for name, k, margin in _spreads(lengths, point.margins)]
+    worse = [(-margin, cause, at) for margin, cause, at in limits if margin < -PASSED]
+    excess = [(logarithm - math.log(best.objective), at) for logarithm, at in found["index"]]
+    worse += [(by, ("index", 0), at) for by, at in excess if by > PASSED]
+    largest, largest_at = max(found["index"])
+    margin, (limit, _), _ = min(limits, default=(math.inf, ("", 0), ()))
+    ordered = sorted(worse, key=lambda entry: -entry[0])
+    return Look(
+        math.exp(largest), largest_at, margin, limit, found["poses"], tuple((cause, at) for _, cause, at in ordered)
+    )
+
+
+def _only_ruling(study: Study, result: Result, poses: tuple[Pose, ...]) -> tuple[Result, tuple[Pose, ...]]:
+    """Return a result without the poses that are far from deciding anything: it stays an optimum without them."""
+    best = result.candidates[0]
+    single = [posed(study, (pose,)).evaluate(best.variables) for pose in poses]
+    lengths = np.array([leg_lengths(best.geometry, point.configurations[-1]) for point in single])
+    extreme = (lengths >= lengths.max(axis=0) * (1.0 - NEAR)) | (lengths <= lengths.min(axis=0) * (1.0 + NEAR))
+    # Limits of the design itself are the same at every pose.
+    of_poses = [name for name, margin in single[0].margins.items() if any(p.margins[name] != margin for p in single)]
+    ruling = tuple(
+        pose
+        for pose, point, ends in zip(poses, single, extreme.any(axis=1), strict=True)
+        if ends
+        or point.objective >= best.objective * (1.0 - NEAR)
+        or min((point.margins[name] for name in of_poses), default=1.0) <= NEAR
+    )
+    count = len(study.objective.poses)
+    kept = [*range(count), *(count + k for k, pose in enumerate(poses) if pose in ruling)]
+    fewer = replace(
+        best,
+        conditions=tuple(best.conditions[k] for k in kept),
+        configurations=best.configurations[[0, *(k + 1 for k in kept)]],
+    )
+    return replace(result, candidates=(fewer, *result.candidates[1:])), ruling
+
+
+def _spreads(lengths: Floats, margins: Mapping[str, float]) -> Iterator[tuple[str, int, float]]:
+    """Return, for limits that compare poses, the margin that each extreme pose has with the others.
+
+    `lengths`, shape (18, 9), are those at the poses where each leg is longest, then where each is shortest; `margins`
+    those of all poses together.
+    """
+    longest, shortest = np.diag(lengths[:9]), np.diag(lengths[9:])
+    strokes, ratios = longest - shortest, longest / shortest
+    for name in SPREADS:
+        if name not in margins:
+            continue
+        if name == "leg_ratio":
+            less = [*np.log(longest.max() / longest), *np.log(shortest / shortest.min())]
+        elif name == "stroke_ratio":
+            less = [*np.log(ratios.max() / ratios)] * 2
+        else:
+            less = [*((1.0 - margins[name]) * (1.0 - strokes / max(strokes.max(), 1e-300)))] * 2
+        for k, by in enumerate(less):
+            yield name, k, margins[name] + float(by)
+
+
+def _joined(
+    region: Region, ruling: list[tuple[Cause, At]], worse: Sequence[tuple[Cause, At]], add_only: bool
+) -> list[tuple[Cause, At]]:
+    """Return the ruling poses with those where the design is worse; one that has only moved takes its old place."""
+    reach = np.maximum(region.reach, 1e-300)
+
+    def apart(one: At, other: At) -> float:
+        return float(np.abs(np.subtract(one, other) / reach).max())
+
+    out: list[tuple[Cause, At]] = list(ruling)
+    new: list[tuple[Cause, At]] = []
+    for cause, at in worse:
+        if any(apart(at, other) <= SAME for _, other in [*out, *new]):
+            continue
+        near = [k for k, (c, other) in enumerate(out) if c == cause and apart(at, other) <= BRANCH]
+        if near and not add_only:
+            out[min(near, key=lambda k: apart(at, out[k][1]))] = (cause, at)
+        elif not any(c == cause and apart(at, other) <= BRANCH for c, other in new):
+            new.append((cause, at))
+    return [*out, *new]
+
+
+def first_poses(region: Region) -> list[At]:
+    """Return the coordinates of the neutral pose, the corners of the positions and the greatest tilts and yaws."""
+    reach = np.asarray(region.reach)
+    corners = itertools.product(*([-r, r] if r > 0.0 else [0.0] for r in reach[:3]))
+    turns = [sign * r * np.eye(6)[k] for k, r in enumerate(reach) if k >= 3 and r > 0.0 for sign in (1.0, -1.0)]
+    rows = [np.zeros(6), *(np.array([*corner, 0.0, 0.0, 0.0]) for corner in corners), *turns]
+    return list(dict.fromkeys(tuple(row.tolist()) for row in rows))
+
+
+def _pose(region: Region, at: At) -> Pose:
+    position, rotation, internal = _core.region_pose(region.for_core(), at)
+    return Pose(position, rotation, internal, region.unit)

@@ -1,0 +1,61 @@
+"""What is known of the best design of a region study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ninedof.design.pose import Pose
+from ninedof.design.study import Study
+
+
+@dataclass(frozen=True)
+class RegionReport:
+    """The poses that ruled a region study, how densely the best design was looked at, and the worst found."""
+
+    poses: tuple[Pose, ...]
+    """Those at which the limits and the index were imposed, besides the poses of the study."""
+    rounds: int
+    """Designs that were searched over the region."""
+    looked_at: int
+    """Poses at which the best design was evaluated in the last search."""
+    objective: float
+    """The largest value of the index found."""
+    objective_at: Pose
+    margin: float
+    """The least margin of a limit found: below zero it is passed, relative to its value. Infinite without limits."""
+    limit: str
+    """The name of that limit; "" without limits."""
+
+    def posed(self, study: Study) -> Study:
+        """Return a region study with its poses and these in the place of the region."""
+        return posed(study, self.poses)
+
+    @property
+    def words(self) -> str:
+        """The report in a sentence."""
+        passed = "no limit is passed" if self.margin >= 0.0 else f"{self.limit} is passed by {-self.margin:.1e} of it"
+        return (
+            f"{len(self.poses)} poses of the region ruled; of {self.looked_at} looked at the worst has "
+            f"{self.objective:.6f}, and {passed}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values."""
+        return self.__dict__ | {
+            "poses": [pose.to_dict() for pose in self.poses],
+            "objective_at": self.objective_at.to_dict(),
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
+        """Return the report of a mapping as `to_dict` makes it."""
+        poses = tuple(Pose.from_dict(pose) for pose in data["poses"])
+        return cls(**{**data, "poses": poses, "objective_at": Pose.from_dict(data["objective_at"])})
+
+
+def posed(study: Study, poses: tuple[Pose, ...]) -> Study:
+    """Return a region study with further listed poses in the place of its region."""
+    objective = study.objective
+    return replace(study, objective=replace(objective, poses=(*objective.poses, *poses), region=None))

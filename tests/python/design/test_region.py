@@ -1,0 +1,86 @@
+"""Regions of poses: entries, files, and the poses of their coordinates. Studies over them are in test_exchange.py."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof import _core
+from ninedof.verify.region import random_poses
+
+REGIONS = {
+    "box": nd.Region(box=(0.1, 0.0, 0.3), tilt=0.3, yaw=0.2),
+    "ball": nd.Region(ball=0.4, tilt=0.1, unit="zp", internal_point="held"),
+    "cylinder": nd.Region(cylinder=(0.2, 0.1), yaw=1.0),
+    "path": nd.Region(path=((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 2.0, 0.0)), tilt=0.2),
+    "turns alone": nd.Region(tilt=0.5, yaw=0.5),
+}
+EVERY = pytest.mark.parametrize("region", REGIONS.values(), ids=REGIONS)
+
+
+@EVERY
+def test_a_file_gives_the_same_region(region, tmp_path):
+    study = nd.Study(objective={"region": region})
+    study.save(tmp_path / "study.toml")
+    assert nd.Study.load(tmp_path / "study.toml").objective.region == region
+    assert nd.Region.from_dict(region.to_dict()) == region
+
+
+@EVERY
+def test_poses_of_coordinates(region):
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        at = 1.5 * np.array(region.reach) * rng.uniform(-1.0, 1.0, 6)
+        position, rotation, internal = map(np.array, _core.region_pose(region.for_core(), at.tolist()))
+        turn = Rotation.from_rotvec(rotation)
+        tilted = math.acos(np.clip(turn.as_matrix()[2, 2], -1.0, 1.0))
+        assert tilted <= region.tilt + 1e-7
+        assert_allclose(internal, position if region.internal_point == "carried" else 0.0 * position)
+        if region.ball is not None:
+            assert np.linalg.norm(position) <= region.ball * (1.0 + 1e-12)
+        if region.cylinder is not None:
+            assert np.linalg.norm(position[:2]) <= region.cylinder[0] * (1.0 + 1e-12)
+        if region.path is not None:
+            assert min(abs(position[1]), abs(position[0] - 1.0)) <= 1e-12
+        inside = 0.5 * np.array(region.reach) * rng.uniform(-1.0, 1.0, 6)
+        expected = Rotation.from_rotvec([*inside[3:5], 0.0]) * Rotation.from_rotvec([0.0, 0.0, inside[5]])
+        found = Rotation.from_rotvec(_core.region_pose(region.for_core(), inside.tolist())[1])
+        assert (found * expected.inv()).magnitude() < 1e-12
+
+
+@EVERY
+def test_random_poses_are_in_the_region(region):
+    reach = np.array(region.reach)
+    for pose in random_poses(region, 200, np.random.default_rng(2)):
+        turn = Rotation.from_rotvec(pose.rotation)
+        assert math.acos(np.clip(turn.as_matrix()[2, 2], -1.0, 1.0)) <= region.tilt + 1e-7
+        if region.path is None:
+            assert (np.abs(pose.position) <= reach[:3] * (1.0 + 1e-12)).all()
+
+
+BAD = {
+    "two shapes": ({"box": (1, 1, 1), "ball": 1}, r"region: got box and ball, expected one of"),
+    "negative": ({"ball": -1}, r"objective\.region\.ball: got -1"),
+    "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt: got"),
+    "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
+    "word": ({"internal_point": "best"}, r"objective\.region\.internal_point: got 'best'"),
+    "key": ({"bal": 1}, r"objective\.region\.region\.bal|did you mean"),
+    "corners": ({"path": [[0, 0, 0], [0, 0, 0]]}, r"objective\.region\.path: got 2 corners"),
+    "cylinder": ({"cylinder": 1}, r"objective\.region\.cylinder: got 1"),
+}
+
+
+@pytest.mark.parametrize(("entry", "words"), BAD.values(), ids=BAD)
+def test_bad_entries(entry, words):
+    with pytest.raises(ValueError, match=words):
+        nd.Study(objective={"region": entry})
+
+
+def test_what_a_region_excludes():
+    with pytest.raises(ValueError, match=r"objective\.aggregate: got \"mean_inverse\", expected \"worst\""):
+        nd.Objective(region=REGIONS["box"], aggregate="mean_inverse")
+    with pytest.raises(ValueError, match=r"objective\.region: got a region, expected none"):
+        nd.Objective(region=REGIONS["box"], index="six_legged")

@@ -1,0 +1,116 @@
+"""Studies over a region: no limit is passed at poses that the solver did not choose.
+
+Oracle: `check`, which draws its own poses and evaluates all limits in numpy.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sizes import size
+
+import ninedof as nd
+
+UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
+STUDIES = {
+    "box, strokes": nd.Study(
+        "symmetric",
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0), "stroke_ratio": (None, 1.5)},
+        objective={"region": {"box": [0.1, 0.1, 0.1], "tilt_deg": 10, "unit": "zp"}},
+        starts=2,
+    ),
+    "ball, held": nd.Study(
+        constraints={"radius_ratio": (None, 2.0), "stroke": {"max": 0.5, "of": "zp"}},
+        objective={"region": {"ball": 0.15, "tilt_deg": 15, "unit": "zp", "internal_point": "held"}},
+        starts=2,
+    ),
+    "cylinder, speed": nd.Study(
+        "symmetric",
+        constraints={"radius_ratio": (None, 2.0), "leg_length": {"min": 0.3, "of": "zp"}},
+        objective={
+            "index": "speed",
+            "condition_limit": 6.0,
+            "region": {"cylinder": [0.2, 0.1], "yaw_deg": 20, "unit": "zp"},
+        },
+        starts=2,
+    ),
+    "path, cones": nd.Study(
+        "symmetric_nonplanar",
+        constraints={
+            "radius_ratio": (None, 2.0),
+            "leg_ratio": (None, 3.0),
+            "joint_height": {"max": 0.3, "of": "radius"},
+            "base_cone": {"max_deg": 50} | UPRIGHT,
+            "leg_clearance": {"min": 0.02, "of": "zp"},
+            "singularity_free": {},
+        },
+        objective={"region": {"path": [[0, 0, 0], [0.2, 0.1, 0], [0.2, 0.2, 0.2]], "tilt_deg": 5, "unit": "zp"}},
+        starts=2,
+    ),
+    "turns, frobenius": nd.Study(
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 2.5)},
+        objective={"index": "frobenius", "region": {"tilt_deg": 20, "yaw_deg": 20}},
+        starts=2,
+    ),
+}
+QUICK = size(["turns, frobenius"], list(STUDIES))
+SOLVED = {}
+
+
+def solved(name):
+    if name not in SOLVED:
+        SOLVED[name] = nd.optimize(STUDIES[name])
+    return SOLVED[name]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", QUICK)
+def test_limits_hold_between_the_poses(name):
+    result = solved(name)
+    assert result.status == "optimal", result.reason
+    assert result.region.margin >= -2e-7
+    assert result.region.objective <= result.objective * (1.0 + 3e-7)
+    assert result.region.looked_at >= 100_000
+    report = nd.check(result, perturbations=size(200, 2000), seed=size(1, 7))
+    assert report.passed, report.report()
+    assert report["region"].figure <= 1e-6
+
+
+def test_check_finds_a_region_that_only_holds_at_listed_poses():
+    """Tilts about x and y alone: between those directions a limit is passed."""
+    result = solved("turns, frobenius")
+    study = result.study
+    listed = [{"rotation_deg": [a, b, 0]} for a, b in ((20, 0), (-20, 0), (0, 20), (0, -20))]
+    poses = nd.Objective(index="frobenius", poses=listed)
+    found = nd.optimize(replace(study, objective=poses))
+    assert found.objective < result.objective
+    report = replace(result.region, poses=poses.poses)
+    assert not nd.check(replace(found, study=study, region=report), perturbations=0)["region"].passed
+
+
+@pytest.mark.slow
+def test_a_result_is_read_back(tmp_path):
+    from ninedof.runs.folder import load, write_run
+
+    result = solved("turns, frobenius")
+    write_run(result, tmp_path)
+    again = load(tmp_path)
+    assert again.region == result.region
+    assert again.study == result.study
+    assert again.objective == result.objective
+    assert np.array_equal(again.configurations.position, result.configurations.position)
+    assert "of the region ruled" in result.summary()
+
+
+def test_an_impossible_region_is_infeasible():
+    study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": {"ball": 20.0}}, starts=2)
+    result = nd.optimize(study)
+    assert (result.status, result.best, result.region) == ("infeasible", None, None)
+    assert "no design found satisfies all limits" in result.reason
+
+
+def test_threads_do_not_change_the_result():
+    study = STUDIES["turns, frobenius"]
+    one, two = (nd.optimize(study, threads=n) for n in (1, 2))
+    assert one.objective == two.objective
+    assert one.region == two.region
