@@ -38,6 +38,7 @@ from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, be
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
@@ -84,6 +85,7 @@ __all__ = [
     "PositionStatus",
     "Region",
     "Result",
+    "Sheet",
     "Singularity",
     "SingularityDistance",
     "SingularityMargins",
@@ -130,6 +132,7 @@ __all__ = [
     "pareto",
     "reciprocal_condition_number",
     "self_stress",
+    "sheet",
     "singular_values",
     "singularity",
     "singularity_margins",

@@ -12,6 +12,7 @@ from ninedof.optimize.prices import price_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.sheet import Sheet, sheet
 
 if TYPE_CHECKING:
     from ninedof import _core
@@ -144,6 +145,10 @@ class Result:
         plain = _to_dict(self)
         candidates = [c.to_dict() for c in plain.pop("candidates")]
         return plain | {"confidence": self.confidence, "candidates": candidates}
+
+    def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
+        """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
+        return sheet(self, poses, **options)
 
     def summary(self) -> str:
         """Return a few lines: status, objective, active limits and their prices, how many starts agree."""

@@ -48,6 +48,7 @@ PYTHON_ROOMS = (
     "statics",
     "redundancy",
     "design",
+    "sheet",
     "optimize",
     "workspace",
     "verify",

@@ -1,0 +1,85 @@
+"""`ninedof sheet`: the engineering sheet of a run or a design."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ninedof.cli import options
+from ninedof.cli.screen import Screen
+from ninedof.cli.sheet_tables import sheet_tables
+from ninedof.optimize.result import Result
+from ninedof.runs.design_file import load_design
+from ninedof.runs.folder import load
+from ninedof.sheet.sheet import sheet as sheet_of
+from ninedof.support.files import write_whole
+
+PLACE = 3
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof sheet runs/20260101-120000 --csv legs.csv
+
+  ninedof sheet runs/20260101-120000 --load "0 0 0 0 0 -100" --leg-error 0.01 --leg-stiffness 2e4
+
+  ninedof sheet design.toml --speed 200 --turn-deg 30 --json"""
+
+
+def sheet(
+    design: Annotated[Path, typer.Argument(help="A run folder or its record.json, or a design file (TOML).")],
+    speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0,
+    turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0,
+    internal: Annotated[
+        str | None, typer.Option(help="How O moves then: least, rest or carried; as in the poses by default.")
+    ] = None,
+    load: Annotated[
+        list[str] | None,
+        typer.Option(help='A load "mx my mz fx fy fz" on the platform: moment about p and force. May be repeated.'),
+    ] = None,
+    leg_error: Annotated[float | None, typer.Option(help="Tolerance of the leg lengths.")] = None,
+    joint_error: Annotated[float | None, typer.Option(help="Tolerance of the joint centres, a radius.")] = None,
+    leg_stiffness: Annotated[float | None, typer.Option(help="Stiffness of each leg, force/length.")] = None,
+    csv: Annotated[Path | None, typer.Option(help="Write the table of the legs to this file.")] = None,
+    json: options.Json = False,
+) -> None:
+    """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
+    screen = Screen(json)
+    found = sheet_of(
+        design_or_result(design),
+        linear_speed=speed,
+        angular_speed=math.radians(turn_deg),
+        internal=internal,
+        loads=[_load(text) for text in load] if load else None,
+        leg_errors=leg_error,
+        joint_errors=joint_error,
+        leg_stiffness=leg_stiffness,
+    )
+    for part in sheet_tables(found):
+        screen.print(part)
+    if csv is not None:
+        write_whole(csv, found.to_csv().encode())
+    screen.data(found.to_dict())
+
+
+def design_or_result(path: Path) -> Any:
+    """Return the result of a run of a study, or the design of a file."""
+    if not path.is_dir() and path.suffix != ".json":
+        return load_design(path)
+    run = load(path)
+    if not isinstance(run, Result):
+        raise ValueError(f"{path}: got a run without an optimum, expected one of `ninedof optimize` or a design file")
+    if run.best is None:
+        raise ValueError(f"{path}: the record holds no design: the run found none")
+    return run
+
+
+def _load(text: str) -> list[float]:
+    try:
+        numbers = [float(word) for word in text.replace(",", " ").split()]
+    except ValueError:
+        numbers = []
+    if len(numbers) != 6:
+        raise ValueError(f'--load: got {text!r}, expected six numbers "mx my mz fx fy fz"')
+    return numbers

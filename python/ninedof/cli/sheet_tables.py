@@ -1,0 +1,140 @@
+"""The tables of an engineering sheet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from rich.table import Table
+
+from ninedof.cli.result_table import short
+from ninedof.sheet.limit_rows import LimitRow
+from ninedof.sheet.sheet import Extreme, Sheet
+
+MECHANISMS = {
+    "det_b": "O in the plane of the lower internal joints",
+    "det_c": "O in the plane of the upper internal joints",
+    "det_n": "the platform turns about a line through O",
+}
+INTERNAL = {"least": "O moves for the least leg rates", "rest": "O at rest", "carried": "O carried with the platform"}
+
+
+def sheet_tables(found: Sheet) -> Iterator[Table | str]:
+    """Return the tables and lines of a sheet in the order of printing."""
+    yield _joints(found)
+    yield _legs(found)
+    yield from _words(found)
+    if len(found.loads):
+        yield _forces(found)
+    yield _worst(found)
+    if found.limits:
+        yield _limits(found)
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold")
+    for k, column in enumerate(columns):
+        table.add_column(column, justify="right" if k else "left", overflow="fold")
+    return table
+
+
+def _joints(found: Sheet) -> Table:
+    table = _table(
+        "Joints: in the frame of base or platform, and in base axes at the neutral pose",
+        *("joint", "x", "y", "z", "neutral x", "y", "z"),
+    )
+    for k, (name, own, placed) in enumerate(found.joints()):
+        numbers = (short(round(float(x), 9)) for x in (*own, *placed))
+        table.add_row(name.replace("_", " "), *numbers, end_section=k % 3 == 2)
+    return table
+
+
+def _legs(found: Sheet) -> Table:
+    several = len(found.configurations) > 1
+    title = f"Legs over {len(found.configurations)} poses" if several else "Legs at the neutral pose"
+    columns = ("shortest", "longest", "neutral", "stroke", "ratio", "speed", "base cone", "platform cone")
+    table = _table(title, "leg", *columns)
+    for k, leg in enumerate(found.legs):
+        lengths = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
+        cones = ("-" if a is None else f"{math.degrees(a):.2f}°" for a in (leg.base_cone, leg.platform_cone))
+        table.add_row(leg.name, *(short(x) for x in lengths), *cones, end_section=k % 3 == 2)
+    return table
+
+
+def _words(found: Sheet) -> Iterator[str]:
+    linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
+    yield (
+        f"Speed: the largest in any direction for a platform speed of {linear:g}, turning {angular:g}° per time unit, "
+        f"{INTERNAL[found.motion.internal]}. Cones: from the direction at the neutral pose."
+    )
+    if found.idle:
+        yield f"{', '.join(found.idle)} never move over these poses."
+
+
+def _forces(found: Sheet) -> Table:
+    count = range(1, len(found.loads) + 1)
+    table = _table(
+        "Leg forces, least to largest over the poses, pushing positive", "leg", *(f"load {k}" for k in count)
+    )
+    for k, leg in enumerate(found.legs):
+        table.add_row(leg.name, *(f"{low:.4g} to {high:.4g}" for low, high in leg.forces), end_section=k % 3 == 2)
+    table.caption = "; ".join(
+        f"load {k}: moment {_vector(load[:3])}, force {_vector(load[3:])}"
+        for k, load in zip(count, found.loads, strict=True)
+    )
+    return table
+
+
+def _worst(found: Sheet) -> Table:
+    table = _table("Worst over the poses", "", "value", "pose", "")
+    used: set[int] = set()
+
+    def add(label: str, value: str, pose: int, words: str = "", end: bool = False) -> None:
+        used.add(pose)
+        table.add_row(label, value, str(pose) if pose else "neutral", words, end_section=end)
+
+    add("condition number", f"{found.condition_number.value:.6f}", found.condition_number.pose)
+    table.add_row("mean condition number", f"{found.mean_condition_number:.6f}", "", "", end_section=True)
+    add("leg clearance", short(found.clearance.value), found.clearance.pose, " and ".join(found.clearance.legs))
+    for name in sorted(found.determinants, key=lambda n: found.determinants[n].value):
+        one = found.determinants[name]
+        words = MECHANISMS[name] + ", CROSSED between poses" * one.changes_sign
+        add(f"|det {name[-1].upper()}|", f"{one.value:.6f}", one.pose, words)
+    table.add_section()
+    if found.accuracy is not None:
+        a = found.accuracy
+        add("position error", f"{a.position.value:.4g}", a.position.pose)
+        add("rotation error", f"{math.degrees(a.rotation.value):.4g}°", a.rotation.pose)
+        add("error of O", f"{a.internal_point.value:.4g}", a.internal_point.pose, end=True)
+    if found.stiffness is not None:
+        for label, least in zip(("stiffness", "turning stiffness, per rad"), found.stiffness, strict=True):
+            add(f"least {label}", f"{Extreme(*least).value:.4g}", least.pose)
+    table.caption = "\n".join(f"pose {k}: {_pose(found, k)}" for k in sorted(used) if k)
+    table.caption_justify = "left"
+    return table
+
+
+def _limits(found: Sheet) -> Table:
+    table = _table("Limits of the study, at its poses", "limit", "", "allowed", "here", "margin")
+    for row in found.limits:
+        margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{100.0 * row.margin:.2f} %"
+        table.add_row(row.name, row.side, _in_unit(row, row.limit), _in_unit(row, row.value), margin)
+    return table
+
+
+def _in_unit(row: LimitRow, value: float) -> str:
+    return f"{math.degrees(value):.2f}°" if row.unit == "angle" else short(value)
+
+
+def _pose(found: Sheet, k: int) -> str:
+    c = found.configurations[k]
+    # Of the turn from the neutral pose; the arc tangent is exact for small angles too.
+    turn = c.rotation @ found.configurations.rotation[0].T
+    skew = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    angle = math.degrees(math.atan2(float(np.linalg.norm(skew)), 0.5 * (float(np.trace(turn)) - 1.0)))
+    return f"p = {_vector(c.position)}, O = {_vector(c.internal_point)}, turned {angle:.2f}° from neutral"
+
+
+def _vector(values: np.ndarray) -> str:
+    return "(" + ", ".join(f"{round(float(x), 9):g}" for x in values) + ")"

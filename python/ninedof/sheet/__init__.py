@@ -1,0 +1,1 @@
+"""The engineering sheet of a design: what a workshop needs of its legs, joints and poses."""

@@ -1,0 +1,57 @@
+"""The limits of a study beside the values of a design."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ninedof.design.limits import ROWS, each, for_core
+from ninedof.design.study import Study
+
+# Their margins are differences in parts of the limit; those of the others are logarithms of the ratio to the limit.
+LINEAR = ("stroke", "joint_height", "joint_spacing", "leg_clearance", "base_cone", "platform_cone")
+
+
+@dataclass(frozen=True)
+class LimitRow:
+    """One side of a limit beside the worst value of the design at the study's own poses."""
+
+    name: str
+    """As margins call it: "base_cone", "base_cone at neutral"."""
+    side: str
+    """"min" or "max"."""
+    limit: float
+    """Angles in radians."""
+    value: float
+    """In the unit of the limit."""
+    margin: float
+    """Relative to the limit, negative if violated: `DesignPoint.margins`."""
+    unit: str
+    """"ratio", "length", "angle" or "sign" as in the table of constraints; "ratio" for a length over zp or a radius."""
+
+
+def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
+    """Return a row for each side of each limit, in the order of the study."""
+    rows = []
+    for name, limit in each(study.constraints):
+        given = for_core(name, limit)
+        options = {k: v for k, v in limit.items() if k not in ("min", "max")} if isinstance(limit, Mapping) else {}
+        kind = "ratio" if given["of"] != "length" else ROWS[name].kind
+        for side, bound in (("min", given["low"]), ("max", given["high"])):
+            if side not in ROWS[name].sides or not math.isfinite(bound) or bound <= 0.0:
+                continue
+            alone = replace(study, constraints={name: options | {side: bound}})
+            ((label, margin),) = alone.evaluate(variables).margins.items()
+            rows.append(LimitRow(label, side, bound, _value(name, side, bound, margin), margin, kind))
+    return tuple(rows)
+
+
+def _value(name: str, side: str, limit: float, margin: float) -> float:
+    """Return the value whose margin this is."""
+    if ROWS[name].kind == "sign":
+        return limit + margin
+    sign = 1.0 if side == "min" else -1.0
+    if name in LINEAR:
+        return limit * (1.0 + sign * margin)
+    return limit * math.exp(sign * margin) if sign * margin < 700.0 else math.inf

@@ -1,0 +1,318 @@
+"""`sheet`: what a workshop and an engineer need of one design, over its poses."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry, triples
+from ninedof.sheet.clearance import least_clearance
+from ninedof.sheet.legs import LegRow, Motion, leg_rows, shown_internal
+from ninedof.sheet.limit_rows import LimitRow, limit_rows
+from ninedof.singularity.singularity import singularity_margins
+from ninedof.statics.accuracy import error_bounds
+from ninedof.statics.statics import stiffness
+from ninedof.support.arrays import Floats
+
+
+class Extreme(NamedTuple):
+    """A worst value and the pose that has it: 0 is the neutral pose, then the others in their order."""
+
+    value: float
+    pose: int
+
+
+class Clearance(NamedTuple):
+    """The least distance between the axes of two legs that share no joint."""
+
+    value: float
+    pose: int
+    legs: tuple[str, str]
+
+
+class Determinant(NamedTuple):
+    """One of the three determinants whose zeros are the singularities, over the poses."""
+
+    value: float
+    """Least modulus, 0 to 1."""
+    pose: int
+    changes_sign: bool
+    """Whether its sign at some pose differs from that at the neutral one: a singularity lies between them."""
+
+
+class Accuracy(NamedTuple):
+    """Largest first-order errors over the poses for the given tolerances."""
+
+    position: Extreme
+    """Displacement of p."""
+    rotation: Extreme
+    """Angle of the platform, rad."""
+    internal_point: Extreme
+    """Displacement of O."""
+
+
+class Stiffness(NamedTuple):
+    """Least stiffness over directions and poses, O free to settle; 0 at a singular pose."""
+
+    translation: Extreme
+    """Force at p per displacement of p along it, the platform free to turn."""
+    rotation: Extreme
+    """Moment per radian about its axis, the platform free to shift."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """What `sheet` returns. Lengths in the unit of the design, angles in radians; in `to_dict` and CSV degrees."""
+
+    geometry: Geometry
+    configurations: Configuration
+    """The neutral pose, then the others: a stack. Poses below are indices into it."""
+    characteristic_length: float
+    motion: Motion
+    """The platform speed behind the leg speeds, and how O moves in it."""
+    loads: Floats
+    """The loads behind the leg forces, rows (moment about p, force), base axes, shape (k, 6)."""
+    legs: tuple[LegRow, ...]
+    """The nine legs in the order of `leg_lengths`."""
+    condition_number: Extreme
+    """The worst."""
+    mean_condition_number: float
+    clearance: Clearance
+    """Joints that coincide in this design count as one, unlike in the limit of a study that lets them part."""
+    determinants: dict[str, Determinant]
+    """By name: "det_b", "det_c", "det_n"."""
+    nearest_singularity: str
+    """The name of the determinant of least modulus."""
+    accuracy: Accuracy | None
+    stiffness: Stiffness | None
+    limits: tuple[LimitRow, ...]
+    """Each limit of the study beside the value at the study's own poses; empty where the input has no study."""
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """Names of the legs that have the same length at every pose; empty for a single pose."""
+        return tuple(leg.name for leg in self.legs if leg.idle)
+
+    def joints(self) -> list[tuple[str, Floats, Floats]]:
+        """Return name, coordinates in the frame of its body and those in the base frame at the neutral pose."""
+        p, q = self.configurations.position[0], self.configurations.rotation[0]
+        rows = []
+        for triple, points in triples(self.geometry).items():
+            for i, point in enumerate(points):
+                placed = p + q @ point if triple.startswith("platform") else point
+                rows.append((f"{triple}_{i + 1}", point, placed))
+        return rows
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses"."""
+        c = self.configurations
+        out: dict[str, Any] = {
+            "joints": {name: {"own_frame": own, "neutral_pose": placed} for name, own, placed in self.joints()},
+            "poses": [
+                {"position": p, "rotation": q, "internal_point": s}
+                for p, q, s in zip(c.position, c.rotation, c.internal_point, strict=True)
+            ],
+        }
+        skipped = ("geometry", "configurations")
+        out |= {f.name: _plain(getattr(self, f.name)) for f in fields(self) if f.name not in skipped}
+        out["motion"] = {
+            "linear_speed": self.motion.linear_speed,
+            "angular_speed_deg": float(np.degrees(self.motion.angular_speed)),
+            "internal": self.motion.internal,
+        }
+        out["legs"] = [leg.to_dict() for leg in self.legs]
+        if self.accuracy is not None:
+            out["accuracy"]["rotation_deg"] = _degrees(out["accuracy"].pop("rotation"))
+        for row in out["limits"]:
+            if row["unit"] == "angle":
+                row |= {f"{key}_deg": float(np.degrees(row.pop(key))) for key in ("limit", "value")}
+        return {**out, "idle": list(self.idle)}
+
+    def to_csv(self) -> str:
+        """Return the table of the legs as CSV text: one row for each leg, empty where a leg has no such joint."""
+        rows = [leg.flat() for leg in self.legs]
+        text = io.StringIO()
+        writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return text.getvalue()
+
+
+def sheet(
+    design: Any,
+    poses: Configuration | None = None,
+    *,
+    linear_speed: float = 1.0,
+    angular_speed: float = 0.0,
+    internal: str | None = None,
+    loads: ArrayLike | None = None,
+    leg_errors: ArrayLike | None = None,
+    joint_errors: ArrayLike | None = None,
+    leg_stiffness: ArrayLike | None = None,
+    characteristic_length: float | str | None = None,
+) -> Sheet:
+    """Return the engineering sheet of a design over its poses.
+
+    Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at.
+
+    Parameters
+    ----------
+    design : Result, Candidate, DesignPoint, a design of a file, or Geometry
+        With the poses of its study, the neutral pose first; a design of a file has the neutral pose alone. The limits
+        are shown for a Result, which has the study.
+    poses : Configuration, shape (n,), optional
+        In place of the study's; the neutral pose of the design stays the first. For a Geometry they are needed, and
+        the first of them is the neutral one.
+    linear_speed, angular_speed : float
+        Speed of the platform origin (length/time; 1 by default) and angular speed (rad/time; 0 by default). The speed
+        of a leg is the largest over all directions of both: linear_speed |a| + angular_speed |b| where the rate of
+        the leg is a.pdot + b.omega.
+    internal : {"least", "rest", "carried"}, optional
+        How O moves in it: so that the squared leg rates are least (`internal_velocity`), not at all, or fixed to the
+        platform. By default as the poses show: "rest" where O has one place in all of several poses, "carried" where
+        it has one place in the platform, "least" otherwise.
+    loads : array_like, shape (6,) or (k, 6), optional
+        (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`.
+    leg_errors, joint_errors : float or array_like, optional
+        Tolerances of `error_bounds`; without both the sheet has no accuracy.
+    leg_stiffness : float or array_like of shape (9,), optional
+        That of `stiffness`, force/length; without it the sheet has no stiffness.
+    characteristic_length : float or str, optional
+        For the condition numbers; a kind is taken at the neutral pose. That of the design by default, 1 for a Geometry.
+
+    Returns
+    -------
+    Sheet
+
+    Raises
+    ------
+    ValueError
+        If there is no design (a result without a candidate), or an argument does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> found = nd.sheet(g, nd.Configuration.neutral(zp=[3.9, 3.7, 4.1], zs=2.4))
+    >>> leg = found.legs[0]
+    >>> leg.name, round(leg.shortest, 4), round(leg.longest, 4), round(leg.stroke_ratio, 4)
+    ('l1', 4.7049, 5.0255, 1.0682)
+    >>> found.idle  # O stays where it is
+    ('r1', 'r2', 'r3')
+
+    """
+    g, c, own_length = _robot(design, poses)
+    given = own_length if characteristic_length is None else characteristic_length
+    length = float(length_of(g, c[0], given)) if isinstance(given, str) else float(given)
+    wrenches = _loads(loads)
+    motion = Motion.checked(linear_speed, angular_speed, shown_internal(c) if internal is None else internal)
+    kappa = np.asarray(condition_number(g, c, length))
+    determinants = _determinants(g, c)
+    bounded = leg_errors is not None or joint_errors is not None
+    study, variables = getattr(design, "study", None), getattr(design, "variables", None)
+    return Sheet(
+        geometry=g,
+        configurations=c,
+        characteristic_length=length,
+        motion=motion,
+        loads=wrenches,
+        legs=leg_rows(g, c, motion, wrenches),
+        condition_number=_worst(kappa),
+        mean_condition_number=float(kappa.mean()),
+        clearance=Clearance(*least_clearance(g, c)),
+        determinants=determinants,
+        nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
+        accuracy=_accuracy(g, c, leg_errors, joint_errors) if bounded else None,
+        stiffness=None if leg_stiffness is None else _stiffness(g, c, leg_stiffness),
+        limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
+    )
+
+
+def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
+    if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
+        raise ValueError(f"poses: got {poses!r}, expected a stack of configurations of shape (n,)")
+    if isinstance(design, Geometry):
+        if poses is None:
+            raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
+        return design, poses, 1.0
+    try:
+        g, neutral, length = design.geometry, design.configuration, design.characteristic_length
+    except AttributeError:
+        raise ValueError(f"design: got {type(design).__name__}, expected a result, a design or a Geometry") from None
+    if g is None or neutral is None:
+        raise ValueError("design: got a result without a design, expected one")
+    more = getattr(design, "configurations", None) if poses is None else poses
+    stacks = [neutral, *([] if more is None else [more[1:] if poses is None else more])]
+    p, q, s = ([np.atleast_2d(getattr(x, name)) for x in stacks] for name in ("position", "rotation", "internal_point"))
+    q = [x.reshape(-1, 3, 3) for x in q]
+    return g, Configuration(np.concatenate(p), np.concatenate(q), np.concatenate(s)), length
+
+
+def _loads(loads: ArrayLike | None) -> Floats:
+    found = np.zeros((0, 6)) if loads is None else np.atleast_2d(np.asarray(loads, dtype=np.float64))
+    if found.ndim != 2 or found.shape[1] != 6 or not np.isfinite(found).all():
+        raise ValueError(f"loads: got {loads!r}, expected rows of six finite numbers, moment and force")
+    return found
+
+
+def _worst(values: Floats) -> Extreme:
+    at = int(np.argmax(values))
+    return Extreme(float(values[at]), at)
+
+
+def _least(values: Floats) -> Extreme:
+    at = int(np.argmin(values))
+    return Extreme(float(values[at]), at)
+
+
+def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
+    margins = singularity_margins(g, c)
+    found = {}
+    for name in ("det_b", "det_c", "det_n"):
+        values = np.asarray(getattr(margins, name))
+        changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
+        found[name] = Determinant(*_least(np.abs(values)), changes)
+    return found
+
+
+def _accuracy(g: Geometry, c: Configuration, legs: ArrayLike | None, joints: ArrayLike | None) -> Accuracy:
+    found = error_bounds(g, c, 0.0 if legs is None else legs, 0.0 if joints is None else joints)
+    return Accuracy(_worst(found.position), _worst(found.rotation), _worst(found.internal_point))
+
+
+def _stiffness(g: Geometry, c: Configuration, leg_stiffness: ArrayLike) -> Stiffness:
+    k = stiffness(g, c, leg_stiffness)
+    return Stiffness(
+        _least(_least_of_block(k[:, 3:, 3:], k[:, :3, 3:], k[:, :3, :3])),
+        _least(_least_of_block(k[:, :3, :3], k[:, 3:, :3], k[:, 3:, 3:])),
+    )
+
+
+def _least_of_block(kept: Floats, mixed: Floats, freed: Floats) -> Floats:
+    """Return the least stiffness of one block where the other coordinates settle: of the Schur complement."""
+    settled = np.swapaxes(mixed, -1, -2) @ np.linalg.pinv(freed, rcond=1e-13, hermitian=True) @ mixed
+    values = np.linalg.eigvalsh(kept - settled)
+    return np.asarray(np.maximum(values[..., 0], 0.0))
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "_asdict"):
+        return {key: _plain(v) for key, v in value._asdict().items()}
+    if is_dataclass(value) and not isinstance(value, type):
+        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, dict):
+        return {key: _plain(v) for key, v in value.items()}
+    return [_plain(v) for v in value] if isinstance(value, tuple) else value
+
+
+def _degrees(extreme: dict[str, Any]) -> dict[str, Any]:
+    return extreme | {"value": float(np.degrees(extreme["value"]))}

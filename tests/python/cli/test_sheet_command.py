@@ -1,0 +1,72 @@
+"""`ninedof sheet` on runs and design files, and what `ninedof evaluate` says of a run's poses."""
+
+import json
+import shlex
+from pathlib import Path
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.runs.folder import load, write_run
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+
+
+def run(capsys, line):
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    captured = capsys.readouterr()
+    return end.value.code, captured.out, captured.err
+
+
+@pytest.fixture(scope="module")
+def machine(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("machine")
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 500.0, "b1": 250.0, "b2": 0.0, "zp": 400.0, "zs": (100.0, 300.0)},
+        constraints={"leg_ratio": (None, 3.0), "platform_cone": {"max_deg": 55}},
+        objective={"poses": nd.poses.box(half=(40.0, 40.0, 40.0))},
+        characteristic_length=150.0,
+    )
+    write_run(nd.optimize(study, starts=2), folder)
+    return folder
+
+
+def test_the_sheet_of_a_run(capsys, machine, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    line = f"sheet {machine} --csv {tmp_path / 'legs.csv'} --load '0 0 0 0,0,-10' --leg-error 0.01 --leg-stiffness 1e4"
+    status, out, _ = run(capsys, line)
+    assert status == 0
+    for words in ("r1, r2, r3 never move", "O at rest", "platform_cone", "55.00°", "position error", "stiffness"):
+        assert words in out
+    assert (tmp_path / "legs.csv").read_text().startswith("leg,shortest,longest,neutral,stroke,stroke_ratio,idle,")
+    status, out, _ = run(capsys, line + " --turn-deg 30 --json")
+    data, expected = json.loads(out), load(machine).sheet()
+    assert data["motion"]["angular_speed_deg"] == pytest.approx(30.0)
+    assert [leg["longest"] for leg in data["legs"]] == [leg.longest for leg in expected.legs]
+    assert data["condition_number"] == expected.condition_number._asdict()
+    assert len(data["limits"]) == len(expected.limits) == 2
+
+
+def test_the_sheet_of_a_design_file(capsys):
+    status, out, _ = run(capsys, f"sheet {EXAMPLES / '04_design.toml'} --json")
+    data = json.loads(out)
+    assert status == 0
+    assert (len(data["poses"]), data["limits"], data["idle"]) == (1, [], [])
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("sheet nothing.toml", "nothing.toml"),
+        ("sheet . ", "record.json"),
+        (f"sheet {EXAMPLES / '04_design.toml'} --load '1 2 3'", "--load: got '1 2 3'"),
+        (f"sheet {EXAMPLES / '04_design.toml'} --internal fast", "internal: got 'fast'"),
+    ],
+)
+def test_bad_input(capsys, tmp_path, monkeypatch, line, words):
+    monkeypatch.chdir(tmp_path)
+    status, _, err = run(capsys, line)
+    assert status == 2
+    assert words in err

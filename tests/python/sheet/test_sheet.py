@@ -1,0 +1,265 @@
+"""The engineering sheet against plain numpy, and against the second opinion on limits."""
+
+import csv
+import io
+from itertools import combinations
+
+import numpy as np
+import numpy_model as model
+import pytest
+from robots import rates
+from scipy.optimize import lsq_linear
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+from ninedof.sheet.clearance import apart
+from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.sheet import Extreme
+from ninedof.verify.robot import DesignSpace
+from ninedof.verify.rules import limits_of, measured
+
+LEGS = [f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3)]
+
+
+def robots_at_poses(seed, poses=5):
+    """A random geometry at poses near a first one, the numpy models of all of them, and the generator."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    m = robots.at(int(np.argmin(model.condition_number(robots))))
+    turns = Rotation.from_rotvec(np.vstack([np.zeros(3), 0.1 * rng.normal(size=(poses - 1, 3))])).as_matrix()
+    shift = np.vstack([np.zeros(6), 0.1 * rng.normal(size=(poses - 1, 6))])
+    c = nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:])
+    g = m.geometry()
+    return g, c, [model.robot(g, c[k]) for k in range(poses)], rng
+
+
+def ends(m):
+    """Start and end of the nine legs, (9, 3)."""
+    out, up = m.p + m.u @ m.Q.T, m.p + m.ut @ m.Q.T
+    return np.vstack([m.r, up, m.rh]), np.vstack([out, np.tile(m.s, (6, 1))])
+
+
+def distance(a, b, c, d):
+    """Least distance of two segments: a bounded least-squares problem."""
+    found = lsq_linear(np.column_stack([b - a, c - d]), c - a, bounds=(0.0, 1.0), method="bvls")
+    return np.sqrt(2.0 * found.cost)
+
+
+def turned(x, y):
+    return np.arccos(np.clip(x @ y / np.linalg.norm(x) / np.linalg.norm(y), -1.0, 1.0))
+
+
+@pytest.mark.parametrize("seed", range(size(6, 100)))
+def test_every_number_of_random_robots(seed):
+    g, c, models, rng = robots_at_poses(seed)
+    load, v, w = rng.normal(size=(2, 6)), 1.7, 0.6
+    k = rng.uniform(1.0, 3.0, size=9)
+    found = nd.sheet(
+        g, c, linear_speed=v, angular_speed=w, loads=load, leg_errors=1e-3, leg_stiffness=k, characteristic_length=1.3
+    )
+    lengths = np.array([model.lengths(m) for m in models])
+    kappa = np.array([model.condition_number(m, 1.3) for m in models])
+    H = np.array([rates(m) for m in models])
+    least = np.array([np.linalg.pinv(model.jacobian(m)) for m in models])
+    speed = (w * np.linalg.norm(least[:, :, :3], axis=-1) + v * np.linalg.norm(least[:, :, 3:], axis=-1)).max(axis=0)
+    forces = np.array([[np.linalg.solve(h.T, -np.concatenate([f, np.zeros(3)])) for h in H] for f in load])
+    start, end = zip(*(ends(m) for m in models), strict=True)
+
+    assert [leg.name for leg in found.legs] == LEGS
+    for i, leg in enumerate(found.legs):
+        low, high = lengths[:, i].min(), lengths[:, i].max()
+        expected = (low, high, lengths[0, i], high - low, high / low, speed[i])
+        got = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
+        assert got == pytest.approx(expected, rel=1e-9)
+        assert not leg.idle
+        assert np.allclose(leg.forces, [(f[:, i].min(), f[:, i].max()) for f in forces], rtol=1e-8, atol=1e-10)
+        along = [e[i] - s[i] for s, e in zip(start, end, strict=True)]
+        base = max(turned(x, along[0]) for x in along)
+        platform = max(turned(m.Q.T @ x, models[0].Q.T @ along[0]) for m, x in zip(models, along, strict=True))
+        assert leg.base_cone == (None if 3 <= i < 6 else pytest.approx(base, abs=1e-7))
+        assert leg.platform_cone == (None if i >= 6 else pytest.approx(platform, abs=1e-7))
+
+    assert found.condition_number == (pytest.approx(kappa.max(), rel=1e-9), int(kappa.argmax()))
+    assert found.mean_condition_number == pytest.approx(kappa.mean(), rel=1e-9)
+    pairs = [(a, b) for a, b in combinations(range(9), 2) if a < 3]  # the internal legs meet in O
+    apart_by = [[distance(s[a], e[a], s[b], e[b]) for a, b in pairs] for s, e in zip(start, end, strict=True)]
+    pose, pair = np.unravel_index(np.argmin(apart_by), np.shape(apart_by))
+    assert found.clearance.value == pytest.approx(apart_by[pose][pair], abs=1e-7)
+    assert (found.clearance.pose, found.clearance.legs) == (pose, tuple(LEGS[x] for x in pairs[pair]))
+
+    def units(x):
+        return x / np.linalg.norm(x, axis=-1, keepdims=True)
+
+    dets = {"det_b": [], "det_c": [], "det_n": []}
+    for m, s, e in zip(models, start, end, strict=True):
+        dets["det_b"].append(np.linalg.det(units((e - s)[6:])))
+        dets["det_c"].append(np.linalg.det(units((e - s)[3:6])))
+        dets["det_n"].append(np.linalg.det(np.cross(units(s[:3] - m.s), units(e[:3] - m.s))))
+    for name, values in dets.items():
+        one = found.determinants[name]
+        assert (one.value, one.pose) == (pytest.approx(np.abs(values).min(), rel=1e-7), int(np.abs(values).argmin()))
+        assert one.changes_sign == (min(values) * max(values) < 0.0)
+    assert found.determinants[found.nearest_singularity].value == min(d.value for d in found.determinants.values())
+
+    inverse = np.linalg.inv(H)  # changes of (rotation, p, s) per change of length
+    corners = 1e-3 * np.array(np.meshgrid(*[[-1.0, 1.0]] * 9)).reshape(9, -1)
+    for name, rows in {"rotation": slice(0, 3), "position": slice(3, 6), "internal_point": slice(6, 9)}.items():
+        worst = np.array([np.linalg.norm(x[rows] @ corners, axis=0).max() for x in inverse])
+        assert getattr(found.accuracy, name) == (pytest.approx(worst.max(), rel=1e-8), int(worst.argmax()))
+    compliance = inverse @ (np.eye(9) / k) @ np.swapaxes(inverse, -1, -2)
+    for name, rows in {"rotation": slice(0, 3), "translation": slice(3, 6)}.items():
+        soft = np.linalg.eigvalsh(compliance[:, rows, rows])[:, -1]
+        assert getattr(found.stiffness, name) == (pytest.approx(1.0 / soft.max(), rel=1e-7), int(soft.argmax()))
+
+
+@pytest.mark.parametrize("internal", ["rest", "carried"])
+def test_leg_speeds_with_o_at_rest_and_carried(internal):
+    g, c, models, _ = robots_at_poses(11)
+    found = nd.sheet(g, c, linear_speed=2.0, angular_speed=0.5, internal=internal)
+    worst = []
+    for m in models:
+        x, y, z = m.s - m.p
+        cross = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # omega x (s - p)
+        sdot = np.hstack([cross, np.eye(3)]) if internal == "carried" else np.zeros((3, 6))
+        rows = rates(m) @ np.vstack([np.eye(6), sdot])
+        worst.append(0.5 * np.linalg.norm(rows[:, :3], axis=1) + 2.0 * np.linalg.norm(rows[:, 3:], axis=1))
+    assert [leg.speed for leg in found.legs] == pytest.approx(np.max(worst, axis=0), rel=1e-9, abs=1e-12)
+
+
+def test_the_rule_of_o_is_that_of_the_poses():
+    g, c, _, _ = robots_at_poses(3)
+    o = np.broadcast_to(c.internal_point[0], (5, 3))
+    rest = nd.sheet(g, nd.Configuration(c.position, c.rotation, o))
+    assert rest.motion.internal == "rest"
+    assert rest.idle == ("r1", "r2", "r3")
+    assert [leg.speed for leg in rest.legs[6:]] == [0.0, 0.0, 0.0]
+    own = c.rotation[0].T @ (c.internal_point[0] - c.position[0])
+    carried = nd.sheet(g, nd.Configuration(c.position, c.rotation, c.position + c.rotation @ own))
+    assert carried.motion.internal == "carried"
+    assert carried.idle == ("q1", "q2", "q3")
+    assert nd.sheet(g, c).motion.internal == "least"
+    assert nd.sheet(g, c[:1]).idle == ()
+
+
+def test_legs_with_a_common_joint_are_exempt():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)  # joints in pairs
+    meeting = [(a, b) for a, b in combinations(range(9), 2) if a < 3 and (a, b) not in apart(g)]
+    assert len(meeting) == 6  # each of the joints of l shared with one q and one r
+
+
+def test_a_crossed_singularity_is_said():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)
+    above, below = (
+        nd.sheet(g, nd.Configuration.neutral(3.0, [1.0, 2.0])),
+        nd.sheet(g, nd.Configuration.neutral(3.0, [1.0, -2.0])),
+    )
+    assert not above.determinants["det_b"].changes_sign
+    assert below.determinants["det_b"].changes_sign
+    singular = nd.sheet(g, nd.Configuration.neutral(3.0, [1.0, 0.0]), leg_stiffness=1.0, leg_errors=1.0)
+    assert singular.condition_number == Extreme(np.inf, 1)
+    assert singular.determinants["det_b"][1:] == (1, True)
+    assert singular.stiffness.translation.value == pytest.approx(0.0, abs=1e-9)
+
+
+EVERY = {
+    "radius_ratio": {"min": 0.1, "max": 2.5},
+    "leg_ratio": (None, 3.0),
+    "stroke_ratio": (None, 1.6),
+    "zs_fraction": (0.1, 0.9),
+    "stroke": {"max": 0.5, "of": "zp"},
+    "leg_length": (0.5, 9.0),
+    "external_length": {"max": 2.0, "of": "zp"},
+    "upper_length": (None, 8.0),
+    "lower_length": (None, 8.0),
+    "height": (None, 9.0),
+    "footprint": (None, 9.0),
+    "joint_height": {"max": 2.0, "of": "radius"},
+    "joint_spacing": {"min": 0.1},
+    "leg_clearance": {"radius": 0.05},
+    "base_cone": [{"max_deg": 60, "axis": [0, 0, 1]}, {"max_deg": 50, "axis": [0, 0, 1], "at": "neutral"}],
+    "platform_cone": {"max_deg": 40},
+    "singularity_free": {},
+}
+
+
+@pytest.mark.parametrize("seed", range(size(3, 50)))
+def test_limits_stand_beside_their_values(seed):
+    study = nd.Study(
+        family="symmetric_nonplanar",
+        constraints=EVERY,
+        objective={"poses": nd.poses.box(half=(0.1, 0.1, 0.1))},
+        characteristic_length=1.0,
+    )
+    problem = study.problem()
+    x = problem.starts(1, seed)[0]
+    variables = dict(zip(problem.names, x.tolist(), strict=True))
+    rows, point = limit_rows(study, variables), study.evaluate(variables)
+    margins = point.margins
+    assert {row.name for row in rows} == set(margins)
+    for name, margin in margins.items():
+        assert min(row.margin for row in rows if row.name == name) == pytest.approx(margin, abs=1e-12)
+    robot = DesignSpace(study, variables).robot(x)
+    by_side = {(row.name, row.side): row for row in rows}
+    for limit in limits_of(study):
+        if np.isfinite(limit.high):
+            row = by_side[limit.label, "max"]
+            assert (row.limit, row.value) == (limit.high, pytest.approx(measured(limit, robot), rel=1e-9, abs=1e-12))
+    clearance = nd.sheet(point).clearance
+    assert by_side["leg_clearance", "min"].value == pytest.approx(clearance.value, rel=1e-9)
+    spacing = by_side["joint_spacing", "min"]
+    assert spacing.value == pytest.approx(spacing.limit * (1.0 + spacing.margin))
+    assert by_side["leg_length", "min"].value == pytest.approx(
+        nd.leg_lengths(point.geometry, point.configurations).min()
+    )
+
+
+def test_the_sheet_of_a_result_has_the_limits():
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 5.0, "b1": 2.5, "b2": 0.0, "zp": 4.0},
+        constraints={"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45}},
+        objective={"poses": nd.poses.box(half=(0.1, 0.1, 0.1))},
+    )
+    result = nd.optimize(study, starts=2)
+    found = result.sheet(linear_speed=2.0)
+    assert [row.name for row in found.limits] == ["leg_ratio", "base_cone"]
+    assert found.limits[1].value == pytest.approx(max(leg.base_cone for leg in found.legs if leg.base_cone is not None))
+    assert found.condition_number.value == pytest.approx(max(*result.conditions, result.condition_number))
+    assert found.motion.linear_speed == 2.0
+    assert nd.sheet(result.best).limits == ()
+
+
+def test_csv_and_plain_values_are_in_degrees():
+    g, c, _, _ = robots_at_poses(2)
+    found = nd.sheet(g, c, loads=[0, 0, 0, 0, 0, -1], angular_speed=np.pi, joint_errors=1e-3)
+    rows = list(csv.DictReader(io.StringIO(found.to_csv())))
+    plain = found.to_dict()
+    for leg, row, entry in zip(found.legs, rows, plain["legs"], strict=True):
+        assert row["leg"] == entry["leg"] == leg.name
+        assert float(row["longest"]) == entry["longest"] == leg.longest
+        assert row["base_cone_deg"] == ("" if leg.base_cone is None else repr(np.degrees(leg.base_cone).item()))
+        assert entry["platform_cone_deg"] == (None if leg.platform_cone is None else np.degrees(leg.platform_cone))
+        assert float(row["force_1_max"]) == entry["forces"][0]["max"] == leg.forces[0][1]
+    assert plain["motion"]["angular_speed_deg"] == pytest.approx(180.0)
+    assert plain["accuracy"]["rotation_deg"]["value"] == np.degrees(found.accuracy.rotation.value)
+    placed = plain["joints"]["platform_internal_2"]["neutral_pose"]
+    assert np.allclose(placed, c.position[0] + c.rotation[0] @ g.platform_internal[1])
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"poses": None}, "poses: got none"),
+        ({"poses": nd.Configuration.neutral(3.0, 1.0)}, "poses: got"),
+        ({"design": 3.0}, "design: got float"),
+        ({"linear_speed": -1.0}, "linear_speed"),
+        ({"internal": "fast"}, "internal"),
+        ({"loads": [1.0, 2.0]}, "loads: got"),
+        ({"leg_errors": -1.0}, "leg_errors"),
+    ],
+)
+def test_wrong_arguments_are_named(change, words):
+    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)
+    given = {"design": g, "poses": nd.Configuration.neutral(3.0, [1.0])} | change
+    with pytest.raises(ValueError, match=words):
+        nd.sheet(**given)
