@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.optimize.result import Result
 from ninedof.runs.design_file import Design, hexagonal_design, load_design
+from ninedof.runs.folder import load
 
 
 def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
@@ -36,3 +38,20 @@ def length_option(text: str) -> float | str:
         if text not in KINDS:
             raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
         return text
+
+
+def is_run(path: Path) -> bool:
+    """Return whether a path is that of a run and not of a design file."""
+    return path.is_dir() or path.suffix == ".json"
+
+
+def design_or_result(path: Path) -> Design | Result:
+    """Return the result of a run of a study, or the design of a file."""
+    if not is_run(path):
+        return load_design(path)
+    run = load(path)
+    if not isinstance(run, Result):
+        raise ValueError(f"{path}: got a run without an optimum, expected one of `ninedof optimize` or a design file")
+    if run.best is None:
+        raise ValueError(f"{path}: the record holds no design: the run found none")
+    return run

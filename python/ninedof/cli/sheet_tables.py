@@ -1,4 +1,4 @@
-"""The tables of an engineering sheet."""
+"""The tables of an engineering sheet, whole and in short."""
 
 from __future__ import annotations
 
@@ -29,7 +29,25 @@ def sheet_tables(found: Sheet) -> Iterator[Table | str]:
         yield _forces(found)
     yield _worst(found)
     if found.limits:
-        yield _limits(found)
+        yield limits_table(found)
+
+
+def poses_table(found: Sheet) -> Table:
+    """Return the condition numbers and the legs over the poses, in short."""
+    table = _table(f"Over {len(found.configurations)} poses, the neutral one included", "", "")
+    table.show_header = False
+    worst = found.condition_number
+    table.add_row("worst condition number", f"{worst.value:.6f}")
+    table.add_row("at", _pose(found, worst.pose))
+    table.add_row("mean condition number", f"{found.mean_condition_number:.6f}", end_section=True)
+    for k in (0, 3, 6):
+        legs = found.legs[k : k + 3]
+        ranges = "  ".join(f"{short(leg.shortest)} to {short(leg.longest)}" for leg in legs)
+        table.add_row(f"legs {' '.join(leg.name for leg in legs)}", ranges)
+    table.add_row("largest stroke ratio", short(max(leg.stroke_ratio for leg in found.legs)))
+    if found.idle:
+        table.add_row("never move", ", ".join(found.idle))
+    return table
 
 
 def _table(title: str, *columns: str) -> Table:
@@ -115,7 +133,8 @@ def _worst(found: Sheet) -> Table:
     return table
 
 
-def _limits(found: Sheet) -> Table:
+def limits_table(found: Sheet) -> Table:
+    """Return the limits of the study beside the values and margins."""
     table = _table("Limits of the study, at its poses", "limit", "", "allowed", "here", "margin")
     for row in found.limits:
         margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{100.0 * row.margin:.2f} %"

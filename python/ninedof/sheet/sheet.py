@@ -187,7 +187,8 @@ def sheet(
     leg_stiffness : float or array_like of shape (9,), optional
         That of `stiffness`, force/length; without it the sheet has no stiffness.
     characteristic_length : float or str, optional
-        For the condition numbers; a kind is taken at the neutral pose. That of the design by default, 1 for a Geometry.
+        For the condition numbers; a kind is taken at the neutral pose, and where it has no value there, at a singular
+        one, they are infinite. That of the design by default, 1 for a Geometry.
 
     Returns
     -------
@@ -215,7 +216,8 @@ def sheet(
     length = float(length_of(g, c[0], given)) if isinstance(given, str) else float(given)
     wrenches = _loads(loads)
     motion = Motion.checked(linear_speed, angular_speed, shown_internal(c) if internal is None else internal)
-    kappa = np.asarray(condition_number(g, c, length))
+    kind_without_value = isinstance(given, str) and not np.isfinite(length)
+    kappa = np.full(len(c), np.inf) if kind_without_value else np.asarray(condition_number(g, c, length))
     determinants = _determinants(g, c)
     bounded = leg_errors is not None or joint_errors is not None
     study, variables = getattr(design, "study", None), getattr(design, "variables", None)

@@ -56,6 +56,21 @@ def test_the_sheet_of_a_design_file(capsys):
     assert (len(data["poses"]), data["limits"], data["idle"]) == (1, [], [])
 
 
+def test_evaluate_shows_the_poses_and_limits_of_a_run(capsys, machine, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    found = load(machine).sheet()
+    status, out, _ = run(capsys, f"evaluate {machine}")
+    assert status == 0
+    assert f"{found.condition_number.value:.6f}" in out
+    assert found.condition_number.value > load(machine).condition_number
+    assert f"{found.legs[3].shortest:.4f} to {found.legs[3].longest:.4f}" in out
+    assert "platform_cone" in out
+    data = json.loads(run(capsys, f"evaluate {machine} --json --lc 100")[1])
+    again = load(machine).sheet(characteristic_length=100.0)
+    assert data["sheet"]["condition_number"]["value"] == again.condition_number.value
+    assert data["sheet"]["limits"][0]["name"] == "leg_ratio"
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [

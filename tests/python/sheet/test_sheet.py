@@ -159,6 +159,8 @@ def test_a_crossed_singularity_is_said():
     singular = nd.sheet(g, nd.Configuration.neutral(3.0, [1.0, 0.0]), leg_stiffness=1.0, leg_errors=1.0)
     assert singular.condition_number == Extreme(np.inf, 1)
     assert singular.determinants["det_b"][1:] == (1, True)
+    without_length = nd.sheet(g, nd.Configuration.neutral(3.0, [0.0, 1.0]), characteristic_length="optimal")
+    assert without_length.condition_number == Extreme(np.inf, 0)
     assert singular.stiffness.translation.value == pytest.approx(0.0, abs=1e-9)
 
 

@@ -1,4 +1,4 @@
-"""`ninedof evaluate`: the indices of one design."""
+"""`ninedof evaluate`: the indices of one design, and of a run its poses and limits in short."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ import typer
 from rich.table import Table
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import chosen_design, with_length
+from ninedof.cli.chosen_design import chosen_design, design_or_result, is_run, with_length
 from ninedof.cli.screen import Screen
+from ninedof.cli.sheet_tables import limits_table, poses_table
 from ninedof.design.indices import computed
 from ninedof.runs.design_file import indices
+from ninedof.sheet.sheet import sheet
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -45,7 +47,7 @@ def evaluate(
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Print the indices of one design and configuration."""
+    """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
     screen = Screen(json)
     sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
     given = with_length(chosen_design(design, sides, theta_z_deg), lc)
@@ -71,4 +73,11 @@ def evaluate(
     p, o = given.configuration.position[2], given.configuration.internal_point[2]
     if not 0.0 < o < p:
         screen.print("O is not between base and platform: studies require 0 < zs < zp.")
+    if design is not None and is_run(design):
+        found = sheet(design_or_result(design), characteristic_length=given.characteristic_length)
+        if len(found.configurations) > 1:
+            screen.print(poses_table(found))
+        if found.limits:
+            screen.print(limits_table(found))
+        values |= {"sheet": found.to_dict()}
     screen.data(values)

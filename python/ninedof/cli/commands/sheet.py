@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from ninedof.cli import options
+from ninedof.cli.chosen_design import design_or_result
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import sheet_tables
-from ninedof.optimize.result import Result
-from ninedof.runs.design_file import load_design
-from ninedof.runs.folder import load
 from ninedof.sheet.sheet import sheet as sheet_of
 from ninedof.support.files import write_whole
 
@@ -61,18 +59,6 @@ def sheet(
     if csv is not None:
         write_whole(csv, found.to_csv().encode())
     screen.data(found.to_dict())
-
-
-def design_or_result(path: Path) -> Any:
-    """Return the result of a run of a study, or the design of a file."""
-    if not path.is_dir() and path.suffix != ".json":
-        return load_design(path)
-    run = load(path)
-    if not isinstance(run, Result):
-        raise ValueError(f"{path}: got a run without an optimum, expected one of `ninedof optimize` or a design file")
-    if run.best is None:
-        raise ValueError(f"{path}: the record holds no design: the run found none")
-    return run
 
 
 def _load(text: str) -> list[float]:
