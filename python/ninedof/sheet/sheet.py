@@ -18,6 +18,7 @@ from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.clearance import least_clearance
 from ninedof.sheet.legs import LegRow, Motion, leg_rows, shown_internal
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
+from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import error_bounds
 from ninedof.statics.statics import stiffness
@@ -69,7 +70,7 @@ class Stiffness(NamedTuple):
     """Moment per radian about its axis, the platform free to shift."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sheet:
     """What `sheet` returns. Lengths in the unit of the design, angles in radians; in `to_dict` and CSV degrees."""
 
@@ -111,6 +112,16 @@ class Sheet:
                 placed = p + q @ point if triple.startswith("platform") else point
                 rows.append((f"{triple}_{i + 1}", point, placed))
         return rows
+
+    def summary(self) -> str:
+        """Return the sheet as lines of text, without joints and forces; angles in degrees."""
+        return "\n".join(sheet_words(self))
+
+    def __repr__(self) -> str:
+        """Show the count of poses and the worst condition number."""
+        return (
+            f"<Sheet over {len(self.configurations)} poses: worst condition number {self.condition_number.value:.6g}>"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses"."""

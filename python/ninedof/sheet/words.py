@@ -1,0 +1,58 @@
+"""A sheet in plain text."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ninedof.sheet.limit_rows import LimitRow
+
+HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "base cone", "platf. cone")
+WIDTH = 12
+
+
+def sheet_words(found: Any) -> list[str]:
+    """Return the lines of `Sheet.summary`; takes a Sheet."""
+    lines = ["".join(f"{name:>{WIDTH}}" if k else f"{name:<4}" for k, name in enumerate(HEAD))]
+    for leg in found.legs:
+        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
+        cones = ("-" if a is None else f"{math.degrees(a):.2f} deg" for a in (leg.base_cone, leg.platform_cone))
+        cells = (*(f"{x:.6g}" for x in numbers), *cones)
+        lines.append(f"{leg.name:<4}" + "".join(f"{cell:>{WIDTH}}" for cell in cells))
+    if found.idle:
+        lines.append(f"{', '.join(found.idle)} never move over these poses")
+    worst, mean, clear = found.condition_number, found.mean_condition_number, found.clearance
+    near = found.determinants[found.nearest_singularity]
+    lines += [
+        f"condition number {worst.value:.6f} at worst ({_pose(worst.pose)}), {mean:.6f} on average",
+        f"least clearance {clear.value:.6g}, {' and '.join(clear.legs)} ({_pose(clear.pose)})",
+        f"nearest singularity |{_det(found.nearest_singularity)}| = {near.value:.6f} ({_pose(near.pose)})",
+    ]
+    crossed = [_det(name) for name, one in found.determinants.items() if one.changes_sign]
+    if crossed:
+        lines.append(f"a singularity lies between poses: {', '.join(crossed)} changes sign")
+    if found.accuracy is not None:
+        a = found.accuracy
+        turn = f"{math.degrees(a.rotation.value):.4g} deg"
+        lines.append(f"errors: position {a.position.value:.4g}, rotation {turn}, O {a.internal_point.value:.4g}")
+    if found.stiffness is not None:
+        s = found.stiffness
+        lines.append(f"least stiffness: {s.translation.value:.4g}, turning {s.rotation.value:.4g} per rad")
+    return lines + [
+        f"{row.name} {row.side} {_in_unit(row, row.limit)}: {_in_unit(row, row.value)}, margin {row.margin:.2%}"
+        if row.unit != "sign"
+        else f"{row.name} {row.side} {row.limit:.6g}: {row.value:.6g}, margin {row.margin:.4g}"
+        for row in found.limits
+    ]
+
+
+def _det(name: str) -> str:
+    return f"det {name[-1].upper()}"
+
+
+def _pose(k: int) -> str:
+    return f"pose {k}" if k else "neutral pose"
+
+
+def _in_unit(row: LimitRow, value: float) -> str:
+    return f"{math.degrees(value):.2f} deg" if row.unit == "angle" else f"{value:.6g}"
