@@ -137,7 +137,7 @@ def limits_table(found: Sheet) -> Table:
     """Return the limits of the study beside the values and margins."""
     table = _table("Limits of the study, at its poses", "limit", "", "allowed", "here", "margin")
     for row in found.limits:
-        margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{100.0 * row.margin:.2f} %"
+        margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
         table.add_row(row.name, row.side, _in_unit(row, row.limit), _in_unit(row, row.value), margin)
     return table
 

@@ -186,7 +186,7 @@ def sheet(
     linear_speed, angular_speed : float
         Speed of the platform origin (length/time; 1 by default) and angular speed (rad/time; 0 by default). The speed
         of a leg is the largest over all directions of both: linear_speed |a| + angular_speed |b| where the rate of
-        the leg is a.pdot + b.omega.
+        the leg is a.pdot + b.omega. From rest the same holds for accelerations.
     internal : {"least", "rest", "carried"}, optional
         How O moves in it: so that the squared leg rates are least (`internal_velocity`), not at all, or fixed to the
         platform. By default as the poses show: "rest" where O has one place in all of several poses, "carried" where

@@ -39,9 +39,7 @@ def sheet_words(found: Any) -> list[str]:
         s = found.stiffness
         lines.append(f"least stiffness: {s.translation.value:.4g}, turning {s.rotation.value:.4g} per rad")
     return lines + [
-        f"{row.name} {row.side} {_in_unit(row, row.limit)}: {_in_unit(row, row.value)}, margin {row.margin:.2%}"
-        if row.unit != "sign"
-        else f"{row.name} {row.side} {row.limit:.6g}: {row.value:.6g}, margin {row.margin:.4g}"
+        f"{row.name} {row.side} {_in_unit(row, row.limit)}: {_in_unit(row, row.value)}, margin {_margin(row)}"
         for row in found.limits
     ]
 
@@ -56,3 +54,7 @@ def _pose(k: int) -> str:
 
 def _in_unit(row: LimitRow, value: float) -> str:
     return f"{math.degrees(value):.2f} deg" if row.unit == "angle" else f"{value:.6g}"
+
+
+def _margin(row: LimitRow) -> str:
+    return f"{row.margin:.4g}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
