@@ -28,6 +28,7 @@ from ninedof.design.study import Study
 from ninedof.kinematics.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
 from ninedof.kinematics.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
+from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
 from ninedof.optimize.optimize import Trace, optimize, trace
 from ninedof.optimize.result import Candidate, Result, Status
@@ -71,12 +72,14 @@ __all__ = [
     "DesignPoint",
     "Ellipsoid",
     "ErrorBounds",
+    "Followed",
     "Front",
     "Geometry",
     "InternalPoint",
     "InternalPointMap",
     "InternalPointStatus",
     "LegForces",
+    "LimitBreak",
     "LowerBound",
     "MapAudit",
     "Mechanism",
@@ -95,6 +98,7 @@ __all__ = [
     "Trace",
     "TrackStatus",
     "Tracked",
+    "Trajectory",
     "VelocityMatrices",
     "WorkspaceCells",
     "WorkspaceMap",
@@ -113,6 +117,7 @@ __all__ = [
     "error_bounds",
     "error_map",
     "error_samples",
+    "follow",
     "force_ellipsoid",
     "forward_acceleration",
     "forward_position",

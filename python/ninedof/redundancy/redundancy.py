@@ -233,8 +233,8 @@ def _closed_path(
         poses = rounds * count
         # The core scales the moves of O by (poses - 1) poses; for one round this is to be count^2.
         weight = smoothness * (count / (poses - 1)) * (count / poses)
-        around = [np.concatenate([rows[:-1]] * rounds) for rows in (p, q)]
-        found = _core.best_internal_path(geometry, *around, first, problem, weight)
+        around_p, around_q = (np.concatenate([rows[:-1]] * rounds) for rows in (p, q))
+        found = _core.best_internal_path(geometry, around_p, around_q, first, problem, weight)
         begin = rounds // 2 * count
         s = found["internal_point"]
         gap = np.abs(s[begin + count] - s[begin])

@@ -47,6 +47,7 @@ PYTHON_ROOMS = (
     "singularity",
     "statics",
     "redundancy",
+    "motion",
     "design",
     "sheet",
     "optimize",

@@ -1,0 +1,180 @@
+"""What following a trajectory needs of the legs, and what it meets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninedof.motion.trajectory import Trajectory
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.singularity.singularity import SingularityMargins
+from ninedof.support.arrays import Floats
+
+LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
+DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
+
+
+class LimitBreak(NamedTuple):
+    """A stretch of time in which a limit is not kept."""
+
+    limit: str
+    """"l1 low" or "q2 high": the leg is shorter or longer than its limit. "det B": a singularity is passed."""
+    begin: float
+    """Time, interpolated linearly between poses."""
+    end: float
+    worst: float
+    """The leg length, or 0 for a determinant."""
+    at: float
+    """The time of the worst."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Followed:
+    """A motion along a trajectory, legs in the order of `leg_lengths`."""
+
+    geometry: Geometry
+    trajectory: Trajectory
+    configurations: Configuration
+    """The poses with O, shape (n,)."""
+    internal_point: str | float
+    """The rule for O."""
+    leg_lengths: Floats
+    """Shape (n, 9)."""
+    leg_rates: Floats
+    """Length/time, shape (n, 9)."""
+    leg_accelerations: Floats
+    """Length/time^2, shape (n, 9)."""
+    velocity: Floats
+    """Angular velocity of the platform and velocities of p and O, base frame, shape (n, 9)."""
+    acceleration: Floats
+    """Their time derivatives, shape (n, 9)."""
+    characteristic_length: float
+    condition_number: Floats
+    """Shape (n,); infinite where singular."""
+    singularity_margins: SingularityMargins
+    """As `singularity_margins`, each of shape (n,)."""
+    limits: tuple[Floats, Floats]
+    """Least and greatest length of each leg, shapes (9,)."""
+    leg_forces: Floats | None
+    """For the given load, positive if the leg pushes, shape (n, 9); None without a load."""
+    tracked: bool
+    """Whether `track` returns every pose from its leg lengths, to 1e-9 and each step with its proof."""
+    tracked_until: float
+    """The time of the last pose before one that it loses or returns differently, as beyond a singularity."""
+    tracking_error: float
+    """Largest difference of a pose that `track` reached: of Q, and of p and O over the largest leg length."""
+
+    @property
+    def time(self) -> Floats:
+        """Shape (n,)."""
+        found: Floats = self.trajectory.time
+        return found
+
+    @property
+    def leg_margins(self) -> Floats:
+        """Distance of each leg to its nearer limit, negative outside, shape (n, 9); infinite without limits."""
+        low, high = self.limits
+        found: Floats = np.minimum(np.where(low > 0.0, self.leg_lengths - low, np.inf), high - self.leg_lengths)
+        return found
+
+    @cached_property
+    def breaks(self) -> tuple[LimitBreak, ...]:
+        """Every stretch of time in which a leg is outside its limits, and every singularity passed, by time."""
+        low, high = self.limits
+        found: list[LimitBreak] = []
+        for k, leg in enumerate(LEGS):
+            lengths = self.leg_lengths[:, k]
+            found += _stretches(f"{leg} low", self.time, lengths, lengths - low[k])
+            found += _stretches(f"{leg} high", self.time, lengths, high[k] - lengths)
+        for name, word in DETERMINANTS.items():
+            found += _crossings(word, self.time, getattr(self.singularity_margins, name))
+        return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
+
+    @property
+    def idle_legs(self) -> tuple[str, ...]:
+        """Legs whose length never changes."""
+        spread = np.ptp(self.leg_lengths, axis=0)
+        return tuple(leg for leg, s in zip(LEGS, spread, strict=True) if s <= 1e-12 * self.leg_lengths.max())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""
+        worst = int(np.argmax(self.condition_number))
+        margins = np.abs(np.stack(self.singularity_margins))
+        near = np.unravel_index(int(np.argmin(margins)), margins.shape)
+        low, high = self.limits
+        legs = {}
+        for k, leg in enumerate(LEGS):
+            legs[leg] = {
+                "shortest": float(self.leg_lengths[:, k].min()),
+                "longest": float(self.leg_lengths[:, k].max()),
+                "speed": float(np.abs(self.leg_rates[:, k]).max()),
+                "acceleration": float(np.abs(self.leg_accelerations[:, k]).max()),
+                "low": float(low[k]),
+                "high": float(high[k]),
+                "margin": float(self.leg_margins[:, k].min()),
+            }
+            if self.leg_forces is not None:
+                legs[leg] |= {"push": float(self.leg_forces[:, k].max()), "pull": float(-self.leg_forces[:, k].min())}
+        return {
+            "poses": len(self.time),
+            "begin": float(self.time[0]),
+            "end": float(self.time[-1]),
+            "closed": self.trajectory.closed,
+            "internal_point": self.internal_point,
+            "legs": legs,
+            "idle_legs": list(self.idle_legs),
+            "characteristic_length": self.characteristic_length,
+            "condition_number": {
+                "first": float(self.condition_number[0]),
+                "last": float(self.condition_number[-1]),
+                "worst": float(self.condition_number[worst]),
+                "at": float(self.time[worst]),
+            },
+            "nearest_singularity": {
+                "determinant": list(DETERMINANTS.values())[near[0]],
+                "value": float(margins[near]),
+                "at": float(self.time[near[1]]),
+            },
+            "breaks": [broken._asdict() for broken in self.breaks],
+            "tracked": self.tracked,
+            "tracked_until": self.tracked_until,
+            "tracking_error": self.tracking_error,
+        }
+
+    def __repr__(self) -> str:
+        """Show the number of poses and what is not kept."""
+        broken = sorted({entry.limit for entry in self.breaks})
+        return f"<Followed: {len(self.time)} poses, {'breaks ' + ', '.join(broken) if broken else 'within limits'}>"
+
+
+def _stretches(name: str, time: Floats, lengths: Floats, margin: Floats) -> list[LimitBreak]:
+    """Return the stretches of negative margin."""
+    outside = np.concatenate([[False], margin < 0.0, [False]])
+    found = []
+    for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
+        worst = first + int(np.argmin(margin[first:after]))
+        begin = time[first] if first == 0 else _zero(time, margin, first - 1)
+        end = time[-1] if after == len(time) else _zero(time, margin, after - 1)
+        found.append(LimitBreak(name, float(begin), float(end), float(lengths[worst]), float(time[worst])))
+    return found
+
+
+def _crossings(name: str, time: Floats, determinant: Floats) -> list[LimitBreak]:
+    """Return the changes of sign; a pose with a determinant of 0 is one too."""
+    found = []
+    for k in np.flatnonzero(determinant == 0.0).tolist():
+        found.append(LimitBreak(name, float(time[k]), float(time[k]), 0.0, float(time[k])))
+    for k in np.flatnonzero(determinant[1:] * determinant[:-1] < 0.0).tolist():
+        at = _zero(time, determinant, k)
+        found.append(LimitBreak(name, at, at, 0.0, at))
+    return found
+
+
+def _zero(time: Floats, values: Floats, k: int) -> float:
+    """Return where the line between samples k and k + 1 is zero."""
+    share = values[k] / (values[k] - values[k + 1])
+    return float(time[k] + share * (time[k + 1] - time[k]))

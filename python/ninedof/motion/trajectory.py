@@ -1,0 +1,138 @@
+"""Poses of the platform over time."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from ninedof.motion.shapes import circle_positions, line_positions, spiral_positions, times
+from ninedof.motion.trajectory_file import read_trajectory
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arguments import finite, shown, vector
+from ninedof.support.arrays import as_floats, frozen
+
+FEWEST = 3  # poses: accelerations need three
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory:
+    """Poses of the platform over time. Immutable.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        Increasing, at least three. Unit of time of all rates.
+    position : array_like, shape (n, 3)
+        Origin p of the platform, length units, base frame.
+    rotation : array_like, shape (n, 3, 3) or (3, 3), or scipy.spatial.transform.Rotation
+        Q, platform frame to base frame. The identity by default.
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, a number is not finite, the time does not increase, or a matrix is no rotation.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> home = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> nd.Trajectory.circle(home, radius=0.5, duration=2.0, points=201)
+    <Trajectory of 201 poses, 0 to 2, closed>
+
+    """
+
+    time: Any
+    """Shape (n,)."""
+    position: Any
+    """Shape (n, 3)."""
+    rotation: Any = None
+    """Shape (n, 3, 3)."""
+
+    def __post_init__(self) -> None:
+        """Check and freeze the arrays."""
+        t = as_floats("time", self.time, ())
+        if t.ndim != 1 or len(t) < FEWEST or not np.isfinite(t).all():
+            raise ValueError(f"time: got {shown(self.time)}, expected at least {FEWEST} finite numbers")
+        wrong = np.flatnonzero(~(np.diff(t) > 0.0))
+        if len(wrong):
+            k = int(wrong[0]) + 1
+            raise ValueError(f"time: got {t[k]:g} after {t[k - 1]:g}, expected increasing times")
+        poses = Configuration(self.position, self.rotation, np.zeros((len(t), 3)))
+        if poses.shape != t.shape:
+            raise ValueError(f"position: got poses of shape {poses.shape}, expected one for each of {len(t)} times")
+        if not (np.isfinite(poses.position).all() and np.isfinite(poses.rotation).all()):
+            raise ValueError("position, rotation: got NaN, expected finite numbers")
+        for name, array in (("time", frozen(t)), ("position", poses.position), ("rotation", poses.rotation)):
+            object.__setattr__(self, name, array)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], home: Configuration) -> Self:
+        """Read a CSV file whose first line names the columns.
+
+        Parameters
+        ----------
+        path : path
+            Columns, in any order: t, x, y, z, and for the rotation none, qw qx qy qz, rx ry rz (a rotation vector) or
+            yaw pitch roll (Euler angles, R_z R_y R_x); angles in radians, or in degrees with names such as rx_deg and
+            yaw_deg. Positions and rotations are those of the platform in the base frame. A line that begins with #
+            is a comment.
+        home : Configuration
+            Its rotation is taken where the file has none.
+
+        Raises
+        ------
+        ValueError
+            Naming file, line and column.
+
+        """
+        found = read_trajectory(path)
+        return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
+
+    @classmethod
+    def circle(cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001) -> Self:
+        """Return a horizontal circle about the position of `home`, at constant speed and with its rotation."""
+        t = times(duration, points)
+        return cls(t, home.position + circle_positions(t / t[-1], finite("radius", radius)), home.rotation)
+
+    @classmethod
+    def line(cls, home: Configuration, step: Any, duration: float = 1.0, points: int = 1001) -> Self:
+        """Return a straight line from `home` by `step` (x, y, z), from rest to rest (polynomial of degree five)."""
+        t = times(duration, points)
+        return cls(t, home.position + line_positions(t / t[-1], vector("line", step)), home.rotation)
+
+    @classmethod
+    def spiral(
+        cls, home: Configuration, radius: float, height: float, duration: float = 1.0, points: int = 1001
+    ) -> Self:
+        """Return three turns from `home` outwards to `radius` and up by `height`, from rest to rest."""
+        t = times(duration, points)
+        r, h = finite("radius", radius), finite("height", height)
+        return cls(t, home.position + spiral_positions(t / t[-1], r, h), home.rotation)
+
+    def __len__(self) -> int:
+        """Return the number of poses."""
+        return len(self.time)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the last pose is the first, to 1e-12."""
+        near = 1e-12 * float(np.abs(self.position).max())
+        return bool(
+            (np.abs(self.position[-1] - self.position[0]) <= near).all()
+            and (np.abs(self.rotation[-1] - self.rotation[0]) <= 1e-12).all()
+        )
+
+    def __repr__(self) -> str:
+        """Show the number of poses and the times."""
+        ends = f"{self.time[0]:g} to {self.time[-1]:g}"
+        return f"<Trajectory of {len(self)} poses, {ends}{', closed' if self.closed else ''}>"
+
+
+def trajectory_argument(value: Any) -> Trajectory:
+    """Return `value`, or raise unless it is a Trajectory."""
+    if not isinstance(value, Trajectory):
+        raise ValueError(f"trajectory: got {shown(value)}, expected a Trajectory")
+    return value

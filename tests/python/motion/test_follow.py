@@ -1,0 +1,194 @@
+"""Motion along a trajectory, against numpy's finite differences and the legs' own definition."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+from ninedof.motion.derivatives import angular_derivatives, derivatives, stencils
+from ninedof.motion.internal_point import cubic_spline
+from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors, to_quaternions, vectors_between
+
+HOME = nd.Configuration.neutral(3.9828, 2.4432)
+
+
+def smooth(time, seed, reach=0.3, turn=0.25):
+    """A random smooth path about the neutral pose: three waves for each coordinate."""
+    rng = np.random.default_rng(seed)
+    waves = rng.normal(size=(6, 3)), rng.uniform(0.0, 6.0, (6, 3))
+    x = np.sum(waves[0] * np.sin(np.outer(time, [1.0, 2.0, 3.0])[:, None] + waves[1]), axis=2)
+    x *= np.array([reach] * 3 + [turn] * 3) / 3.0
+    return HOME.position + x[:, :3], Rotation.from_rotvec(x[:, 3:])
+
+
+def uneven(n, seed, end=2.0):
+    steps = np.random.default_rng(seed).uniform(0.7, 1.3, n - 1)
+    return end * np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
+
+
+@pytest.mark.parametrize("rule", ["carried", "held", 0.4])
+@pytest.mark.parametrize("seed", range(size(3, 60)))
+def test_rates_are_those_of_the_lengths(published, rule, seed):
+    time = uneven(2001, seed)
+    found = nd.follow(published, nd.Trajectory(time, *smooth(time, seed)), HOME, rule)
+    rates = np.gradient(found.leg_lengths, time, axis=0, edge_order=2)
+    accelerations = np.gradient(rates, time, axis=0, edge_order=2)
+    assert np.abs(found.leg_rates - rates).max() < 3e-5
+    assert np.abs(found.leg_accelerations - accelerations)[5:-5].max() < 5e-3
+    spline = CubicSpline(time, found.leg_lengths)
+    assert np.abs(found.leg_rates - spline(time, 1))[5:-5].max() < 1e-6
+    assert found.tracked
+    assert found.tracking_error < 1e-9
+    assert found.tracked_until == time[-1]
+
+
+def test_derivatives_are_exact_for_polynomials():
+    time = uneven(12, 0)
+    powers = time[:, None] ** np.arange(5)
+    coefficients = np.random.default_rng(1).normal(size=(5, 3))
+    at = stencils(time)
+    first, second = derivatives(at, powers @ coefficients)
+    k = np.arange(5)
+    assert first == pytest.approx((k[1:] * powers[:, :-1]) @ coefficients[1:], abs=1e-10)
+    assert second == pytest.approx((k[2:] * k[1:-1] * powers[:, :-2]) @ coefficients[2:], abs=1e-8)
+
+
+def test_angular_derivatives_at_a_constant_spin():
+    time, spin = np.linspace(0.0, 20.0, 2001), np.array([0.3, -0.5, 0.8])
+    omega, alpha = angular_derivatives(stencils(time), Rotation.from_rotvec(np.outer(time, spin)).as_matrix())
+    assert omega == pytest.approx(np.tile(spin, (2001, 1)), abs=1e-10)
+    assert np.abs(alpha).max() < 1e-8
+
+
+def test_rotations_agree_with_scipy():
+    rng = np.random.default_rng(2)
+    r = Rotation.random(200, random_state=3)
+    q = to_quaternions(r.as_matrix())
+    assert from_quaternions(q) == pytest.approx(r.as_matrix(), abs=1e-14)
+    assert (np.sum(q[1:] * q[:-1], axis=1) >= 0.0).all()
+    assert from_vectors(r.as_rotvec()) == pytest.approx(r.as_matrix(), abs=1e-14)
+    a = rng.uniform(-1.5, 1.5, (200, 3))
+    assert from_euler(*a.T) == pytest.approx(Rotation.from_euler("ZYX", a).as_matrix(), abs=1e-14)
+    between = vectors_between(q[:-1], q[1:])
+    assert between == pytest.approx((r[1:] * r[:-1].inv()).as_rotvec(), abs=1e-12)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_cubic_splines_agree_with_scipy(periodic):
+    x = uneven(20, 4)
+    y = np.stack([np.sin(np.pi * x), np.cos(np.pi * x) + 0.3 * np.sin(2 * np.pi * x)], axis=1)
+    if periodic:
+        y[-1] = y[0]
+    at = np.linspace(0.0, x[-1], 333)
+    oracle = CubicSpline(x, y, bc_type="periodic" if periodic else "not-a-knot")(at)
+    assert cubic_spline(x, y, at, periodic) == pytest.approx(oracle, abs=1e-12)
+
+
+def test_the_best_path_on_a_circle_closes(published):
+    circle = nd.Trajectory.circle(HOME, 0.8, points=41)
+    found = nd.follow(published, circle, HOME, "best")
+    assert circle.closed
+    assert found.condition_number[0] == found.condition_number[-1]
+    assert (found.configurations.internal_point[0] == found.configurations.internal_point[-1]).all()
+    assert found.leg_rates[0] == pytest.approx(found.leg_rates[-1], abs=2e-3)
+    carried = nd.follow(published, circle, HOME)
+    assert found.condition_number.max() < carried.condition_number.max()
+    assert found.tracking_error < 1e-9
+    assert found.idle_legs == ()
+
+
+def test_idle_legs_are_named(published):
+    line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
+    assert nd.follow(published, line, HOME, "held").idle_legs == ("r1", "r2", "r3")
+    assert nd.follow(published, line, HOME, "carried").idle_legs == ("q1", "q2", "q3")
+    assert nd.follow(published, line, HOME, 0.5).idle_legs == ()
+
+
+def test_limits_break_when_the_length_passes_them(published):
+    line = nd.Trajectory.line(HOME, (0.0, 0.0, 1.0), duration=4.0, points=401)
+    lengths = nd.follow(published, line, HOME).leg_lengths[:, 0]
+    high = float(np.interp(1.2345, line.time, lengths))
+    found = nd.follow(published, line, HOME, limits=(0.0, [high] * 3 + [9.0] * 6))
+    assert [b.limit for b in found.breaks] == ["l1 high", "l2 high", "l3 high"]
+    for broken in found.breaks:
+        assert broken.begin == pytest.approx(1.2345, abs=1e-9)
+        assert broken.end == 4.0
+        assert broken.worst == pytest.approx(lengths[-1])
+        assert broken.at == 4.0
+    assert found.leg_margins.min() == pytest.approx(high - lengths[-1])
+
+
+def test_a_limit_that_breaks_twice_has_two_stretches(published):
+    time = np.linspace(0.0, 2.0, 201)
+    z = HOME.position + np.outer(np.sin(2.0 * np.pi * time), [0.0, 0.0, 0.5])
+    low = float(nd.leg_lengths(published, HOME)[0])
+    found = nd.follow(published, nd.Trajectory(time, z), HOME, limits=([low] + [0.0] * 8, 99.0))
+    assert [(b.limit, round(b.begin, 6), round(b.end, 6)) for b in found.breaks] == [
+        ("l1 low", 0.5, 1.0),
+        ("l1 low", 1.5, 2.0),
+    ]
+
+
+def test_a_singularity_on_the_way_is_reported(published):
+    time = np.linspace(0.0, 1.0, 101)
+    down = HOME.position - np.outer(time, [0.0, 0.0, 3.0])
+    found = nd.follow(published, nd.Trajectory(time, down), HOME, "held")
+    crossing = (3.9828 - 2.4432) / 3.0  # the platform reaches the height of O
+    assert any(b.limit == "det C" and abs(b.begin - crossing) < 1e-2 for b in found.breaks)
+    assert not found.tracked
+    assert found.tracked_until < crossing
+    assert found.tracking_error > 1e-3  # the mode of these lengths that track follows stays on its side
+
+
+def test_forces_balance_the_load(published):
+    line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
+    found = nd.follow(published, line, HOME, force=[1.0, 2.0, -9.0], moment=[0.1, 0.2, 0.3])
+    power = np.sum(found.leg_forces * found.leg_rates, axis=1) + found.velocity[:, 3:6] @ [1.0, 2.0, -9.0]
+    assert np.abs(power).max() < 1e-10
+    assert nd.follow(published, line, HOME).leg_forces is None
+
+
+def test_shapes_start_where_they_should():
+    spiral = nd.Trajectory.spiral(HOME, 0.5, 0.4, duration=3.0)
+    assert (spiral.position[0] == HOME.position).all()
+    assert spiral.position[-1] == pytest.approx([0.5, 0.0, 4.3828])
+    assert not spiral.closed
+    circle = nd.Trajectory.circle(HOME, 0.5, points=100)
+    assert np.linalg.norm(circle.position - HOME.position, axis=1) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (([0.0, 1.0], np.zeros((2, 3))), "time: got"),
+        (([0.0, 1.0, 1.0], np.zeros((3, 3))), "got 1 after 1"),
+        (([0.0, 1.0, 2.0], np.zeros((4, 3))), "internal_point"),
+        (([0.0, 1.0, 2.0], np.full((3, 3), np.nan)), "NaN"),
+        (([0.0, 1.0, 2.0], np.zeros((3, 3)), 2.0 * np.eye(3)), "rotation"),
+    ],
+)
+def test_bad_trajectories(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        nd.Trajectory(*arguments)
+
+
+def test_bad_arguments(published):
+    line = nd.Trajectory.line(HOME, (0.3, 0.1, 0.2), points=21)
+    with pytest.raises(ValueError, match="internal_point: got 'stay'"):
+        nd.follow(published, line, HOME, "stay")
+    with pytest.raises(ValueError, match="trajectory: got 3"):
+        nd.follow(published, 3, HOME)
+    with pytest.raises(ValueError, match=r"no position of O is allowed at t = 0 \(l1 high"):
+        nd.follow(published, line, HOME, "best", limits=(0.0, 3.0))
+
+
+def test_the_best_o_is_interpolated_between_the_poses_searched(published, monkeypatch):
+    monkeypatch.setattr("ninedof.motion.internal_point.MOST_SEARCHED", 31)
+    circle = nd.Trajectory.circle(HOME, 0.8, points=91)
+    found = nd.follow(published, circle, HOME, "best")
+    searched = nd.best_internal_path(published, circle.position[::3])
+    assert found.condition_number[::3] == pytest.approx(searched.value, rel=1e-9)
+    assert found.condition_number[0] == found.condition_number[-1]
+    assert found.leg_accelerations[0] == pytest.approx(found.leg_accelerations[-1], abs=0.1)

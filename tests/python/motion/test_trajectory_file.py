@@ -1,0 +1,89 @@
+"""Files of poses over time: every way to give the rotation, and what is wrong in a bad one."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+
+HOME = nd.Configuration.neutral(4.0, 2.0, theta_z=0.3)
+TIMES = np.linspace(0.0, 1.0, 7)
+TURNS = Rotation.from_rotvec(np.random.default_rng(0).normal(size=(7, 3)) * 0.4)
+PLACES = np.random.default_rng(1).normal(size=(7, 3))
+
+
+def written(path, names, columns):
+    rows = [",".join(names), *(",".join(map(repr, row)) for row in np.column_stack(columns).tolist())]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("names", "turns"),
+    [
+        ("qw qx qy qz", TURNS.as_quat()[:, [3, 0, 1, 2]]),
+        ("rx ry rz", TURNS.as_rotvec()),
+        ("rx_deg ry_deg rz_deg", np.degrees(TURNS.as_rotvec())),
+        ("yaw pitch roll", TURNS.as_euler("ZYX")),
+        ("yaw_deg pitch_deg roll_deg", TURNS.as_euler("ZYX", degrees=True)),
+    ],
+)
+def test_every_way_to_give_a_rotation(tmp_path, names, turns):
+    path = written(tmp_path / "path.csv", ["t", "x", "y", "z", *names.split()], [TIMES, PLACES, turns])
+    found = nd.Trajectory.load(path, HOME)
+    assert (found.time == TIMES).all()
+    assert (found.position == PLACES).all()
+    assert found.rotation == pytest.approx(TURNS.as_matrix(), abs=1e-14)
+
+
+def test_columns_in_any_order_comments_and_no_rotation(tmp_path):
+    path = tmp_path / "path.csv"
+    path.write_bytes(b"\xef\xbb\xbf# made by hand\r\nz, t ,y,x\r\n4,0,0,1\r\n\r\n4,1,0,2\r\n# here\r\n4,2,0,3\r\n")
+    found = nd.Trajectory.load(path, HOME)
+    assert found.position.tolist() == [[1, 0, 4], [2, 0, 4], [3, 0, 4]]
+    assert (found.rotation == HOME.rotation).all()
+    assert found.rotation[0, 1, 0] == pytest.approx(math.sin(0.3))
+
+
+GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "path.csv: got an empty file"),
+        ("t,x,y\n0,0,0\n", "path.csv, line 1: got no column z, expected t, x, y, z"),
+        ("t,x,y,z\n0,0,0,4\n", "path.csv: got 1 poses, expected at least 3"),
+        ("0,0,0,4\n1,0,0,4\n", "path.csv, line 1, column 0: got it twice, expected each column once"),
+        (GOOD.replace("1,0,0,4", "1,0,wide,4"), "path.csv, line 3, column y: got 'wide', expected a finite number"),
+        (GOOD.replace("1,0,0,4", "1,0,nan,4"), "path.csv, line 3, column y: got 'nan', expected a finite number"),
+        (GOOD.replace("1,0,0,4", "1,0,,4"), "path.csv, line 3, column y: got '', expected a finite number"),
+        (GOOD.replace("1,0,0,4", "1,0,4"), "path.csv, line 3: got 3 entries, expected 4 (t, x, y, z)"),
+        (GOOD.replace("2,0,0,4", "1,0,0,4"), "path.csv, line 4, column t: got 1 after 1, expected more"),
+        (GOOD.replace("t,x,y,z", "t,x,y,z,x"), "path.csv, line 1, column x: got it twice"),
+        (GOOD.replace("t,x,y,z", "t,x,y,z,rol"), "path.csv, line 1, column 'rol': not known"),
+        (GOOD.replace("t,x,y,z", "t,x,y,z,yaw_deg,pitch"), "path.csv, line 1: got yaw_deg pitch as rotation"),
+        (
+            "t,x,y,z,qw,qx,qy,qz\n0,0,0,4,1,0,0,0\n1,0,0,4,2,0,0,0\n2,0,0,4,1,0,0,0\n",
+            "path.csv, line 3, column qw: got a quaternion of length 2, expected 1",
+        ),
+    ],
+)
+def test_bad_files(tmp_path, text, words):
+    path = tmp_path / "path.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError) as error:  # noqa: PT011 - the whole message is compared
+        nd.Trajectory.load(path, HOME)
+    message = str(error.value)
+    assert words in message
+    assert "\n" not in message
+
+
+def test_a_missing_file_and_a_binary_one(tmp_path):
+    with pytest.raises(ValueError, match="cannot be read"):
+        nd.Trajectory.load(tmp_path / "none.csv", HOME)
+    (tmp_path / "image.csv").write_bytes(b"\xff\xfe\x00\x80")
+    with pytest.raises(ValueError, match="not a CSV file"):
+        nd.Trajectory.load(tmp_path / "image.csv", HOME)
