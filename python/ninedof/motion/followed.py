@@ -15,6 +15,7 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 
 LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
+ROUNDING = 1e-9  # of a limit: a length that passes it by less keeps it
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -83,13 +84,13 @@ class Followed:
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Every stretch of time in which a leg is outside its limits, and every singularity passed, by time."""
+        """Stretches of time in which a leg passes its limit (by more than 1e-9 of it), and singularities passed."""
         low, high = self.limits
         found: list[LimitBreak] = []
         for k, leg in enumerate(LEGS):
             lengths = self.leg_lengths[:, k]
-            found += _stretches(f"{leg} low", self.time, lengths, lengths - low[k])
-            found += _stretches(f"{leg} high", self.time, lengths, high[k] - lengths)
+            found += _stretches(f"{leg} low", self.time, lengths, lengths - low[k], low[k])
+            found += _stretches(f"{leg} high", self.time, lengths, high[k] - lengths, high[k])
         for name, word in DETERMINANTS.items():
             found += _crossings(word, self.time, getattr(self.singularity_margins, name))
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
@@ -118,7 +119,10 @@ class Followed:
                 "margin": float(self.leg_margins[:, k].min()),
             }
             if self.leg_forces is not None:
-                legs[leg] |= {"push": float(self.leg_forces[:, k].max()), "pull": float(-self.leg_forces[:, k].min())}
+                legs[leg] |= {
+                    "push": float(self.leg_forces[:, k].max(initial=0.0)),
+                    "pull": float((-self.leg_forces[:, k]).max(initial=0.0)),
+                }
         return {
             "poses": len(self.time),
             "begin": float(self.time[0]),
@@ -151,9 +155,9 @@ class Followed:
         return f"<Followed: {len(self.time)} poses, {'breaks ' + ', '.join(broken) if broken else 'within limits'}>"
 
 
-def _stretches(name: str, time: Floats, lengths: Floats, margin: Floats) -> list[LimitBreak]:
-    """Return the stretches of negative margin."""
-    outside = np.concatenate([[False], margin < 0.0, [False]])
+def _stretches(name: str, time: Floats, lengths: Floats, margin: Floats, limit: float) -> list[LimitBreak]:
+    """Return the stretches of a margin that is negative beyond rounding."""
+    outside = np.concatenate([[False], margin < -ROUNDING * limit, [False]])
     found = []
     for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
         worst = first + int(np.argmin(margin[first:after]))
@@ -176,5 +180,5 @@ def _crossings(name: str, time: Floats, determinant: Floats) -> list[LimitBreak]
 
 def _zero(time: Floats, values: Floats, k: int) -> float:
     """Return where the line between samples k and k + 1 is zero."""
-    share = values[k] / (values[k] - values[k + 1])
+    share = min(1.0, max(0.0, values[k] / (values[k] - values[k + 1])))
     return float(time[k] + share * (time[k + 1] - time[k]))

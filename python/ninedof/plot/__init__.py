@@ -9,6 +9,7 @@ from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.front import Sketch, front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
+from ninedof.plot.motion import motion
 from ninedof.plot.pose_conditions import PoseConditions, poses
 from ninedof.plot.style import save
 from ninedof.plot.sweep import figure_6, figure_7, sweep
@@ -30,6 +31,7 @@ __all__ = [
     "figure_7",
     "front",
     "mechanisms",
+    "motion",
     "poses",
     "save",
     "sweep",

@@ -1,0 +1,142 @@
+"""`ninedof path`: the legs of a design along a trajectory, its table and its run folder."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ninedof.cli.chosen_design import with_length
+from ninedof.cli.motion_summary import draw, legs_table, sentences
+from ninedof.cli.options import Figures, Json, Out
+from ninedof.cli.screen import DONE, NO_RESULT, Screen
+from ninedof.design.leg_limits import leg_limits_of, other_limits_of
+from ninedof.design.study import Study
+from ninedof.motion import Trajectory, follow
+from ninedof.motion.internal_point import RULES
+from ninedof.paper.published import published_variables
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import triples
+from ninedof.runs.design_file import hexagonal_design, load_design
+from ninedof.runs.directory import run_directory
+from ninedof.runs.folder import load_record
+from ninedof.runs.motion_folder import LEGS_FILE, POSES_FILE, write_motion
+
+Three = tuple[float, float, float]
+PLACE = 7
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof path design.toml path.csv --legs 2.5 6.5
+
+  ninedof path runs/20260101-120000 path.csv              the limits of the run's study
+
+  ninedof path design.toml --circle 0.5 --duration 2 --internal-point best
+
+  ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
+
+
+def path(
+    design: Annotated[
+        Path | None, typer.Argument(help="A design file (TOML) or a run folder; the published design if none is given.")
+    ] = None,
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            help="Poses (CSV): columns t x y z, and for the rotation qw qx qy qz, rx ry rz or yaw pitch roll, in "
+            "degrees as rx_deg, yaw_deg."
+        ),
+    ] = None,
+    circle: Annotated[
+        float | None, typer.Option(metavar="RADIUS", help="A horizontal circle about the neutral pose.")
+    ] = None,
+    line: Annotated[
+        Three | None, typer.Option(metavar="X Y Z", help="A line from the neutral pose, from rest to rest.")
+    ] = None,
+    spiral: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="RADIUS HEIGHT", help="Three turns outwards and up, from rest to rest."),
+    ] = None,
+    duration: Annotated[float | None, typer.Option(help="Of a circle, line or spiral; 1 by default.")] = None,
+    points: Annotated[int | None, typer.Option(help="Poses of a circle, line or spiral; 1001 by default.")] = None,
+    internal_point: Annotated[
+        str, typer.Option(help="Position of O: carried, held, best, or a fraction between the plates.")
+    ] = "carried",
+    legs: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default."),
+    ] = None,
+    force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None,
+    moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None,
+    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
+    out: Out = None,
+    figures: Figures = True,
+    json: Json = False,
+) -> None:
+    """Compute leg lengths, rates and accelerations along a path, and the limits that break."""
+    screen = Screen(json)
+    if file is None and design is not None and design.suffix == ".csv":
+        design, file = None, design
+    given = hexagonal_design(published_variables()) if design is None else load_design(design)
+    given = with_length(given, lc)
+    g, home, length = given
+    shape = {"circle": circle, "line": line, "spiral": spiral}
+    trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
+    study = _study(design)
+    limits: Any = legs if legs is not None or study is None else leg_limits_of(study, float(home.position[2]))
+    asked = {"internal_point": _rule(internal_point), "limits": limits, "force": force, "moment": moment}
+    with run_directory(out) as directory:
+        found = follow(g, trajectory, home, **asked, characteristic_length=length)
+    screen.print(legs_table(found))
+    for sentence in sentences(found, other_limits_of(study) if study else ()):
+        screen.print(sentence)
+    shapes = {name: value for name, value in shape.items() if value is not None}
+    question = {
+        "geometry": triples(g),
+        "home": arrays_of(home),
+        **asked,
+        **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
+    }
+    record = write_motion(found, directory, partial(draw, found, screen) if figures else None, question)
+    figure = ", figure motion (PNG and SVG)" if figures else ""
+    screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}{figure}")
+    screen.data({"motion": found.to_dict(), "record": str(record)})
+    raise typer.Exit(DONE if found.tracked and not found.breaks else NO_RESULT)
+
+
+def _trajectory(
+    home: Configuration, file: Path | None, shape: dict[str, Any], times: dict[str, float | int | None]
+) -> Trajectory:
+    """Return the one trajectory that was asked for."""
+    shapes = {name: value for name, value in shape.items() if value is not None}
+    options = {name: value for name, value in times.items() if value is not None}
+    asked = [*(["a file"] if file else []), *(f"--{name}" for name in shapes)]
+    if len(asked) != 1:
+        got = " and ".join(asked) or "none"
+        raise ValueError(f"path: got {got}, expected one of a CSV file, --circle, --line and --spiral")
+    if file is not None:
+        for name, value in options.items():
+            raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
+        return Trajectory.load(file, home)
+    ((name, value),) = shapes.items()
+    make = getattr(Trajectory, name)
+    made: Trajectory = make(home, *(value if name == "spiral" else (value,)), **options)
+    return made
+
+
+def _study(design: Path | None) -> Study | None:
+    """Return the study of a run folder, if it has one."""
+    if design is None or not (design.is_dir() or design.suffix == ".json"):
+        return None
+    asked = load_record(design).asked
+    return asked if isinstance(asked, Study) else None
+
+
+def _rule(text: str) -> str | float:
+    if text in RULES:
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None

@@ -1,0 +1,122 @@
+"""Leg lengths and condition number along a trajectory."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from ninedof.plot import style
+from ninedof.support.arrays import Floats
+
+KINDS = (("l", "external legs"), ("q", "upper internal legs"), ("r", "lower internal legs"))
+DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)))
+MOST_DRAWN = 2000  # stretches of a curve
+RANGE = 30.0  # times the least condition number: larger values are cut off
+
+
+def motion(
+    time: ArrayLike,
+    leg_lengths: ArrayLike,
+    conditions: ArrayLike,
+    limits: tuple[ArrayLike, ArrayLike] | None = None,
+    unit: str = "",
+) -> Figure:
+    """Return a figure of the leg lengths by kind over time, their limits, and the condition number below.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+    leg_lengths : array_like, shape (n, 9)
+        In the order of `ninedof.leg_lengths`.
+    conditions : array_like, shape (n,)
+        Condition number; infinite where singular: the curve has a gap there.
+    limits : (low, high), optional
+        Least and greatest lengths, each of shape (9,); 0 and infinity are no limits. None by default.
+    unit : str
+        Of lengths.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof import plot
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> home = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> found = nd.follow(g, nd.Trajectory.circle(home, radius=0.5), home)
+    >>> figure = plot.motion(found.time, found.leg_lengths, found.condition_number)
+
+    """
+    t, lengths, kappa = (np.asarray(given, dtype=np.float64) for given in (time, leg_lengths, conditions))
+    if t.ndim != 1 or not len(t) or lengths.shape != (len(t), 9) or kappa.shape != t.shape:
+        got = f"{t.shape}, {lengths.shape} and {kappa.shape}"
+        raise ValueError(f"time, leg_lengths, conditions: got shapes {got}, expected (n,), (n, 9) and (n,)")
+    low, high = (np.zeros(9), np.full(9, np.inf)) if limits is None else (np.broadcast_to(x, 9) for x in limits)
+    shown = _drawn(kappa)
+    with style.settings():
+        figure = style.new_figure(9.0, 5.2)
+        grid = figure.add_gridspec(2, 3, height_ratios=(1.0, 0.85))
+        for k, (kind, title) in enumerate(KINDS):
+            axes = figure.add_subplot(grid[0, k])
+            rows = slice(3 * k, 3 * k + 3)
+            _legs(axes, t[shown], lengths[shown, rows], kind)
+            _limits(axes, low[rows], high[rows], lengths[:, rows])
+            axes.set_title(title, size=style.TEXT_SIZE)
+            axes.set_xlim(t[0], t[-1])
+            if k == 0:
+                axes.set_ylabel(style.with_unit("length", unit))
+        _condition(figure.add_subplot(grid[1, :]), t[shown], kappa[shown])
+        figure.subplots_adjust(left=0.075, right=0.985, bottom=0.09, top=0.93, hspace=0.42, wspace=0.22)
+    return figure
+
+
+def _drawn(kappa: Floats) -> NDArray[np.intp]:
+    """Return the samples to draw: the first of each stretch, its greatest condition number, and the last of all."""
+    step = -(-len(kappa) // MOST_DRAWN)
+    begins = np.arange(0, len(kappa), step)
+    padded = np.full(step * len(begins), -np.inf)
+    padded[: len(kappa)] = kappa
+    return np.unique(np.concatenate([begins, begins + padded.reshape(-1, step).argmax(axis=1), [len(kappa) - 1]]))
+
+
+def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
+    for j, dashes in enumerate(DASHES):
+        axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, lw=1.8, label=f"{kind}{j + 1}")
+    least, most = float(np.nanmin(lengths)), float(np.nanmax(lengths))
+    room = max(0.08 * (most - least), 0.01 * most)
+    axes.set_ylim(least - room, most + 3.0 * room)
+    axes.legend(loc="upper center", ncols=3, handlelength=2.2, columnspacing=1.0)
+
+
+def _limits(axes: Any, low: Floats, high: Floats, lengths: Floats) -> None:
+    """Draw limits that the legs come near: all of them would squeeze the curves."""
+    least, most = axes.get_ylim()
+    reach = 0.5 * (most - least)
+    for value in np.unique(np.concatenate([low[low > 0.0], high[np.isfinite(high)]])).tolist():
+        if least - reach <= value <= most + reach:
+            axes.axhline(value, color=style.INK, lw=1.0, ls=(0, (6, 3)), zorder=1)
+            bottom, top = axes.get_ylim()
+            axes.set_ylim(min(bottom, value - 0.1 * reach), max(top, value + 0.6 * reach))
+    for bound, side in ((low, lengths < low), (high, lengths > high)):
+        if side.any():  # the forbidden side, where a leg enters it
+            bottom, top = axes.get_ylim()
+            ends = (bottom, float(bound.max())) if bound is low else (float(bound.min()), top)
+            axes.axhspan(*ends, color=style.ALARM, alpha=0.12, lw=0.0, zorder=0)
+            axes.set_ylim(bottom, top)
+
+
+def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
+    axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0], lw=2.0)
+    axes.set_title("condition number", size=style.TEXT_SIZE)
+    axes.set_xlabel("time")
+    axes.set_xlim(t[0], t[-1])
+    finite = kappa[np.isfinite(kappa)]
+    if finite.size and finite.max() > RANGE * finite.min():
+        axes.set_yscale("log")
+        axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
+        style.one_two_five(axes.yaxis)
+        axes.set_title(f"condition number, up to {RANGE * finite.min():.3g}", size=style.TEXT_SIZE)
+    elif finite.size:
+        room = max(0.08 * float(np.ptp(finite)), 0.005 * float(finite.max()))
+        axes.set_ylim(finite.min() - room, finite.max() + room)

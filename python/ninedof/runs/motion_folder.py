@@ -1,0 +1,71 @@
+"""The run folder of a motion along a trajectory: record, legs.csv in the order of controllers, poses.csv."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ninedof.motion import Followed
+from ninedof.motion.followed import LEGS
+from ninedof.runs.folder import Record, write_record
+from ninedof.support.arrays import Floats
+from ninedof.support.files import write_whole
+
+LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"
+RATE, ACCELERATION, FORCE = "_rate", "_acceleration", "_force"
+
+
+def write_motion(
+    found: Followed,
+    directory: str | os.PathLike[str],
+    draw: Callable[[Path], Sequence[Path]] | None = None,
+    asked: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write a motion into an existing directory; return the path of its record.
+
+    Parameters
+    ----------
+    found : Followed
+    directory : path
+    draw : callable, optional
+        Called with the directory after the record was written; draws figures there and returns their paths.
+    asked : mapping, optional
+        What was asked, for the record.
+
+    """
+    folder = Path(directory)
+    write_whole(folder / LEGS_FILE, _csv(*_legs(found)))
+    write_whole(folder / POSES_FILE, _csv(*_poses(found)))
+    record = Record("motion", asked or {}, {"motion": found.to_dict()}, files=(LEGS_FILE, POSES_FILE))
+    path = write_record(record, folder)
+    if draw is not None:
+        write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
+    return path
+
+
+def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:
+    """Return t, nine lengths, nine rates, nine accelerations, and nine forces if there is a load."""
+    parts = {"": found.leg_lengths, RATE: found.leg_rates, ACCELERATION: found.leg_accelerations}
+    if found.leg_forces is not None:
+        parts[FORCE] = found.leg_forces
+    names = ["t", *(leg + what for what in parts for leg in LEGS)]
+    return names, (found.time[:, None], *parts.values())
+
+
+def _poses(found: Followed) -> tuple[list[str], Iterable[Floats]]:
+    c = found.configurations
+    names = ["t", *"xyz", *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), "o_x", "o_y", "o_z", "condition_number"]
+    names += [*found.singularity_margins._fields, "leg_margin"]
+    last = (found.condition_number, *found.singularity_margins, found.leg_margins.min(axis=1))
+    return names, (found.time[:, None], c.position, c.rotation.reshape(-1, 9), c.internal_point, np.stack(last, axis=1))
+
+
+def _csv(names: Sequence[str], columns: Iterable[Floats]) -> bytes:
+    """Return a table whose numbers read back to the same bits."""
+    rows = np.concatenate(list(columns), axis=1).tolist()
+    return "\n".join([",".join(names), *(",".join(map(repr, row)) for row in rows), ""]).encode()

@@ -1,0 +1,103 @@
+"""`ninedof path`: table, files, limits of a run, bad input."""
+
+import csv
+import json
+import shlex
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+STUDY = """
+[design]
+family = "hexagonal"
+[constraints]
+radius_ratio = { max = 2.0 }
+leg_length = { min = 1.5, max = 6.5 }
+lower_length = { max = 3.2 }
+leg_ratio = { max = 4.0 }
+"""
+POSES = "t,x,y,z,yaw_deg\n" + "".join(f"{k / 10},{0.01 * k},0,3.6,0\n" for k in range(11))
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+
+
+def run(capsys, line):
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    captured = capsys.readouterr()
+    return end.value.code, captured.out, captured.err
+
+
+def test_a_circle_of_the_published_design(capsys, tmp_path):
+    status, out, _ = run(capsys, "path --circle 0.5 --points 101 --duration 2 --legs 2 5.2 --force 0 0 -9 --out run")
+    assert status == 3
+    assert "limit breaks: l1 high, from t = 0.159" in out
+    assert "never move: q1, q2, q3" in out
+    assert "tracked back from the leg lengths, every step proved" in out
+    files = {"record.json", "legs.csv", "poses.csv", "motion.png", "motion.svg"}
+    assert {file.name for file in (tmp_path / "run").iterdir()} == files
+    record = json.loads((tmp_path / "run" / "record.json").read_text())
+    assert record["kind"] == "motion"
+    assert {*record["files"], "record.json"} == files
+    assert record["question"]["circle"] == 0.5
+    with (tmp_path / "run" / "legs.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    legs = "l1 l2 l3 q1 q2 q3 r1 r2 r3".split()
+    expected = ["t", *legs, *(f"{leg}_rate" for leg in legs), *(f"{leg}_acceleration" for leg in legs)]
+    assert header == [*expected, *(f"{leg}_force" for leg in legs)]
+    home = nd.Configuration(**{name: np.array(values) for name, values in record["question"]["home"].items()})
+    geometry = nd.Geometry(**record["question"]["geometry"])
+    found = nd.follow(geometry, nd.Trajectory.circle(home, 0.5, 2.0, 101), home, force=[0.0, 0.0, -9.0])
+    table = np.array(rows, dtype=float)
+    columns = [found.time[:, None], found.leg_lengths, found.leg_rates, found.leg_accelerations, found.leg_forces]
+    assert (table == np.concatenate(columns, axis=1)).all()
+
+
+def test_a_run_with_its_limits(capsys):
+    with open("study.toml", "w") as file:
+        file.write(STUDY)
+    with open("poses.csv", "w") as file:
+        file.write(POSES.replace(",yaw_deg", "").replace(",0\n", "\n"))
+    assert run(capsys, "optimize study.toml --starts 4 --no-figures --out optimum")[0] == 0
+    status, out, _ = run(capsys, "path optimum poses.csv --no-figures --json --internal-point best --out along")
+    assert status == 0
+    motion = json.loads(out)["motion"]
+    assert [motion["legs"][leg]["high"] for leg in ("l1", "q1", "r1")] == [6.5, 6.5, 3.2]
+    assert motion["legs"]["l1"]["low"] == 1.5
+    assert motion["legs"]["r1"]["longest"] <= 3.2
+    status, out, _ = run(capsys, "path optimum poses.csv --no-figures --legs 1 2")
+    assert status == 3
+    assert "limit breaks: l1 high, from t = 0 to 1" in out
+    assert "not examined along the path: leg_ratio" in out
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("path", "path: got none, expected one of a CSV file, --circle, --line and --spiral"),
+        ("path --circle 1 --line 1 0 0", "path: got --circle and --line, expected one"),
+        ("path poses.csv", "poses.csv, line 1: got yaw_deg as rotation"),
+        ("path none.csv", "none.csv: cannot be read"),
+        ("path poses.csv --points 7", "--points: got 7, expected none with a file"),
+        ("path --circle 1 --points 2", "points: got 2"),
+        ("path --circle 1 --duration 0", "duration: got 0"),
+        ("path --circle 1 --internal-point stay", "--internal-point: got 'stay', expected carried, held, best"),
+        ("path none.toml --circle 1", "none.toml"),
+        ("path --circle 1 --internal-point best --legs 1 2", "no position of O is allowed at t = 0"),
+    ],
+)
+def test_bad_input(capsys, tmp_path, line, words):
+    (tmp_path / "poses.csv").write_text(POSES)
+    status, out, err = run(capsys, line + " --out run")
+    assert status == 2
+    assert out == ""
+    assert words in err
+    assert err.count("\n") == 1
+    assert not (tmp_path / "run").exists()
