@@ -88,6 +88,9 @@ def follow(
     trajectory_argument(trajectory)
     single(geometry, home)
     rule, bounds = rule_argument(internal_point), leg_limits(limits)
+    for low, high in zip(*bounds, strict=True):
+        if not 0.0 <= low <= high:
+            raise ValueError(f"limits: got {low:g} to {high:g}, expected 0 <= low <= high")
     length = characteristic_length
     lc = (
         float(length_of(geometry, home, length))

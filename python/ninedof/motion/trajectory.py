@@ -9,12 +9,10 @@ from typing import Any, Self
 import numpy as np
 
 from ninedof.motion.shapes import circle_positions, line_positions, spiral_positions, times
-from ninedof.motion.trajectory_file import read_trajectory
+from ninedof.motion.trajectory_file import FEWEST, read_trajectory
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import finite, shown, vector
 from ninedof.support.arrays import as_floats, frozen
-
-FEWEST = 3  # poses: accelerations need three
 
 
 @dataclass(frozen=True, eq=False, repr=False)

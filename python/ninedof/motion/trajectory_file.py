@@ -25,7 +25,7 @@ WAYS = {  # to give the rotation
     EULER: "Euler angles",
     tuple(name + DEGREES for name in EULER): "Euler angles",
 }
-FEWEST = 3
+FEWEST = 3  # poses: accelerations need three
 UNIT = 1e-3  # a quaternion may differ from unit length by rounding, not by more
 
 
@@ -67,6 +67,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Columns:
 def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
     """Return the columns of the rotation, none if there are none, or raise for missing and unknown columns."""
     for name in names:
+        if _is_finite(name):
+            raise ValueError(f"{where}: got the number {name}, expected the names of the columns, such as t,x,y,z")
         if names.count(name) > 1:
             raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
     missing = [name for name in PLACE if name not in names]

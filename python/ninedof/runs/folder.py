@@ -37,7 +37,8 @@ class Record:
     """A run: what was asked, with which versions, what came out."""
 
     kind: str
-    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep" or "atlas"."""
+    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep", "atlas" or
+    "motion"."""
     asked: Study | Mapping[str, Any]
     """The study, or the question as plain values."""
     results: Mapping[str, Any]

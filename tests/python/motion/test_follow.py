@@ -180,6 +180,8 @@ def test_bad_arguments(published):
         nd.follow(published, line, HOME, "stay")
     with pytest.raises(ValueError, match="trajectory: got 3"):
         nd.follow(published, 3, HOME)
+    with pytest.raises(ValueError, match="limits: got 5 to 2"):
+        nd.follow(published, line, HOME, limits=(5.0, 2.0))
     with pytest.raises(ValueError, match=r"no position of O is allowed at t = 0 \(l1 high"):
         nd.follow(published, line, HOME, "best", limits=(0.0, 3.0))
 

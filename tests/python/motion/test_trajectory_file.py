@@ -56,7 +56,7 @@ GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
         ("", "path.csv: got an empty file"),
         ("t,x,y\n0,0,0\n", "path.csv, line 1: got no column z, expected t, x, y, z"),
         ("t,x,y,z\n0,0,0,4\n", "path.csv: got 1 poses, expected at least 3"),
-        ("0,0,0,4\n1,0,0,4\n", "path.csv, line 1, column 0: got it twice, expected each column once"),
+        ("0,0,0,4\n1,0,0,4\n", "path.csv, line 1: got the number 0, expected the names of the columns"),
         (GOOD.replace("1,0,0,4", "1,0,wide,4"), "path.csv, line 3, column y: got 'wide', expected a finite number"),
         (GOOD.replace("1,0,0,4", "1,0,nan,4"), "path.csv, line 3, column y: got 'nan', expected a finite number"),
         (GOOD.replace("1,0,0,4", "1,0,,4"), "path.csv, line 3, column y: got '', expected a finite number"),
