@@ -11,6 +11,7 @@ from rich.table import Table
 
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import INDICES, Index
+from ninedof.support.arrays import Floats
 from ninedof.workspace import IndexStatistics, WorkspaceMap
 
 SHOWN = 8  # limits in the table
@@ -30,7 +31,9 @@ def workspace_table(found: WorkspaceMap) -> Table:
         table.add_row("  pieces", str(len(found.pieces)))
     if found.ball_radius > 0.0:
         table.add_row("largest ball: radius", f"{found.ball_radius:.4g}")
-        table.add_row("largest box: sides", "  ".join(f"{side:.4g}" for side in found.box_high - found.box_low))
+        table.add_row("  centre", _numbers(found.ball_centre))
+        table.add_row("largest box: sides", _numbers(found.box_high - found.box_low))
+        table.add_row("  centre", _numbers(0.5 * (found.box_low + found.box_high)))
     table.add_section()
     table.add_row("global conditioning index", f"{found.conditioning_index:.5f}")
     table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
@@ -44,6 +47,10 @@ def workspace_table(found: WorkspaceMap) -> Table:
     for name, share in list(found.limits().items())[:SHOWN]:
         table.add_row(f"boundary by {name.replace('_', ' ')}", f"{100.0 * share:.1f} %")
     return table
+
+
+def _numbers(values: Floats) -> str:
+    return "  ".join(f"{value:.4g}" for value in values)
 
 
 def _rows(index: Index, over: IndexStatistics) -> Iterator[tuple[Any, ...]]:

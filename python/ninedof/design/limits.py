@@ -64,7 +64,7 @@ def parse(name: str, value: Any) -> Limits:
         found[where] = limit
     if len(found) == 1:
         return next(iter(found.values()))
-    return tuple(MappingProxyType(_table(*_parts(found[where]))) for where in AT)
+    return tuple(MappingProxyType(_table(*parts(found[where]))) for where in AT)
 
 
 def each(constraints: Mapping[str, Limits]) -> list[tuple[str, Limit]]:
@@ -125,7 +125,7 @@ def to_table(name: str, limits: Limits) -> dict[str, Any] | list[dict[str, Any]]
 
 
 def _to_table(name: str, limit: Limit) -> dict[str, Any]:
-    low, high, options = _parts(limit)
+    low, high, options = parts(limit)
     out: dict[str, Any] = {}
     for side, value in (("min", low), ("max", high)):
         if value is not None:
@@ -136,7 +136,7 @@ def _to_table(name: str, limit: Limit) -> dict[str, Any]:
 
 def for_core(name: str, limit: Limit) -> dict[str, Any]:
     """Return the limit as the core takes it: open sides 0 and infinity, the axis of unit length."""
-    low, high, options = _parts(limit)
+    low, high, options = parts(limit)
     axis = options.get("axis", ())
     return {
         "name": name,
@@ -167,7 +167,8 @@ def _table(low: float | None, high: float | None, options: Mapping[str, Any]) ->
     return sides | dict(options)
 
 
-def _parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
+def parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
+    """Return low, high and the options of a limit in normal form."""
     if isinstance(limit, tuple):
         return *limit, {}
     options = {key: value for key, value in limit.items() if key not in ("min", "max")}

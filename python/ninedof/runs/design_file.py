@@ -13,6 +13,7 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.indices import computed
+from ninedof.design.study import Study
 from ninedof.design.study_file import read_toml
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
@@ -59,6 +60,12 @@ def load_design(path: str | os.PathLike[str]) -> Design:
     except ValueError as error:
         text = str(error)
         raise ValueError(text if text.startswith(str(file)) else f"{file}: {text}") from None
+
+
+def study_of(path: str | os.PathLike[str]) -> Study | None:
+    """Return the study of the run that a design comes from, None for a design file."""
+    file = Path(path)
+    return load_record(file).study if file.is_dir() or file.suffix == ".json" else None
 
 
 def _from_record(file: Path) -> Design:

@@ -11,9 +11,13 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.paper.published import published_variables
+from ninedof.runs.folder import write_run
+from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
 LEGS = {"leg_limits": (2.5, 6.5)}
+OWN = published_variables()["zs"] / published_variables()["zp"]  # where the published design has O
 HOME = nd.Configuration.neutral(zp=4.8, zs=2.4)
 
 
@@ -30,7 +34,9 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
     )
     assert code == 0
     numbers = json.loads(out.out)["workspace"]
-    expected = nd.workspace(published, BOX, criteria=LEGS | {"condition_number": 5.0}, tolerance=5e-3)
+    expected = nd.workspace(
+        published, BOX, criteria=LEGS | {"condition_number": 5.0}, internal_point=OWN, tolerance=5e-3
+    )
     assert_allclose(numbers["volume"], expected.volume, rtol=1e-12)
     assert {p.name for p in (tmp_path / "run").iterdir()} == {
         "record.json",
@@ -70,14 +76,15 @@ def test_the_command_passes_on_position_length_and_sample(tmp_path, capsys, publ
         position=(0.5, 0.0, 4.0),
         region={"angle": np.radians(40.0)},
         criteria={"leg_limits": (2.0, 6.5), "condition_number": 6.0},
+        internal_point=OWN,
         characteristic_length=2.0,
         resolution=8,
     )
-    assert json.loads(out.out)["workspace"]["volume"] == expected.volume
+    assert_allclose(json.loads(out.out)["workspace"]["volume"], expected.volume, rtol=1e-12)
     sample = ["--method", "sample", "--points", "500", "--seed", "3", "--legs", "2.5", "6.5"]
     box = ["--x", "-2.5", "2.5", "--y", "-2.5", "2.5", "--z", "3", "7"]
     code, out = run([*sample, *box, "--json", "--out", str(tmp_path / "b")], capsys)
-    expected = nd.workspace(published, BOX, criteria=LEGS, method="sample", points=500, seed=3)
+    expected = nd.workspace(published, BOX, criteria=LEGS, internal_point=OWN, method="sample", points=500, seed=3)
     assert json.loads(out.out)["workspace"]["volume"] == expected.volume
 
 
@@ -129,3 +136,98 @@ def test_the_command_starts_from_the_published_design_at_its_best(tmp_path, caps
     heights = nd.Configuration.neutral(asked["home"]["position"][2], zs + np.array([-1e-4, 0.0, 1e-4]))
     around = nd.condition_number(nd.Geometry(**asked["geometry"]), heights)
     assert around.argmin() == 1
+
+
+@pytest.fixture(scope="module")
+def a_run(tmp_path_factory):
+    """The folder of a run whose study limits legs by kind, cones, clearance and singularities."""
+    study = nd.Study(
+        variables={"zp": (3.0, 5.0), "theta_z": (-0.5, 0.5)},
+        constraints={
+            "radius_ratio": (None, 2.0),
+            "leg_length": (1.0, None),
+            "external_length": (None, 6.0),
+            "upper_length": {"max": 1.3, "of": "zp"},
+            "lower_length": {"max": 6.0, "at": "neutral"},
+            "zs_fraction": (None, 0.3),
+            "base_cone": {"max_deg": 75, "axis": [0, 0, 1]},
+            "leg_clearance": {"radius": 0.05},
+            "singularity_free": {},
+        },
+        starts=4,
+    )
+    folder = tmp_path_factory.mktemp("run")
+    found = nd.optimize(study)
+    write_run(found, folder)
+    return folder, found.candidates[0].configuration
+
+
+def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(tmp_path, capsys, a_run):
+    folder, home = a_run
+    quick = ["--method", "grid", "--resolution", "4", "--json", "--no-figures"]
+    _, out = run([str(folder), *quick, "--out", str(tmp_path / "a")], capsys)
+    asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
+    zp, zs = home.position[2], home.internal_point[2]
+    assert zs < 0.31 * zp
+    assert_allclose(asked["internal_point"], zs / zp, rtol=1e-12)
+    low, high = asked["criteria"]["leg_limits"]
+    assert_allclose(low, np.ones(9), rtol=2 * EASE)
+    assert_allclose(high[:6], np.repeat([6.0, 1.3 * zp], 3), rtol=2 * EASE)
+    assert all(end in (None, np.inf, "inf", "Infinity") for end in high[6:])  # the limit at neutral is none here
+    assert_allclose(asked["criteria"]["base_cone"]["max"], np.radians(75.0), rtol=2 * EASE)
+    assert asked["criteria"]["base_cone"]["axis"] == [0.0, 0.0, 1.0]
+    assert_allclose(asked["criteria"]["leg_clearance"], 0.1, rtol=2 * EASE)
+    assert asked["criteria"]["singularity_free"] is True
+    lines = out.err.splitlines()
+    for words in (
+        "home: p = ",
+        f"O: at {zs / zp:.4g} of the way",
+        "limit: external legs 1 to 6, of the study",
+        "limit: base cone 75 degrees about the axis (0, 0, 1), of the study",
+        "limit: leg clearance at least 0.1, of the study",
+        "of the study, no limit of a single pose: radius_ratio, lower_length at neutral",
+    ):
+        assert sum(line.startswith(words) for line in lines) == 1, words
+    assert json.loads(out.out)["workspace"]["home_allowed"]
+
+
+def test_every_limit_of_a_run_is_replaced_by_its_option(tmp_path, capsys, a_run):
+    folder, home = a_run
+    quick = ["--method", "grid", "--resolution", "4", "--json", "--no-figures"]
+    own = "--legs 0.5 8 --lower 0 7 --base-cone-deg 70 --clearance 0.01 --any-singularity --internal-point stay".split()
+    run([str(folder), *quick, *own, "--base-cone-axis", "0", "1", "1", "--out", str(tmp_path / "a")], capsys)
+    asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
+    assert asked["internal_point"] == home.internal_point.tolist()
+    assert_allclose(asked["criteria"]["leg_limits"][0], np.full(9, 0.5))
+    high = np.repeat([6.0, 1.3 * home.position[2], 7.0], 3)
+    assert_allclose(asked["criteria"]["leg_limits"][1], high, rtol=2 * EASE)
+    assert asked["criteria"]["base_cone"] == {"max": np.radians(70.0), "axis": [0.0, 1.0, 1.0]}
+    assert asked["criteria"]["leg_clearance"] == 0.01
+    assert "singularity_free" not in asked["criteria"]
+    code, out = run([str(folder), *quick, "--no-study-limits", "--out", str(tmp_path / "b")], capsys)
+    assert code == 2
+    assert "expected at least one" in out.err
+
+
+def test_the_centres_of_the_ball_and_the_box_are_printed(tmp_path, capsys):
+    code, out = run(
+        ["--legs", "2.5", "6.5", "--no-figures", "--tolerance", "0.05", "--out", str(tmp_path / "a")], capsys
+    )
+    found = nd.WorkspaceMap.load(tmp_path / "a" / "map.npz")
+    assert code == 0
+    for centre in (found.ball_centre, 0.5 * (found.box_low + found.box_high)):
+        assert "  ".join(f"{value:.4g}" for value in centre) in out.out
+
+
+def test_ranges_by_kind_and_the_own_fraction():
+    """A range of all nine legs stays two numbers; O beside the line of the centroids has no fraction."""
+    assert leg_ranges({}) is None
+    assert leg_ranges({"leg_length": (1.0, 3.0)}) == (1.0, 3.0)
+    low, high = leg_ranges({"leg_length": (1.0, 3.0), "upper_length": (2.0, 9.0), "lower_length": (0.0, 2.5)})
+    assert low.tolist() == [1, 1, 1, 2, 2, 2, 1, 1, 1]
+    assert high.tolist() == [3, 3, 3, 3, 3, 3, 2.5, 2.5, 2.5]
+    with pytest.raises(ValueError, match="external_length: got 3 to 2"):
+        leg_ranges({"external_length": (3.0, 2.0)})
+    upper, lower = np.array([0.0, 0.0, 5.0]), np.array([0.0, 0.0, 1.0])
+    assert own_fraction(upper, lower, np.array([0.0, 0.0, 2.0])) == 0.25
+    assert own_fraction(upper, lower, np.array([0.1, 0.0, 2.0])) is None

@@ -14,13 +14,14 @@ import typer
 from ninedof.cli.chosen_design import with_length
 from ninedof.cli.options import Figures, Json, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.cli.workspace_limits import asked_lines, criteria_asked, rule_asked
 from ninedof.cli.workspace_summary import draw, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.indices import computed
 from ninedof.paper.published import published_variables
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.design_file import hexagonal_design, load_design
+from ninedof.runs.design_file import hexagonal_design, load_design, study_of
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
@@ -32,6 +33,10 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof workspace --legs 2.5 6.5 --condition 5 --singularity-free
 
+  ninedof workspace runs/20260101-120000    the limits of the study, O as the design has it
+
+  ninedof workspace runs/20260101-120000 --upper 1.5 3 --clearance 0 --no-figures
+
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
 
   ninedof workspace --archetype orientation --angle-deg 60 --legs 2.5 6.5 --json | jq .workspace.volume"""
@@ -39,7 +44,10 @@ EXAMPLES = """[bold]Examples[/bold]
 
 def workspace(
     design: Annotated[
-        Path | None, typer.Argument(help="A design file (TOML) or a run folder; the published design if none is given.")
+        Path | None,
+        typer.Argument(
+            help="A design file (TOML), a run folder or its record.json; the published design if none is given."
+        ),
     ] = None,
     archetype: Annotated[
         str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
@@ -48,15 +56,37 @@ def workspace(
     y: Ends = None,
     z: Ends = None,
     legs: Annotated[
-        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs.")
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; HIGH may be inf.")
+    ] = None,
+    external: Annotated[
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Of the external legs, besides.")
+    ] = None,
+    upper: Annotated[
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Of the upper internal legs, besides.")
+    ] = None,
+    lower: Annotated[
+        tuple[float, float] | None, typer.Option(metavar="LOW HIGH", help="Of the lower internal legs, besides.")
     ] = None,
     condition: Annotated[float | None, typer.Option(help="Greatest condition number.")] = None,
     base_cone_deg: Annotated[float | None, typer.Option(help="Greatest angle at a base joint from home.")] = None,
     platform_cone_deg: Annotated[float | None, typer.Option(help="The same at a platform joint.")] = None,
+    base_cone_axis: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(metavar="X Y Z", help="Axis of the cones of the base, in place of the legs at home."),
+    ] = None,
+    platform_cone_axis: Annotated[
+        tuple[float, float, float] | None, typer.Option(metavar="X Y Z", help="The same at the platform.")
+    ] = None,
     clearance: Annotated[float | None, typer.Option(help="Least distance of legs that share no joint.")] = None,
     singularity_free: Annotated[
-        bool, typer.Option("--singularity-free", help="Connected with home, on its side of every singularity.")
-    ] = False,
+        bool | None,
+        typer.Option(
+            "--singularity-free/--any-singularity", help="Connected with home, on its side of every singularity."
+        ),
+    ] = None,
+    study_limits: Annotated[
+        bool, typer.Option("--study-limits/--no-study-limits", help="Take the limits of the run's study.")
+    ] = True,
     angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None,
     tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None,
     torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None,
@@ -66,7 +96,10 @@ def workspace(
         typer.Option(metavar="X Y Z", help="Position of the platform, for orientation; the home position by default."),
     ] = None,
     internal_point: Annotated[
-        str | None, typer.Option(help="Position of O: best, or a fraction between the plates; 0.5 by default.")
+        str | None,
+        typer.Option(
+            help="Position of O: best, stay (as at home), or a fraction between the plates; by default the design's."
+        ),
     ] = None,
     lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
     method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
@@ -82,20 +115,32 @@ def workspace(
     figures: Figures = True,
     json: Json = False,
 ) -> None:
-    """Compute the workspace of a robot: its volume, its boundary and what limits it."""
+    """Compute the workspace of a robot: its volume, its boundary and what limits it.
+
+    A run brings the limits of its study that a single pose can meet; each option replaces its own. O keeps its place
+    between the plates.
+    """
     screen = Screen(json)
     thread_argument(threads)
     given = hexagonal_design(published_variables()) if design is None else load_design(design)
     given = with_length(given, lc)
-    criteria = {
-        "leg_limits": legs,
+    options = {
+        "leg_length": legs,
+        "external_length": external,
+        "upper_length": upper,
+        "lower_length": lower,
         "condition_number": condition,
         "base_cone": _radians(base_cone_deg),
         "platform_cone": _radians(platform_cone_deg),
+        "base_cone_axis": base_cone_axis,
+        "platform_cone_axis": platform_cone_axis,
         "leg_clearance": clearance,
-        "singularity_free": singularity_free or None,
+        "singularity_free": singularity_free,
     }
-    if not _given(criteria):
+    study = study_of(design) if design is not None and study_limits else None
+    home = given.configuration
+    criteria, own, left = criteria_asked(study, float(home.position[2]), options)
+    if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if method == "grid":
         for name, value in _given({"points": points, "seed": seed}).items():
@@ -106,11 +151,11 @@ def workspace(
         length = float(characteristic_length(given.geometry, given.configuration, length))
     others = {
         "archetype": archetype,
-        "criteria": _given(criteria),
+        "criteria": criteria,
         "characteristic_length": float(length),
         "region": _given(region) or None,
         "orientations": orientations,
-        "internal_point": _rule(internal_point),
+        "internal_point": rule_asked(internal_point, given.geometry, home),
         "method": method,
         "tolerance": tolerance,
         "resolution": resolution,
@@ -118,14 +163,16 @@ def workspace(
         "seed": seed,
         "index": index or None,
     }
-    asked = _given(others) | _place(given.configuration, archetype, {"x": x, "y": y, "z": z}, position)
+    asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position)
+    for line in asked_lines(asked, home, own, left):
+        screen.print(line)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
-        found = find_workspace(given.geometry, **asked, home=given.configuration, threads=threads, progress=bar.show)
+        found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
     screen.print(workspace_table(found))
     for sentence in sentences(found):
         screen.print(sentence)
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
-    question = {"geometry": triples(given.geometry), "home": arrays_of(given.configuration), **asked}
+    question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
     record = write_run(found, directory, partial(draw, found, screen) if drawn else None, question)
     figure = ", figure workspace (PNG and SVG)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, map.npz{figure}")
@@ -159,12 +206,3 @@ def _place(
     ]
     rotation = {"rotation": home.rotation} if archetype == "constant_orientation" else {}
     return rotation | {"box": tuple(zip(*around, strict=True))}
-
-
-def _rule(text: str | None) -> str | float | None:
-    if text is None or text == "best":
-        return text
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(f"--internal-point: got {text!r}, expected best or a fraction") from None
