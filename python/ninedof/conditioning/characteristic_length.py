@@ -45,6 +45,7 @@ def resolve_length(geometry: Geometry, configuration: Configuration, length: Arr
     """Return a characteristic length as a flat array of one value, or one value per configuration."""
     operands(geometry, configuration)
     if isinstance(length, str):
+        choice("characteristic_length", length, KINDS)
         found = np.reshape(characteristic_length(geometry, configuration, length), -1)
         # Singular and missing poses have no such length: their results are infinite or NaN with any length.
         return np.where(np.isnan(found), 1.0, found)

@@ -112,3 +112,10 @@ def test_singular_and_missing_poses_do_not_spoil_a_stack(published, kind):
 def test_bad_kind(published, neutral, kind):
     with pytest.raises(ValueError, match=r"^kind: got .+, expected .+"):
         nd.characteristic_length(published, neutral, kind)
+
+
+def test_a_wrong_kind_is_named_by_the_argument_that_has_it(published):
+    with pytest.raises(
+        ValueError, match="characteristic_length: got 'mean', expected one of optimal, natural, mean_leg"
+    ):
+        nd.condition_number(published, nd.Configuration.neutral(3.9828, 2.4435), "mean")
