@@ -65,7 +65,8 @@ class Front:
         -------
         list of dict
             limit; status and reason; objective, condition_number (at the neutral pose), price, active, variables of
-            the best design, None where there is none; dominated.
+            the best design, None where there is none; dominated. `active` leaves out the swept limit where its price
+            is 0: the best design without the limit just meets it.
 
         """
         rows = []
@@ -81,7 +82,7 @@ class Front:
                     "objective": None if best is None else best.objective,
                     "condition_number": None if best is None else best.condition_number,
                     "price": price,
-                    "active": None if best is None else list(best.active),
+                    "active": None if best is None else [n for n in best.active if n != self.against or price != 0.0],
                     "variables": None if best is None else dict(best.variables),
                     "dominated": flat,
                 }

@@ -9,6 +9,7 @@ from interrupts import interrupter
 from sizes import size
 
 import ninedof as nd
+from ninedof.cli.commands.pareto import front_table
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.limited import limited, resolve, value_at
@@ -92,6 +93,19 @@ def test_a_limit_that_does_not_bind_is_marked():
     found = pareto(PAPER, "leg_ratio", values=[2.0, 3.0, 4.0])  # the best design has 2.32
     assert found.dominated == (False, False, True)
     assert found.objectives[1] == pytest.approx(found.objectives[2], rel=1e-12)
+
+
+def test_a_limit_at_price_0_is_not_reached():
+    """The loosest limit that is selected is the value of the design without the limit."""
+    found = pareto(PAPER, "radius_ratio", points=2)
+    last = found.table()[-1]
+    assert last["price"] == 0.0
+    assert found.limits[-1] == pytest.approx(value_at(PAPER, "radius_ratio", last["variables"]), rel=1e-6)
+    assert "radius_ratio" not in last["active"]
+    assert "radius_ratio" in found.table()[0]["active"]
+    shown = list(front_table(found).columns[-1].cells)
+    assert "(radius_ratio without effect)" in shown[-1]
+    assert "without effect" not in shown[0]
 
 
 def test_impossible_limits_are_rows_too():

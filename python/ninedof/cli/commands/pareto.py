@@ -88,6 +88,8 @@ def front_table(front: Front) -> Table:
             reached = f"{row['status']}: {row['reason']}"
         elif row["dominated"]:
             reached += " (no better than a tighter limit)"
+        elif row["price"] == 0.0:
+            reached += f" ({front.against} without effect)"
         price = "-" if row["price"] is None else f"{row['price']:.3f}"
         table.add_row(
             f"{row['limit']:.5g}", f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price, reached
