@@ -13,11 +13,13 @@ from matplotlib.patches import Circle, Patch, Rectangle
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
     from ninedof.workspace import WorkspaceSlice
 
 MOST_SECTIONS = 3
+RANGE = 30.0  # times the least condition number: the colours end there
 
 KINDS = {  # the limits by kind, in the order of the legend: beginning of the name, words, colour
     "l": ("external legs", style.EXTERNAL),
@@ -94,7 +96,7 @@ def workspace(
             2, 1, height_ratios=[1.55, 1.0], hspace=0.42, left=0.155, right=0.91, top=0.88, bottom=0.09
         )
         above = rows[0].subgridspec(1, len(sections), wspace=0.3)
-        colours = (float(np.min(percentiles)), float(np.max(percentiles)))
+        colours, cut = _colours(np.asarray(percentiles, dtype=np.float64), sections)
         shown: Any = None
         panels = []
         for n, section in enumerate(sections):
@@ -102,7 +104,7 @@ def workspace(
             shown = _section(axes, section, kinds, colours, unit) or shown
             panels.append(axes)
         if shown is not None:
-            bar = figure.colorbar(shown, ax=panels, fraction=0.025, pad=0.02)
+            bar = figure.colorbar(shown, ax=panels, fraction=0.025, pad=0.02, extend="max" if cut else "neither")
             bar.set_label("condition number", size=style.SMALL_SIZE)
             bar.outline.set_visible(False)
         _legend(figure, sections, kinds)
@@ -111,6 +113,18 @@ def workspace(
         _distribution(figure.add_subplot(below[1]), np.asarray(percentiles, dtype=np.float64))
         _levels(figure.add_subplot(below[2]), np.asarray(levels, dtype=np.float64).reshape(-1, 4))
     return figure
+
+
+def _colours(percentiles: Floats, sections: Sequence[Section]) -> tuple[tuple[float, float], bool]:
+    """Return the ends of the colours, the same in all sections, and whether there are values above them."""
+    known = percentiles[np.isfinite(percentiles)]
+    if not known.size:
+        drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
+        known = drawn[np.isfinite(drawn)]
+    if not known.size:
+        return (1.0, 2.0), False
+    low, high = float(known.min()), float(known.max())
+    return (low, min(high, RANGE * low)), high > RANGE * low or bool(np.isposinf(percentiles).any())
 
 
 def _kind(name: str) -> str:
@@ -131,8 +145,8 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     options: dict[str, Any] = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
     shown = None
     if np.isfinite(s.condition_number).any():
-        limits = {"vmin": colours[0], "vmax": colours[1]} if np.isfinite(colours).all() else {}
-        shown = axes.imshow(s.condition_number, cmap=style.CONDITION, **limits, **options)
+        most = np.minimum(s.condition_number, 10.0 * colours[1])  # an infinite one would be left out
+        shown = axes.imshow(most, cmap=style.CONDITION, vmin=colours[0], vmax=colours[1], **options)
     order = list(KINDS)
     number = np.array([order.index(kind) for kind in kinds] + [-1])[s.limit]
     boundary = np.ma.masked_where((s.state != 1) | (number < 0), number)
