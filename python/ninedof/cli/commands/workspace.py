@@ -31,7 +31,7 @@ Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
 EXAMPLES = """[bold]Examples[/bold]
 
-  ninedof workspace --legs 2.5 6.5 --condition 5 --singularity-free
+  ninedof workspace --legs 1.5 6.5 --condition 5 --singularity-free
 
   ninedof workspace runs/20260101-120000    the limits of the study, O as the design has it
 
@@ -39,7 +39,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
 
-  ninedof workspace --archetype orientation --angle-deg 60 --legs 2.5 6.5 --json | jq .workspace.volume"""
+  ninedof workspace --archetype orientation --angle-deg 60 --legs 1.5 6.5 --json | jq .workspace.volume"""
 
 
 def workspace(
@@ -164,10 +164,10 @@ def workspace(
         "index": index or None,
     }
     asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position)
-    for line in asked_lines(asked, home, own, left):
-        screen.print(line)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
+    for line in asked_lines(asked, home, own, left):
+        screen.print(line)
     screen.print(workspace_table(found))
     for sentence in sentences(found):
         screen.print(sentence)
