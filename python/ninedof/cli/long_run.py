@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -52,19 +52,29 @@ def compute(
 
 
 def write(
-    result: SweepResult, directory: Path, stem: str, draw: Callable[[], Figure] | None, screen: Screen, data: Any
+    result: SweepResult,
+    directory: Path,
+    stem: str,
+    draw: Callable[[], Iterable[tuple[str, Figure]]] | None,
+    screen: Screen,
+    data: Any,
 ) -> None:
-    """Write the result, its record and its figure; print their names."""
+    """Write the result, its record and its figures, each with its name; print the names."""
+    names: list[str] = []
 
     def drawn(folder: Path) -> list[Path]:
         screen.say("drawing")
         from ninedof import plot
 
-        return plot.save(draw(), folder, stem) if draw else []
+        files: list[Path] = []
+        for name, figure in draw() if draw else ():
+            names.append(name)
+            files += plot.save(figure, folder, name)
+        return files
 
     record = write_run(result, directory, drawn if draw else None, results=data)
-    figure = f", figure {stem} (PNG and SVG)" if draw else ""
-    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{figure}")
+    made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG and SVG)" if names else ""
+    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}")
     screen.data({**data, "record": str(record)})
 
 

@@ -8,14 +8,19 @@ from typing import Any
 import numpy as np
 from rich.table import Table
 
+from ninedof.design.indices import INDICES, size_of
 from ninedof.sweep import SweepResult
 
 MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:
-    """Return the extremes of an index with their coordinates, and the numbers of infinite and missing values."""
+    """Return the extremes of an index with their coordinates, and the numbers of infinite and missing values.
+
+    The extremes of a signed index are those of its modulus, with their signs.
+    """
     values = result[name]
+    size = size_of(name, values)
     finite = np.isfinite(values)
     out: dict[str, Any] = {
         "points": int(values.size),
@@ -25,7 +30,7 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
     if finite.any():
         for word, pick in (("least", np.argmin), ("greatest", np.argmax)):
             fill = np.inf if word == "least" else -np.inf
-            at = np.unravel_index(int(pick(np.where(finite, values, fill))), values.shape)
+            at = np.unravel_index(int(pick(np.where(finite, size, fill))), values.shape)
             out[word] = {"value": float(values[at]), "at": result.at(name, at)}
     return out
 
@@ -37,8 +42,11 @@ def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str) -> Table
     for head in ("index", "", "value", "at", *counts):
         table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
     for name, row in summary.items():
-        table.add_row(name.replace("_", " "), "least", *_end(row.get("least")), *(str(row[word]) for word in counts))
-        table.add_row("", "greatest", *_end(row.get("greatest")), end_section=True)
+        what = " modulus" if name in INDICES and INDICES[name].signed else ""
+        table.add_row(
+            name.replace("_", " "), f"least{what}", *_end(row.get("least")), *(str(row[word]) for word in counts)
+        )
+        table.add_row("", f"greatest{what}", *_end(row.get("greatest")), end_section=True)
     return table
 
 

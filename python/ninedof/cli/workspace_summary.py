@@ -24,7 +24,9 @@ def workspace_table(found: WorkspaceMap) -> Table:
     table.add_column(justify="right")
     table.add_row("volume", f"{found.volume:.6g}")
     table.add_row("  error, estimated", f"{found.error:.2g}")
-    table.add_row("  share of the box or region", f"{100.0 * found.share:.3g} %")
+    table.add_row(
+        f"  share of the {'region' if found.archetype == 'orientation' else 'box'}", f"{100.0 * found.share:.3g} %"
+    )
     if found.unseen > 0.0:
         table.add_row("  of it, for parts that may be unseen", f"{found.unseen:.2g}")
     if len(found.pieces) > 1:
@@ -42,10 +44,14 @@ def workspace_table(found: WorkspaceMap) -> Table:
     for name, over in found.indices.items():
         known = INDICES[name]
         for label, *values in _rows(known, over):
-            table.add_row(f"{label}: mean, least, greatest", "  ".join(f"{value:.5g}" for value in values))
+            table.add_row(
+                f"{label}: mean, least, greatest{' modulus' if known.signed else ''}",
+                "  ".join(f"{value:.5g}" for value in values),
+            )
     table.add_section()
     for name, share in list(found.limits().items())[:SHOWN]:
-        table.add_row(f"boundary by {name.replace('_', ' ')}", f"{100.0 * share:.1f} %")
+        words = "ends of the torsion" if name == "box" and found.archetype == "orientation" else name.replace("_", " ")
+        table.add_row(f"boundary by {words}", f"{100.0 * share:.1f} %")
     return table
 
 
@@ -72,7 +78,9 @@ def sentences(found: WorkspaceMap) -> Iterator[str]:
     if not found.home_allowed:
         yield f"the home pose is not allowed: {found.home_limit}"
     if found.box_limits:
-        yield "the workspace reaches the faces of the box: it is larger in a larger box"
+        where = "boundary of the region" if found.archetype == "orientation" else "faces of the box"
+        what = where.split()[-1]
+        yield f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
 def draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:

@@ -50,6 +50,8 @@ class Index:
     """The unit: "length" is the caller's own."""
     needs_length: bool = True
     """Whether it depends on the characteristic length."""
+    signed: bool = False
+    """Whether its sign is a side, and its size what counts: the least value is that of least modulus."""
 
     @property
     def words(self) -> str:
@@ -111,9 +113,21 @@ INDICES: dict[str, Index] = {
         Index("singular_values", singular_values, dimension="singular_value", components=tuple("123456")),
         Index("leg_lengths", _leg_lengths, dimension="leg", components=LEGS, unit="length", needs_length=False),
         Index("leg_ratio", _leg_ratio, title="longest / shortest leg", better="smaller", needs_length=False),
-        Index("singularity_margins", _margins, dimension="mechanism", components=MECHANISMS, needs_length=False),
+        Index(
+            "singularity_margins",
+            _margins,
+            dimension="mechanism",
+            components=MECHANISMS,
+            needs_length=False,
+            signed=True,
+        ),
     )
 }
+
+
+def size_of(name: str, values: Any) -> Any:
+    """Return what the least and the greatest value of an index are judged by: the modulus of a signed one."""
+    return np.abs(values) if name in INDICES and INDICES[name].signed else values
 
 
 def computed() -> dict[str, Index]:

@@ -159,11 +159,19 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
                 colour = style.SERIES[k - first]
                 axes.plot(x, style.without_infinite(rows[k]), color=colour, ls=dashes, lw=2.0, label=names[k])
             axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
+            if words := _cut_off(names[first : first + 3].tolist(), rows[first : first + 3], top):
+                axes.text(0.5, 0.975, words, transform=axes.transAxes, ha="center", va="top", size=style.SMALL_SIZE)
             axes.set_xticks([x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]])
             axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
         panels[0].set_ylabel("condition number")
         figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.12)
     return figure
+
+
+def _cut_off(names: Sequence[str], rows: Floats, top: float) -> str:
+    """Return which curves go on above the figure, and how far."""
+    highest = [(name, float(row[~np.isnan(row)].max(initial=0.0))) for name, row in zip(names, rows, strict=True)]
+    return "\n".join(f"{name} is cut off: it reaches {most:.4g}" for name, most in highest if most > top)
 
 
 def figure_7(result: SweepResult) -> Figure:

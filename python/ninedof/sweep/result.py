@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ninedof.design.indices import size_of
 from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
@@ -67,7 +68,7 @@ class SweepResult(Saved):
         return {d: self.coords[d][k].item() for d, k in zip(self.dims[name], position, strict=True)}
 
     def least(self, name: str) -> tuple[float, dict[str, Any]]:
-        """Return the least value of an index that is not NaN, and where it is.
+        """Return the least value of an index that is not NaN, and where it is; of a signed index that of least modulus.
 
         Parameters
         ----------
@@ -83,7 +84,7 @@ class SweepResult(Saved):
         array = self.arrays[name]
         if np.isnan(array).all():
             raise ValueError(f"{name}: got NaN everywhere, expected at least one number")
-        position = np.unravel_index(int(np.nanargmin(array)), array.shape)
+        position = np.unravel_index(int(np.nanargmin(size_of(name, array))), array.shape)
         return float(array[position]), self.at(name, position)
 
     def to_xarray(self) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.indices import Index
+from ninedof.design.indices import Index, size_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
@@ -21,7 +21,7 @@ class IndexStatistics:
 
     Values are taken at the centres of the cells, so that the error is of the order of a cell. The mean weights each
     cell by its allowed volume; the extremes use cells of which at least half is allowed. Poses where the index is
-    unknown (NaN) do not count.
+    unknown (NaN) do not count. Of singularity margins, which are signed, the extremes are those of the modulus.
     """
 
     mean: Any
@@ -48,25 +48,26 @@ def statistics_of(
     weight = fraction * np.where(volume > 0.0, volume, 1.0) * _density(domain, at)
     length = criteria["characteristic_length"]
     c = _configurations(geometry, domain, rule, at)
-    if len(at) == 0:
-        return {index.name: _statistics(np.empty((0, *index.tail)), weight, fraction >= 0.5, at) for index in indices}
-    return {
-        index.name: _statistics(np.asarray(index.values(geometry, c, length, threads)), weight, fraction >= 0.5, at)
-        for index in indices
-    }
+    inner = fraction >= 0.5
+
+    def over(index: Index) -> IndexStatistics:
+        values = index.values(geometry, c, length, threads) if len(at) > 0 else np.empty((0, *index.tail))
+        return _statistics(index.name, np.asarray(values), weight, inner, at)
+
+    return {index.name: over(index) for index in indices}
 
 
-def _statistics(values: Floats, weight: Floats, inner: Any, at: Floats) -> IndexStatistics:
+def _statistics(name: str, values: Floats, weight: Floats, inner: Any, at: Floats) -> IndexStatistics:
     if values.ndim > 1:
-        each = [_statistics(column, weight, inner, at) for column in values.T]
+        each = [_statistics(name, column, weight, inner, at) for column in values.T]
         return IndexStatistics(*([getattr(one, field.name) for one in each] for field in fields(IndexStatistics)))
-    known = ~np.isnan(values)
+    known, size = ~np.isnan(values), size_of(name, values)
     inner = inner & known
     total = float(weight[known].sum())
     if not (total > 0.0 and inner.any()):
         nowhere = [float("nan")] * 3
         return IndexStatistics(float("nan"), float("nan"), nowhere, float("nan"), nowhere)
-    least, greatest = np.flatnonzero(inner)[[values[inner].argmin(), values[inner].argmax()]].tolist()
+    least, greatest = np.flatnonzero(inner)[[size[inner].argmin(), size[inner].argmax()]].tolist()
     mean = float((weight[known] * values[known]).sum()) / total
     return IndexStatistics(
         mean, float(values[least]), at[least].tolist(), float(values[greatest]), at[greatest].tolist()

@@ -1,6 +1,7 @@
 """The paper's Figs. 6 and 7, the drawings of sweeps, and the command line that makes them."""
 
 import json
+import re
 import shlex
 import signal
 import subprocess
@@ -333,7 +334,7 @@ BAD = {
     "sweep --over x_p=0:1:3 --threads 0": "threads: got 0",
     "atlas --designs 0": "designs: got 0",
     "atlas --seed -1": "seed: got -1",
-    "workspace --legs 3 2": "l1",
+    "workspace --legs 3 2": "leg_length: got 3 to 2",
     "workspace --legs 2 3 --resolution 1": "resolution: got 1",
 }
 
@@ -379,3 +380,54 @@ def test_an_interrupted_command_is_resumed(here, capsys):
     status, _, err = run(capsys, "sweep figure-7 --points 4001 --out run --no-figures")
     assert status == 2
     assert "not an empty folder" in " ".join(err.split())
+
+
+# --- What the command says and draws ----------------------------------------------------------------------------------
+
+
+def test_figure_6_says_which_curve_it_cuts_off(six):
+    figure = plot.figure_6(six)
+    rows = dict(zip(six["coordinate"].tolist(), six["condition_number"], strict=True))
+    top = figure.axes[0].get_ylim()[1]
+    said = [text.get_text() for axes in figure.axes for text in axes.texts]
+    cut = [name for name, row in rows.items() if row.max() > top]
+    assert cut == ["theta_z"]
+    assert said == [f"theta_z is cut off: it reaches {rows['theta_z'].max():.4g}"]
+
+
+def test_every_index_of_a_sweep_is_drawn(tmp_path, capsys):
+    indices = ["leg_lengths", "leg_ratio", "singularity_margins"]
+    line = ["sweep", "--over", "x_p=-1:1:5", *(word for name in indices for word in ("--index", name))]
+    with pytest.raises(SystemExit) as end:
+        main([*line, "--json", "--out", str(tmp_path / "run")])
+    assert end.value.code == 0
+    figures = {f"sweep_{name}.png" for name in indices}
+    assert {file.name for file in (tmp_path / "run").glob("*.png")} == figures
+    files = json.loads((tmp_path / "run" / "record.json").read_text())["files"]
+    assert figures < set(files)
+    margins = json.loads(capsys.readouterr().out)["sweep"]["indices"]["singularity_margins"]
+    values = nd.sweep(
+        published.published_geometry(),
+        nd.Configuration.neutral(published.ZP, published.published_zs()[2]),
+        {"x_p": (-1.0, 1.0, 5)},
+        "singularity_margins",
+    )
+    sizes = np.abs(values["singularity_margins"])
+    assert abs(margins["least"]["value"]) == sizes.min()
+    assert abs(margins["greatest"]["value"]) == sizes.max()
+    assert abs(values.least("singularity_margins")[0]) == sizes.min()
+    assert sizes.min() > 0.5  # the signed least is near -1
+
+
+@pytest.mark.parametrize(
+    ("over", "words"),
+    [
+        (["xp=-1:1:5"], "x_p, y_p, z_p, .*a1, .*zs .did you mean 'x_p'?"),
+        (["x_p=-1:1:5", "a1=0:1:5"], "--over: got x_p, a1, expected coordinates of the configuration or variables"),
+    ],
+)
+def test_names_of_coordinates_are_suggested_too(tmp_path, capsys, over, words):
+    with pytest.raises(SystemExit) as end:
+        main(["sweep", *(word for text in over for word in ("--over", text)), "--out", str(tmp_path / "run")])
+    assert end.value.code == 2
+    assert re.search(words, capsys.readouterr().err)

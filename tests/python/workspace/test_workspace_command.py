@@ -55,6 +55,10 @@ def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, cap
     code, out = run([*region, "--legs", "2", "6.5", "--no-figures", "--out", str(tmp_path / "a")], capsys)
     assert code == 0
     assert "volume" in out.out
+    assert "the workspace reaches the boundary of the region: it is larger in a larger region" in " ".join(
+        out.out.split()
+    )
+    assert "box" not in "".join(line for line in out.out.splitlines() if "boundary" in line or "share" in line)
     code, out = run(["--legs", "0", "1", "--no-figures", "--out", str(tmp_path / "b")], capsys)
     assert code == 3
     assert "no allowed pose" in out.out

@@ -122,10 +122,21 @@ def test_refused(arguments, message):
 
 
 def test_at_the_terminal(tmp_path, capsys):
-    arguments = ["workspace", "--legs", "2.5", "6.5", "--method", "grid", "--resolution", "12", "--no-figures"]
+    arguments = ["workspace", "--legs", "1.5", "6.5", "--method", "grid", "--resolution", "12", "--no-figures"]
     with pytest.raises(SystemExit) as ended:
         main([*arguments, "--index", "manipulability", "--index", "leg_lengths", "--out", str(tmp_path / "run")])
     assert ended.value.code == 0
     printed = capsys.readouterr().out
     assert "manipulability: mean, least, greatest" in printed
     assert "r3: mean, least, greatest" in printed
+
+
+def test_extremes_of_singularity_margins_are_those_of_the_modulus():
+    found = nd.workspace(G, criteria=LIMITS, method="grid", resolution=16, index="singularity_margins", **BOX)
+    inner = found.cells.fraction >= 0.5
+    p = found.cells.centre[inner]
+    at = nd.Configuration(p, None, 0.5 * p)
+    over = found.indices["singularity_margins"]
+    for k, values in enumerate(nd.singularity_margins(G, at)):
+        assert abs(over.least[k]) == pytest.approx(np.abs(values).min(), abs=1e-12)
+        assert abs(over.greatest[k]) == pytest.approx(np.abs(values).max(), abs=1e-12)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -60,15 +60,15 @@ def atlas(
     ]
     data = {"atlas": {"designs": int(result["histogram"].sum()), "best": rows}}
 
-    def draw() -> object:
+    def draw() -> list[tuple[str, Any]]:
         from ninedof import plot
 
         best = optimize(Study.paper()).best
         assert best is not None, "the paper's study has an optimum"
         sides = np.array([[best.variables[name] for name in HEXAGONAL]])
-        return plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
+        return [("atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number)))]
 
-    write(result, directory, "atlas", draw if figures else None, screen, data)  # type: ignore[arg-type]
+    write(result, directory, "atlas", draw if figures else None, screen, data)
 
 
 def _table(result: SweepResult) -> Table:

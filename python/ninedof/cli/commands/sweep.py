@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,10 +16,11 @@ from ninedof.cli.chosen_design import chosen_design, length_option, with_length
 from ninedof.cli.long_run import compute, run_folder, write
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
+from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.indices import computed
 from ninedof.paper.published import published_variables
 from ninedof.runs.design_file import Design, hexagonal_design
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
 from ninedof.sweep import sweep as sweep_poses
@@ -120,7 +121,7 @@ def sweep(
         raise typer.Exit(INTERRUPTED)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     screen.print(summary_table(summary, title))
-    draw = (lambda: _figure(result, what)) if figures else None
+    draw = (lambda: _figures(result, what)) if figures else None
     write(result, directory, "sweep", draw, screen, json_data(result, summary))
 
 
@@ -132,6 +133,11 @@ def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str
         raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
     _expect_none("with --over", {"points": points})
     grid = dict(parse_over(text) for text in over)
+    for name in grid:
+        choice("--over", name, (*COORDINATES, *HEXAGONAL))
+    if set(grid) & set(HEXAGONAL) and set(grid) - {*HEXAGONAL, "theta_z"}:  # theta_z is both
+        got = ", ".join(grid)
+        raise ValueError(f"--over: got {got}, expected coordinates of the configuration or variables of the design")
     if len(grid) < len(over):
         raise ValueError(f"--over: got {', '.join(over)}, expected different names")
     return grid
@@ -186,8 +192,14 @@ def _variables(
     return {name: value for name, value in values.items() if name not in over}
 
 
-def _figure(result: SweepResult, what: str | None) -> Any:
+def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]:
+    """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
 
     named = {"figure-6": plot.figure_6, "figure-7": plot.figure_7}
-    return named[what](result) if what in named else plot.sweep(result)
+    if what in named:
+        yield "sweep", named[what](result)
+        return
+    indices = list(result)
+    for name in indices:
+        yield ("sweep" if len(indices) == 1 else f"sweep_{name}"), plot.sweep(result, name)
