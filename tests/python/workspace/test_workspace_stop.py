@@ -79,3 +79,17 @@ def test_ctrl_c_ends_the_finest_levels(published):
     assert found.status == "stopped"
     assert found.evaluations > enough
     assert seconds < 12.0
+
+
+def test_the_poses_announced_are_about_those_evaluated():
+    """The error of the first level is a bound: taken for an estimate it announced ten times as many poses."""
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    totals = []
+    found = nd.workspace(
+        g,
+        ([-4, -4, 0], [4, 4, 8]),
+        criteria={"leg_limits": (1.5, 6.5), "condition_number": 5.0},
+        progress=lambda done, total, volume: totals.append(total),
+    )
+    assert found.status == "converged"
+    assert max(totals) < 1.5 * found.evaluations

@@ -176,14 +176,20 @@ class OctreeBuilder {
     if (reached && (level > 0 || error_ == 0.0)) return WorkspaceStatus::converged;
     if (level == CellLattice::deepest || evaluations() + evaluations_a_cell * open > settings_.most_evaluations)
       return WorkspaceStatus::limited;
-    // From level to level the error falls and the work grows by a factor of four.
+    // From level to level the work grows by a factor of four and the error falls as it did last, by 4 to 16: that of
+    // the extrapolated volume by more than four. The error of the first level is a bound that tells nothing.
     long more = evaluations_a_cell * open;
     expected_ = evaluations() + more;
-    for (double e = error_ / 4.0; e > settings_.tolerance * volume_ && expected_ < settings_.most_evaluations;
-         e /= 4.0) {
-      more *= 4;
-      expected_ += more;
+    if (level > 0) {
+      const double fall = std::clamp(level > 1 ? before_ / error_ : 16.0, 4.0, 16.0);
+      for (double e = error_ / fall; e > settings_.tolerance * volume_ && expected_ < settings_.most_evaluations;
+           e /= fall) {
+        more *= 4;
+        expected_ += more;
+      }
     }
+    expected_ = std::min(expected_, settings_.most_evaluations);
+    before_ = error_;
     return {};
   }
 
@@ -199,6 +205,7 @@ class OctreeBuilder {
   double unproved_ = 0.0;  // volume, in coordinates, of the cells that are not proved
   double volume_ = not_a_number, error_ = volume_;
   double resolved_ = error_;  // the error without what may be unseen
+  double before_ = error_;  // that of the level before
 };
 
 }  // namespace
