@@ -57,7 +57,10 @@ def slice_of(
     at: float,
     pixels: int,
 ) -> WorkspaceSlice:
-    """Return the section of cells between `ends` where coordinate number `fixed` has the value `at`."""
+    """Return the section of cells between `ends` where coordinate number `fixed` has the value `at`.
+
+    Cells left undecided, of which no part is known to be allowed, are outside.
+    """
     low, high = ends
     h, v = (k for k in range(3) if k != fixed)
     state = np.zeros((pixels, pixels), dtype=np.uint8)
@@ -75,8 +78,9 @@ def slice_of(
     first, last = pixel(cells.centre[hit] - 0.5 * cells.size[hit]), pixel(cells.centre[hit] + 0.5 * cells.size[hit])
     for n, a, b in zip(hit.tolist(), first, last, strict=True):
         there = (slice(a[v], b[v]), slice(a[h], b[h]))
-        state[there], limit[there] = cells.state[n], cells.limit[n]
-        kappa[there] = cells.condition_number[n] if cells.state[n] else np.nan
+        held = cells.state[n] if cells.fraction[n] > 0.0 else 0
+        state[there], limit[there] = held, cells.limit[n]
+        kappa[there] = cells.condition_number[n] if held else np.nan
     middle = (np.arange(pixels) + 0.5)[:, None] / scale + low
     axes, plane = (coordinates[h], coordinates[v]), (coordinates[fixed], at)
     return WorkspaceSlice(axes, plane, middle[:, h], middle[:, v], state, limit, kappa)

@@ -238,3 +238,25 @@ def test_the_figure_has_the_given_sections_and_limits(found):
     assert set(words) == {"external legs", "upper internal legs", "condition number"}
     with pytest.raises(ValueError, match="sections: got 0"):
         plot.workspace([], found.limit_names, found.limits(), found.percentiles, found.levels)
+
+
+def test_a_section_shows_no_cell_without_an_allowed_part(published):
+    """With the best O and singularities cells are left undecided, along the frame of the box and elsewhere."""
+    found = nd.workspace(
+        published,
+        ([-4, -4, 0], [4, 4, 8]),
+        criteria={"leg_limits": (1.5, 6.5), "singularity_free": True},
+        home=nd.Configuration.neutral(3.9828, 2.4435),
+        internal_point="best",
+        resolution=4,
+        tolerance=0.5,
+    )
+    cells = found.cells
+    undecided = np.flatnonzero((cells.state == 1) & (cells.fraction == 0.0))
+    assert undecided.size > 0
+    for n in undecided[:: max(1, undecided.size // 10)]:
+        section = found.slice("y", float(cells.centre[n, 1]))
+        h = np.abs(section.horizontal - cells.centre[n, 0]).argmin()
+        v = np.abs(section.vertical - cells.centre[n, 2]).argmin()
+        assert section.state[v, h] == 0
+        assert np.isnan(section.condition_number[v, h])
