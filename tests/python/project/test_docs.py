@@ -46,3 +46,30 @@ def test_the_python_of_the_readme_runs_as_written(capsys):
     assert "optimal" in shown
     assert round(known["found"].volume, 1) == 7.8
     assert round(known["result"].condition_number, 6) == 3.749827
+
+
+def test_the_citation_is_complete_and_of_this_version():
+    """What the README, the documentation and CITATION.cff say of the paper and of this software agrees."""
+    cff = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    (version,) = re.findall(
+        r"project\(\s*ninedof\s+VERSION\s+([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    )
+    keys = (
+        "cff-version",
+        "message",
+        "type",
+        "title",
+        "version",
+        "abstract",
+        "license",
+        "authors",
+        "keywords",
+        "references",
+    )
+    assert [key for key in keys if not re.search(rf"^{key}:", cff, flags=re.MULTILINE)] == []
+    assert re.search(rf"^version: {re.escape(version)}$", cff, flags=re.MULTILINE)
+    (title,) = re.findall(r'title: "(The Optimum .*)"', cff)
+    for page in ("README.md", "docs/index.md"):
+        text = " ".join((ROOT / page).read_text(encoding="utf-8").split())
+        cited = text[text.index("Please cite") :]
+        assert all(words in cited for words in (title, "Galfo", "Sinatra", f"version {version}", "CITATION.cff")), page
