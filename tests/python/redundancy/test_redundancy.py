@@ -276,3 +276,24 @@ def test_no_point_of_a_grid_is_better_with_limits():
 def test_wrong_arguments_are_named(published, name, wrong):
     with pytest.raises(ValueError, match=rf"^{name}: got "):
         nd.best_internal_point(published, [0.0, 0.0, 3.98], **wrong)
+
+
+def test_a_symmetric_machine_does_not_flicker_along_z():
+    """At its lower internal joints the condition number is below the minimum on the axis, in a few directions only."""
+
+    def orbit(radius, angle):
+        around = angle + np.arange(3) * 2.0 * np.pi / 3.0
+        return np.stack([radius * np.cos(around), radius * np.sin(around), np.zeros(3)], axis=1)
+
+    g = nd.Geometry(
+        base_external=orbit(2.665658961190107, np.pi / 3.0),
+        base_internal=orbit(0.5091945701359243, 0.0),
+        platform_external=orbit(0.347009814847422, 1.2308666508204802),
+        platform_internal=orbit(3.0964985258001736, 2.6155275162807006),
+    )
+    z = np.linspace(0.8, 1.7, 41)
+    found = nd.best_internal_point(g, z[:, None] * [0.0, 0.0, 1.0], characteristic_length=7.747692520080963)
+    lost = np.asarray(found.status) == "unbounded"
+    assert lost.any()
+    assert not lost.all()
+    assert np.count_nonzero(lost[1:] != lost[:-1]) <= 2

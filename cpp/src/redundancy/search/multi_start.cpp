@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "math/numbers.hpp"
 #include "ninedof/math/rotation.hpp"
@@ -23,6 +24,8 @@ constexpr double same_minimum = 1e-6;  // greatest distance of two minima that c
 constexpr std::size_t first_starts = 8, more_starts = 8, limit_starts = 6;
 constexpr std::size_t sampled_from = 5;  // best ends from which rays are sampled again
 constexpr int most_rounds = 4;
+constexpr double beside_joint = 1e-2;  // distance of the starts beside an internal joint
+constexpr int around_joint = 128;  // directions there
 constexpr int points_of_scan = 20;  // along each axis
 constexpr std::size_t most_valleys = 8;
 constexpr double next_cells = 0.6;  // of the diagonal of a cell
@@ -135,6 +138,23 @@ class Search {
     for (const LocalMinimum& m : minima_.found) reach_.add(m.x);
   }
 
+  /// Descends into the internal joints: the criterion depends on the direction there, which the grid of a scan misses.
+  void descend_into_joints() {
+    for (int k = 0; k < 6; ++k) {
+      Sample best{Vec3::Zero(), best_of(minima_)};
+      for (int n = 0; n < around_joint; ++n) {
+        // A spiral over the sphere, with the golden angle.
+        const double z = (2.0 * n + 1.0) / around_joint - 1.0, turn = 2.399963229728653 * n;
+        const double flat = std::sqrt(1.0 - z * z);
+        const Vec3 x = pose_.joint(k) + beside_joint * Vec3(flat * std::cos(turn), flat * std::sin(turn), z);
+        if (!objective_.in_chamber(x) || objective_.violation(x) >= limit_tolerance) continue;
+        if (const double value = objective_.exact(x); value < best.value) best = {x, value};
+      }
+      if (!(best.value < best_of(minima_)) || !reach_.reaches(best.x)) continue;
+      add_minimum(end_of(objective_, descend(pose_, soft_, best.x, fine)), minima_);
+    }
+  }
+
   void scan_chamber() { add_valleys(objective_, {points_of_scan, most_valleys}, reach_, minima_); }
 
   /// The minima, best first.
@@ -235,6 +255,7 @@ Minima local_minima(const PoseObjective& objective, const Vec3& start) {
     if (!search.descend_from_best(more_starts)) break;
   }
   search.refine_ends();
+  search.descend_into_joints();
   search.scan_chamber();
   return search.finish();
 }
