@@ -7,10 +7,10 @@ namespace ninedof {
 namespace {
 
 constexpr double guard = 0.1;          // least error, relative to the last change
-constexpr double unconfirmed = 2.0;    // on the first move of the extrapolation: that the next is smaller is not known
-constexpr double random_signs = 2.0;   // standard deviations of a sum of differences with random signs
+constexpr double unconfirmed = 2.0;  // on the first move of the extrapolation: that the next is smaller is not known
+constexpr double random_signs = 2.0;  // standard deviations of a sum of differences with random signs
 constexpr double coarse_share = 0.25;  // of the volume: while more than this changes, the cells are too coarse
-constexpr double rounding = 1e-13;     // relative
+constexpr double rounding = 1e-13;  // relative
 
 /// The size of a sum of differences: at least what it would be if their signs were random. So differences that cancel
 /// by chance are not taken for small ones.
