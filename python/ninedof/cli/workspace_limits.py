@@ -12,7 +12,7 @@ from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
-from ninedof.workspace.study_criteria import LEGS, leg_ranges, own_fraction, study_criteria
+from ninedof.workspace.study_criteria import EASE, LEGS, leg_ranges, own_fraction, study_criteria
 
 CONES = ("base_cone", "platform_cone")
 KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal": slice(6, 9)}
@@ -27,6 +27,8 @@ def criteria_asked(
     criterion; None leaves what the study has.
     """
     from_study, left = ({}, []) if study is None else study_criteria(study.constraints, zp)
+    if study is not None and study.objective.condition_limit is not None:
+        from_study["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     given = {name: value for name, value in options.items() if value is not None}
     found: dict[str, Any] = from_study | {name: value for name, value in given.items() if not name.endswith("_axis")}
     for cone in CONES:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ninedof.design.limits import each, for_core
+from ninedof.design.limits import each, for_core, place
 from ninedof.design.study import Study
 from ninedof.support.arrays import Floats
 
@@ -39,4 +39,6 @@ def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
 
 def other_limits_of(study: Study) -> tuple[str, ...]:
     """Return the study's limits at poses that `leg_limits_of` does not cover."""
-    return tuple(name for name in OTHERS if name in study.constraints)
+    at_poses = {name for name, limit in each(study.constraints) if place(limit) == "poses"}
+    limited = ("condition_limit",) if study.objective.condition_limit is not None else ()
+    return (*(name for name in OTHERS if name in at_poses), *limited)

@@ -103,7 +103,8 @@ class Objective:
         """The objective in words."""
         index = objectives()[self.index].words
         if self.region is not None:
-            return f"worst {index} over {self.region.words}"
+            listed = f" and {len(self.poses)} poses" if self.poses else ""
+            return f"worst {index} over {self.region.words}{listed}"
         if not self.poses:
             return index
         over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"
@@ -128,7 +129,7 @@ class Objective:
                 if SET_KEYS[name][0] not in data[name]:
                     raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
                 found.extend(_named(where, make, **(defaults | dict(data[name]))))
-        region = _region(data.get("region"), **defaults)
+        region = _region(data.get("region"), **{k: v for k, v in defaults.items() if k == "unit"})
         if defaults:
             _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
         rest = {name: data[name] for name in ("index", *NUMBERS) if name in data}
@@ -166,7 +167,7 @@ def _condition_limit(name: str, value: Any) -> float | None:
 
 
 def _region(value: Any, **defaults: Any) -> Region | None:
-    """Return a region, made from a table if one is given; a default of a pose that is no shift is one of a region."""
+    """Return a region, made from a table if one is given."""
     if value is None or isinstance(value, Region):
         return value
     return _named("objective.region", Region.from_dict, defaults | dict(table("objective.region", value)))

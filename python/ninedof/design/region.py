@@ -35,8 +35,8 @@ class Region:
     tilt, yaw : float
         Greatest angle of a tilt about any horizontal axis, and of a yaw in both directions; radians, 0 by default.
     internal_point : {"carried", "held"}
-        "carried", the default: s - p stays as at the neutral pose, base axes, so that every leg works; "held": s stays,
-        and r1, r2, r3 never move.
+        "carried", the default: s - p stays as at the neutral pose, in base axes; without turns q1, q2, q3 do not move.
+        "held": s stays, and r1, r2, r3 never move.
     unit : {"length", "zp"}
         Of positions: the length unit of the study (default), or the height zp of the design.
 

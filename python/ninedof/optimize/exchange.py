@@ -10,6 +10,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.region_report import RegionReport, posed
+from ninedof.optimize.region_report import PASSED, RegionReport, posed
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.optimize.warm import Warm
 from ninedof.support.arrays import Floats
@@ -30,7 +31,6 @@ Cause = tuple[str, int]
 """The index, or a limit and its leg or pair of legs."""
 Solve = Callable[[Study, int, Any], Result]
 
-PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
 QUICK, DENSE = 4_000, 100_000  # poses of a search: while the design still moves, and at the end
 MOST_ROUNDS = 60
 SAME = 1e-6  # of the region: nearer poses are one
@@ -54,47 +54,61 @@ class Look:
 
 
 def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
-    """Solve a region study by `solve`, which takes a study with poses, a number of starts and designs to start from."""
+    """Solve a region study by `solve`, which takes a study with poses, a number of starts and designs to start from.
+
+    Starts and confidence of the result are those of the last round; evaluations and seconds are of all.
+    """
     region = study.objective.region
     assert region is not None
+    begin = perf_counter()
     ruling = [(("", 0), at) for at in first_poses(region)]
-    starts, thorough = study.starts, False
-    seconds, evaluations = 0.0, 0
-    for rounds in range(1, MOST_ROUNDS + 1):
-        poses = tuple(_pose(region, at) for _, at in ruling)
-        result = solve(posed(study, poses), starts, warm)
-        seconds, evaluations = seconds + result.seconds, evaluations + result.evaluations
-        best = result.best
-        if best is None or result.interrupted:
-            break
-        look = search(study, best, QUICK, rounds, threads)
-        if not look.worse:
-            look = search(study, best, DENSE, rounds, threads)
-        if not look.worse and (thorough or starts == 1 == study.starts):
-            break
-        # The last run from all starts has all poses: it shows whether another design is better with them.
-        thorough = not look.worse
-        starts, warm = (study.starts if thorough else 1), result.candidates[:4]
-        ruling = _joined(region, ruling, look.worse, rounds > SETTLED)
+    starts, thorough, evaluations = study.starts, False, 0
+    result: Result | None = None
+    look: Look | None = None
+    try:
+        for rounds in range(1, MOST_ROUNDS + 1):
+            poses = tuple(_pose(region, at) for _, at in ruling)
+            found = solve(posed(study, poses), starts, warm)
+            if found.best is None and starts < study.starts and not found.interrupted:
+                found = solve(posed(study, poses), study.starts, warm)  # no verdict from a single start
+            result, imposed, look = found, poses, None
+            evaluations += found.evaluations
+            if found.best is None or found.interrupted:
+                break
+            look = search(study, found.best, QUICK, rounds, threads)
+            if not look.worse:
+                look = search(study, found.best, DENSE, rounds, threads)
+            if not look.worse and (thorough or starts == 1 == study.starts):
+                break
+            # The last run from all starts has all poses: it shows whether another design is better with them.
+            thorough = not look.worse
+            starts, warm = (study.starts if thorough else 1), found.candidates[:4]
+            ruling = _joined(region, ruling, look.worse, rounds > SETTLED)
+    except KeyboardInterrupt:
+        if result is None:
+            raise
+        look, reason = None, "interrupted between two rounds; the best design so far, not an optimum of the region"
+        result = replace(result, status=Status.STOPPED, interrupted=True, reason=reason)
+    assert result is not None
     report = None
-    if best is not None:
-        if not look.worse:
-            result, poses = _only_ruling(study, result, poses)
-        if result.interrupted:
-            look = search(study, best, QUICK, rounds, threads)
-        report = RegionReport(
-            poses, rounds, look.looked_at, look.objective, _pose(region, look.objective_at), look.margin, look.limit
-        )
-        if look.worse and result.status == Status.OPTIMAL:
-            reason = f"after {rounds} rounds the design is still worse between the poses than at them"
-            result = replace(result, status=Status.STOPPED, reason=reason)
+    if result.best is not None:
+        if look is None:
+            report = RegionReport(imposed, rounds, 0, result.best.objective, imposed[0], math.inf, "")
+        else:
+            if not look.worse:
+                result, imposed = _only_ruling(study, result, imposed)
+            elif result.status == Status.OPTIMAL:
+                reason = f"after {rounds} rounds the design is still worse between the poses than at them"
+                result = replace(result, status=Status.STOPPED, reason=reason)
+            at = _pose(region, look.objective_at)
+            report = RegionReport(imposed, rounds, look.looked_at, look.objective, at, look.margin, look.limit)
     return replace(
         result,
         study=study,
         region=report,
         candidates=result.candidates[:1],
         evaluations=evaluations,
-        seconds=seconds,
+        seconds=perf_counter() - begin,
     )
 
 
@@ -129,7 +143,10 @@ def search(study: Study, best: Candidate, samples: int, seed: int, threads: int)
 def _only_ruling(study: Study, result: Result, poses: tuple[Pose, ...]) -> tuple[Result, tuple[Pose, ...]]:
     """Return a result without the poses that are far from deciding anything: it stays an optimum without them."""
     best = result.candidates[0]
-    single = [posed(study, (pose,)).evaluate(best.variables) for pose in poses]
+    alone = replace(study, objective=replace(study.objective, poses=()))
+    names = alone.problem().names
+    variables = {name: value for name, value in best.variables.items() if name in names}
+    single = [posed(alone, (pose,)).evaluate(variables) for pose in poses]
     lengths = np.array([leg_lengths(best.geometry, point.configurations[-1]) for point in single])
     extreme = (lengths >= lengths.max(axis=0) * (1.0 - NEAR)) | (lengths <= lengths.min(axis=0) * (1.0 + NEAR))
     # Limits of the design itself are the same at every pose.
@@ -181,23 +198,33 @@ def _joined(
     def apart(one: At, other: At) -> float:
         return float(np.abs(np.subtract(one, other) / reach).max())
 
-    out: list[tuple[Cause, At]] = list(ruling)
-    new: list[tuple[Cause, At]] = []
+    out, joined = list(ruling), list[tuple[Cause, At]]()
     for cause, at in worse:
-        if any(apart(at, other) <= SAME for _, other in [*out, *new]):
+        if any(apart(at, other) <= SAME for _, other in out):
             continue
+        if any(c == cause and apart(at, other) <= BRANCH for c, other in joined):
+            continue  # a worse one of the same branch has joined
+        joined.append((cause, at))
         near = [k for k, (c, other) in enumerate(out) if c == cause and apart(at, other) <= BRANCH]
         if near and not add_only:
             out[min(near, key=lambda k: apart(at, out[k][1]))] = (cause, at)
-        elif not any(c == cause and apart(at, other) <= BRANCH for c, other in new):
-            new.append((cause, at))
-    return [*out, *new]
+        else:
+            out.append((cause, at))
+    return out
 
 
 def first_poses(region: Region) -> list[At]:
-    """Return the coordinates of the neutral pose, the corners of the positions and the greatest tilts and yaws."""
+    """Return the coordinates of the neutral pose, the corners of the positions and the greatest tilts and yaws.
+
+    On a path the pose half-way stands for the neutral one, which need not be on it.
+    """
     reach = np.asarray(region.reach)
-    corners = itertools.product(*([-r, r] if r > 0.0 else [0.0] for r in reach[:3]))
+    corners: Iterable[tuple[float, ...]]
+    if region.path is None:
+        corners = itertools.product(*([-r, r] if r > 0.0 else [0.0] for r in reach[:3]))
+    else:
+        along = np.cumsum([0.0, *np.linalg.norm(np.diff(region.path, axis=0), axis=1)])
+        corners = [(2.0 * float(at / along[-1]) - 1.0, 0.0, 0.0) for at in along]
     turns = [sign * r * np.eye(6)[k] for k, r in enumerate(reach) if k >= 3 and r > 0.0 for sign in (1.0, -1.0)]
     rows = [np.zeros(6), *(np.array([*corner, 0.0, 0.0, 0.0]) for corner in corners), *turns]
     return list(dict.fromkeys(tuple(row.tolist()) for row in rows))

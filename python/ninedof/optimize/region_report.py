@@ -9,6 +9,8 @@ from typing import Any
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 
+PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
+
 
 @dataclass(frozen=True)
 class RegionReport:
@@ -19,7 +21,7 @@ class RegionReport:
     rounds: int
     """Designs that were searched over the region."""
     looked_at: int
-    """Poses at which the best design was evaluated in the last search."""
+    """Poses at which the best design was evaluated in the last search; 0 where an interruption came before it."""
     objective: float
     """The largest value of the index found."""
     objective_at: Pose
@@ -35,7 +37,11 @@ class RegionReport:
     @property
     def words(self) -> str:
         """The report in a sentence."""
-        passed = "no limit is passed" if self.margin >= 0.0 else f"{self.limit} is passed by {-self.margin:.1e} of it"
+        if self.looked_at == 0:
+            return f"{len(self.poses)} poses of the region were imposed; the design was not looked at between them"
+        passed = f"{self.limit} is passed by {-self.margin:.1e} of it"
+        if self.margin >= -PASSED:
+            passed = "no limit is passed"
         return (
             f"{len(self.poses)} poses of the region ruled; of {self.looked_at} looked at the worst has "
             f"{self.objective:.6f}, and {passed}"

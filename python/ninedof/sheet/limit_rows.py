@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ninedof.design.limits import ROWS, each, for_core
+from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 
 # Their margins are differences in parts of the limit; those of the others are logarithms of the ratio to the limit.
@@ -34,6 +36,7 @@ class LimitRow:
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
     """Return a row for each side of each limit, in the order of the study."""
     rows = []
+    no_limit: dict[str, Any] = dict.fromkeys(CONDITION_LIMITS)
     for name, limit in each(study.constraints):
         given = for_core(name, limit)
         options = {k: v for k, v in limit.items() if k not in ("min", "max")} if isinstance(limit, Mapping) else {}
@@ -41,9 +44,15 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
         for side, bound in (("min", given["low"]), ("max", given["high"])):
             if side not in ROWS[name].sides or not math.isfinite(bound) or bound <= 0.0:
                 continue
-            alone = replace(study, constraints={name: options | {side: bound}})
+            objective = replace(study.objective, **no_limit)
+            alone = replace(study, constraints={name: options | {side: bound}}, objective=objective)
             ((label, margin),) = alone.evaluate(variables).margins.items()
             rows.append(LimitRow(label, side, bound, _value(name, side, bound, margin), margin, kind))
+    for name in CONDITION_LIMITS:
+        if (bound := getattr(study.objective, name)) is not None:
+            objective = replace(study.objective, **(no_limit | {name: bound}))
+            ((label, margin),) = replace(study, constraints={}, objective=objective).evaluate(variables).margins.items()
+            rows.append(LimitRow(label, "max", bound, bound * math.exp(-margin), margin, "ratio"))
     return tuple(rows)
 
 

@@ -96,7 +96,9 @@ class Sheet:
     accuracy: Accuracy | None
     stiffness: Stiffness | None
     limits: tuple[LimitRow, ...]
-    """Each limit of the study beside the value at the study's own poses; empty where the input has no study."""
+    """Each limit of the study beside the value at the study's own poses; empty where the input has no study.
+
+    Of a region they are the poses that ruled. Nothing is looked at between them."""
 
     @property
     def idle(self) -> tuple[str, ...]:
@@ -231,7 +233,7 @@ def sheet(
     kappa = np.full(len(c), np.inf) if kind_without_value else np.asarray(condition_number(g, c, length))
     determinants = _determinants(g, c)
     bounded = leg_errors is not None or joint_errors is not None
-    study, variables = getattr(design, "study", None), getattr(design, "variables", None)
+    study, variables = getattr(design, "solved", None), getattr(design, "variables", None)
     return Sheet(
         geometry=g,
         configurations=c,

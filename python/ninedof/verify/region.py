@@ -27,6 +27,7 @@ def worst_at_random(study: Study, variables: Mapping[str, float], count: int, se
     space = DesignSpace(there, variables)
     robot = space.robot(space.x)
     every = [float(m.min()) for limit in limits_of(there) if (m := margins(limit, robot)).size]
+    every += [float(m.min()) for m in ObjectiveRule.of(there).condition_margins(robot).values()]
     return float(ObjectiveRule.of(there).values(robot).max()), min(every, default=np.inf)
 
 

@@ -10,6 +10,7 @@ import pytest
 from sizes import size
 
 import ninedof as nd
+from ninedof.optimize import exchange
 
 UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
 STUDIES = {
@@ -114,3 +115,54 @@ def test_threads_do_not_change_the_result():
     one, two = (nd.optimize(study, threads=n) for n in (1, 2))
     assert one.objective == two.objective
     assert one.region == two.region
+
+
+@pytest.mark.parametrize("solves", [0, 1])
+def test_an_interruption_keeps_the_best_design(monkeypatch, solves):
+    """Ctrl-C in the first search between the poses, and in the second."""
+    searched = []
+
+    def interrupted(*arguments):
+        searched.append(arguments)
+        if len(searched) > solves:
+            raise KeyboardInterrupt
+        return found(*arguments)
+
+    found = exchange.search
+    monkeypatch.setattr(exchange, "search", interrupted)
+    result = nd.optimize(STUDIES["turns, frobenius"])
+    assert (result.status, result.interrupted) == ("stopped", True)
+    assert result.best is not None
+    assert result.region.looked_at == 0
+    assert "not looked at" in result.summary()
+
+
+def test_a_moved_pose_takes_the_place_of_the_old_one_once():
+    region = nd.Region(box=(1.0, 1.0, 1.0))
+    cause = ("stroke", 3)
+    at = [(x, 0.0, 0.0, 0.0, 0.0, 0.0) for x in (1.0, 0.9, 0.85, -0.5)]
+    joined = exchange._joined(region, [(cause, at[0])], [(cause, at[1]), (cause, at[2]), (cause, at[3])], False)
+    assert joined == [(cause, at[1]), (cause, at[3])]
+    assert len(exchange._joined(region, [(cause, at[0])], [(cause, at[1])], True)) == 2
+
+
+def test_corners_of_a_path_are_imposed_first():
+    region = nd.Region(path=((1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 3.0, 0.0)))
+    poses = [exchange._pose(region, at).position for at in exchange.first_poses(region)]
+    for corner in region.path:
+        assert min(np.linalg.norm(np.subtract(corner, p)) for p in poses) < 1e-12
+
+
+@pytest.mark.slow
+def test_check_and_sheet_see_a_limit_on_the_condition_number():
+    study = replace(
+        STUDIES["turns, frobenius"],
+        constraints={"radius_ratio": (None, 2.0)},
+        objective={"index": "speed", "condition_limit": 6.0, "region": {"tilt_deg": 5}},
+    )
+    result = nd.optimize(study)
+    tight = replace(study, objective=replace(study.objective, condition_limit=2.0))
+    assert nd.check(result, perturbations=0)["region"].passed
+    assert not nd.check(replace(result, study=tight), perturbations=0)["region"].passed
+    row = next(row for row in result.sheet().limits if row.name == "condition_limit")
+    assert row.value == pytest.approx(max(result.conditions), rel=1e-9)
