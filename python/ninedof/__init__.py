@@ -39,6 +39,7 @@ from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, be
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.runs.folder import load
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
     Mechanism,
@@ -131,6 +132,7 @@ __all__ = [
     "jacobian_rate",
     "leg_forces",
     "leg_lengths",
+    "load",
     "manipulability",
     "null_motion",
     "optimize",

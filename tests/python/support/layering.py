@@ -57,9 +57,9 @@ PYTHON_ROOMS = (
     "paper",
     "sweep",
     "atlas",
-    "__init__",
     "plot",
     "runs",
+    "__init__",
     "cli",
     "__main__",
 )
