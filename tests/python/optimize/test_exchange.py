@@ -77,6 +77,7 @@ def test_limits_hold_between_the_poses(name):
     assert report["region"].figure <= 1e-6
 
 
+@pytest.mark.slow
 def test_check_finds_a_region_that_only_holds_at_listed_poses():
     """Tilts about x and y alone: between those directions a limit is passed."""
     result = solved("turns, frobenius")
@@ -110,6 +111,7 @@ def test_an_impossible_region_is_infeasible():
     assert "no design found satisfies all limits" in result.reason
 
 
+@pytest.mark.slow
 def test_threads_do_not_change_the_result():
     study = STUDIES["turns, frobenius"]
     one, two = (nd.optimize(study, threads=n) for n in (1, 2))
@@ -117,6 +119,7 @@ def test_threads_do_not_change_the_result():
     assert one.region == two.region
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solves", [0, 1])
 def test_an_interruption_keeps_the_best_design(monkeypatch, solves):
     """Ctrl-C in the first search between the poses, and in the second."""
