@@ -189,6 +189,12 @@ Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, con
   return out;
 }
 
+/// Of the unit of the robot; 0 where a plate would be lost in it.
+int usable_exponent(const Geometry& g) {
+  const int exponent = unit_exponent(largest_coordinate(g));
+  return exponent != 0 && scaled(g, -exponent) ? exponent : 0;
+}
+
 /// O in the platform frame.
 Vec3 platform_point(const Configuration& c) {
   return c.rotation.transpose() * (c.internal_point - c.position);
@@ -232,8 +238,8 @@ Tracked Tracked::not_tried() {
 }
 
 Tracker::Tracker(const Geometry& g)
-    : exponent_(unit_exponent(largest_coordinate(g))),
-      geometry_(exponent_ == 0 ? g : scaled(g, -exponent_).value_or(g)),
+    : exponent_(usable_exponent(g)),
+      geometry_(exponent_ == 0 ? g : *scaled(g, -exponent_)),
       base_(geometry_.base_internal()),
       platform_(geometry_.platform_internal()) {}
 
