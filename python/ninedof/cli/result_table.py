@@ -50,7 +50,8 @@ def price_text(result: Result) -> list[str]:
     if result.runs_abandoned:
         sure += f"; {result.runs_abandoned} of {result.starts_done} were abandoned early"
     region = [] if result.region is None else [result.region.words]
-    return ["\n".join([*region, *price_words(result.study, result.best.variables, result.best.prices), sure])]
+    points = [result.internal_points] if result.internal_points else []
+    return ["\n".join([*region, *points, *price_words(result.study, result.best.variables, result.best.prices), sure])]
 
 
 def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:

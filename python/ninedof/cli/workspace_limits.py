@@ -50,16 +50,16 @@ def criteria_asked(
 
 def rule_asked(text: str | None, geometry: Geometry, home: Configuration) -> str | float | tuple[float, ...]:
     """Return the rule for O: that of the option, or where the design has O."""
-    if text is not None and text not in ("best", "stay"):
+    if text is not None and text not in ("best", "held"):
         try:
             return float(text)
         except ValueError:
-            raise ValueError(f"--internal-point: got {text!r}, expected best, stay or a fraction") from None
+            raise ValueError(f"--internal-point: got {text!r}, expected best, held or a fraction") from None
     if text == "best":
         return text
     upper = home.position + home.rotation @ geometry.platform_internal.mean(axis=0)
     own = own_fraction(upper, geometry.base_internal.mean(axis=0), home.internal_point)
-    return tuple(home.internal_point.tolist()) if text == "stay" or own is None else own
+    return tuple(home.internal_point.tolist()) if text == "held" or own is None else own
 
 
 def asked_lines(asked: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str]) -> Iterator[str]:

@@ -11,7 +11,8 @@ from ninedof.support.arguments import Vector, choice, known_keys, shown, vector
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 UNITS = ("length", "zp")
-INTERNAL_POINTS = ("stay", "best")
+INTERNAL_POINTS = ("carried", "held", "best")
+DEFAULT_INTERNAL_POINT = "carried"
 POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit")
 
 
@@ -25,8 +26,9 @@ class Pose:
         Shift of p from its neutral position (0, 0, zp), base frame. Zero by default.
     rotation : (3,) floats
         Rotation vector in radians, base axes, applied after the neutral rotation. Zero by default.
-    internal_point : (3,) floats, "stay" or "best"
-        Shift of s from its neutral position (0, 0, zs), base frame. "stay", the default, is no shift; with "best" the
+    internal_point : (3,) floats, "carried", "held" or "best"
+        Shift of s from its neutral position (0, 0, zs), base frame. "carried", the default, is the shift of p: r1 r2 r3
+        follow the platform, and q1 q2 q3 its rotation. "held" is no shift: r1 r2 r3 never move. With "best" the
         optimizer chooses the position.
     unit : {"length", "zp"}
         Of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger design
@@ -42,13 +44,13 @@ class Pose:
     >>> import math
     >>> from ninedof.design.pose import Pose
     >>> Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), unit="zp").internal_point
-    'stay'
+    'carried'
 
     """
 
     position: Vector = ZERO
     rotation: Vector = ZERO
-    internal_point: Vector | str = "stay"
+    internal_point: Vector | str = DEFAULT_INTERNAL_POINT
     unit: str = "length"
 
     def __post_init__(self) -> None:
@@ -57,16 +59,18 @@ class Pose:
         if isinstance(point, str):
             chosen: Vector | str = choice("internal_point", point, INTERNAL_POINTS)
         elif point is None:
-            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'stay' or 'best'")
+            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'carried', 'held' or 'best'")
         else:
             chosen = vector("internal_point", point)
         object.__setattr__(self, "position", vector("position", self.position))
         object.__setattr__(self, "rotation", vector("rotation", self.rotation))
-        object.__setattr__(self, "internal_point", "stay" if chosen == ZERO else chosen)
+        object.__setattr__(self, "internal_point", _named(chosen, self.position))
         object.__setattr__(self, "unit", choice("unit", self.unit, UNITS))
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any], internal_point: Any = "stay", unit: Any = "length") -> Pose:
+    def from_dict(
+        cls, data: Mapping[str, Any], internal_point: Any = DEFAULT_INTERNAL_POINT, unit: Any = "length"
+    ) -> Pose:
         """Make a pose from a table [[objective.poses]]; the last two arguments are the defaults of its entries."""
         known_keys("pose", data, POSE_KEYS)
         return cls(
@@ -83,7 +87,7 @@ class Pose:
             out["position"] = list(self.position)
         if self.rotation != ZERO:
             out |= rotation_entry("rotation", self.rotation)
-        if self.internal_point != "stay":
+        if self.internal_point != DEFAULT_INTERNAL_POINT:
             point = self.internal_point
             out["internal_point"] = point if isinstance(point, str) else list(point)
         if self.unit != "length":
@@ -92,5 +96,12 @@ class Pose:
 
     def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool]:
         """Return position, rotation vector, shift of s, whether the optimizer chooses s, whether shifts are in zp."""
-        shift = ZERO if isinstance(self.internal_point, str) else self.internal_point
+        point = self.internal_point
+        shift = point if not isinstance(point, str) else self.position if point == "carried" else ZERO
         return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp"
+
+
+def _named(point: Vector | str, position: Vector) -> Vector | str:
+    """Return the word for a shift of s that has one, so that the same pose is equal to itself."""
+    shift = ZERO if point == "held" else point
+    return "carried" if shift == position else "held" if shift == ZERO else point

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.pose import ZERO, Pose
+from ninedof.design.pose import DEFAULT_INTERNAL_POINT, ZERO, Pose
 from ninedof.support.angles import vector_argument
 from ninedof.support.arguments import Vector, finite, items, vector, whole
 
@@ -22,7 +22,7 @@ def box(
     points: int = 3,
     tilt: Any = None,
     tilt_deg: Any = None,
-    internal_point: Any = "stay",
+    internal_point: Any = DEFAULT_INTERNAL_POINT,
     unit: str = "length",
 ) -> tuple[Pose, ...]:
     """Return a grid of poses over a box about the neutral pose, and tilts at its centre.
@@ -59,7 +59,7 @@ def ball(
     points: int = 33,
     tilt: Any = None,
     tilt_deg: Any = None,
-    internal_point: Any = "stay",
+    internal_point: Any = DEFAULT_INTERNAL_POINT,
     unit: str = "length",
 ) -> tuple[Pose, ...]:
     """Return low-discrepancy poses in a ball about the neutral pose, and tilts at its centre.
@@ -100,7 +100,7 @@ def path(
     rotations: Any = None,
     rotations_deg: Any = None,
     points: int = 17,
-    internal_point: Any = "stay",
+    internal_point: Any = DEFAULT_INTERNAL_POINT,
     unit: str = "length",
 ) -> tuple[Pose, ...]:
     """Return poses along a path, straight between its corners.

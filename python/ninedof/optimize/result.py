@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from ninedof.design.internal_points import idle_words, rule_words
 from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.prices import price_words
 from ninedof.optimize.region_report import RegionReport
+from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import Sheet, sheet
@@ -19,6 +23,8 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
+
+MOST_PLACED = 200  # poses at which O is placed for the summary, a few milliseconds each
 
 
 class Status(StrEnum):
@@ -146,6 +152,26 @@ class Result:
         candidates = [c.to_dict() for c in plain.pop("candidates")]
         return plain | {"confidence": self.confidence, "candidates": candidates}
 
+    @cached_property
+    def internal_points(self) -> str:
+        """Where O is at the poses of the study, and which legs never move because of it; "" with fewer than two."""
+        best = self.best
+        if best is None or len(self.solved.objective.poses) < 2:
+            return ""
+        region = self.study.objective.region
+        where = rule_words(self.study.objective.poses, region and region.internal_point)
+        idle = idle_words(leg_lengths(best.geometry, best.configurations))
+        if not idle:
+            return where
+        said = f'{where}; {idle} never move, with internal_point = "best" they would'
+        poses = best.configurations[1:]
+        if self.study.objective.index != "condition_number" or len(poses) > MOST_PLACED:
+            return said
+        placed = best_internal_point(
+            best.geometry, poses.position, poses.rotation, characteristic_length=best.characteristic_length
+        )
+        return f"{said}: this design would have {placed.value.max():.6f} at worst, limits aside"
+
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
         return sheet(self, poses, **options)
@@ -166,6 +192,8 @@ class Result:
         lines.append(f"limits reached: {', '.join(best.active) or 'nothing'}")
         if self.region is not None:
             lines.append(self.region.words)
+        if self.internal_points:
+            lines.append(self.internal_points)
         lines.extend(price_words(self.study, best.variables, best.prices))
         found = f"{best.reached} of {self.starts_done} starts ended here ({100.0 * self.confidence:.0f} %)"
         if len(self.candidates) > 1:

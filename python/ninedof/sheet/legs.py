@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.design.indices import LEGS
+from ninedof.design.internal_points import IDLE, idle_legs
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.kinematics.velocity import inverse_velocity
 from ninedof.robot.configuration import Configuration
@@ -17,7 +18,6 @@ from ninedof.statics.statics import leg_forces
 from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats
 
-IDLE = 1e-9  # of the longest length: a leg whose stroke is shorter does not move
 INTERNAL = ("least", "rest", "carried")
 
 
@@ -90,7 +90,7 @@ def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats) -> tu
     low, high = lengths.min(axis=0), lengths.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0
         ratio = high / low
-    idle = (high - low <= IDLE * high) & (len(c) > 1)
+    idle = idle_legs(lengths)
     speed = leg_speeds(g, c, motion).max(axis=0)
     base, platform = cone_angles(g, c)
     forces = [leg_forces(g, c, load[:3], load[3:]).forces for load in loads]

@@ -26,7 +26,7 @@ def machine(tmp_path_factory):
     study = nd.Study(
         variables={"a1": 0.0, "a2": 500.0, "b1": 250.0, "b2": 0.0, "zp": 400.0, "zs": (100.0, 300.0)},
         constraints={"leg_ratio": (None, 3.0), "platform_cone": {"max_deg": 55}},
-        objective={"poses": nd.poses.box(half=(40.0, 40.0, 40.0))},
+        objective={"poses": nd.poses.box(half=(40.0, 40.0, 40.0), internal_point="held")},
         characteristic_length=150.0,
     )
     write_run(nd.optimize(study, starts=2), folder)

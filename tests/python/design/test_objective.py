@@ -238,8 +238,8 @@ BAD = {
     "weight": ("weight", [-0.1, 1.1, NAN, True, "0.5", None]),
     "condition_limit": ("condition_limit", [0.9, NAN, -INF, True, "10", (1.0, 2.0)]),
     "neutral": ("neutral_condition_limit", [0.9, NAN, True, "10"]),
-    "poses": ("poses", [None, 3, "stay", nd.Pose(), {"position": [0, 0, 0]}, iter([nd.Pose()])]),
-    "entries": (r"poses\[0\]", [[3], [None], ["stay"], [(0.1, 0, 0)], [{"positon": (0, 0, 0)}]]),
+    "poses": ("poses", [None, 3, "held", nd.Pose(), {"position": [0, 0, 0]}, iter([nd.Pose()])]),
+    "entries": (r"poses\[0\]", [[3], [None], ["held"], [(0.1, 0, 0)], [{"positon": (0, 0, 0)}]]),
 }
 
 

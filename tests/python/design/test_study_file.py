@@ -124,7 +124,7 @@ def test_poses_of_a_file(write):
         [objective.ball]
         radius = 0.2
         points = 4
-        internal_point = "stay"
+        internal_point = "held"
         [objective.path]
         positions = [[0, 0, 0], [0, 0, 1]]
         points = 3
@@ -136,7 +136,7 @@ def test_poses_of_a_file(write):
             nd.Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), **free),
             nd.Pose(internal_point=(0, 0, 0.5)),
             *poses.box((0.1, 0, 0), tilt_deg=(5, 0, 0), **free),
-            *poses.ball(0.2, points=4, unit="zp"),
+            *poses.ball(0.2, points=4, unit="zp", internal_point="held"),
             *poses.path([[0, 0, 0], [0, 0, 1]], points=3, **free),
         ),
     )

@@ -20,7 +20,7 @@ def study(family="symmetric", constraints=None, poses=POSES, **objective):
         family=family,
         constraints=LEGS if constraints is None else constraints,
         characteristic_length="platform_radius",
-        objective={"poses": poses, "unit": "zp"} | objective,
+        objective={"poses": poses, "unit": "zp", "internal_point": "held"} | objective,
     )
 
 

@@ -34,14 +34,14 @@ SMALLER = {  # for a quick run: what is put in the place of what, in the script 
     "17_best_map.py": {"121)": "61)", "14641 poses": "3721 poses", "best 4.0790": "best 4.0827"},
 }
 FEW_STARTS = {  # find the same optimum
-    "08_machine.toml": ["--starts", "2", "--seed", "2"],
+    "08_machine.toml": ["--starts", "3"],
     "09_near_isotropic.toml": ["--starts", "4"],
     "10_robust.toml": ["--starts", "2"],
 }
-AT_MOST = {  # of the objective: values of searches that share nothing with ours, or of the theory notes
+AT_MOST = {  # of the objective: of searches that share nothing with ours, of the theory notes, of 64 starts (08)
     "01_paper.toml": 3.762660,
     "06_twist.toml": 3.749828,
-    "08_machine.toml": 3.4082,
+    "08_machine.toml": 3.404722,
     "09_near_isotropic.toml": 1.402043,
     "10_robust.toml": 1.5819,
 }

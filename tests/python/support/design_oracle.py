@@ -75,12 +75,14 @@ def listed_poses(objective):
     """The poses of the objective: (shift of p, rotation vector, shift of s or "best", in fractions of zp)."""
     out = []
     for pose in objective.get("poses", []):
-        s = pose.get("internal_point", objective.get("internal_point", "stay"))
+        s = pose.get("internal_point", objective.get("internal_point", "carried"))
+        position = np.array(pose.get("position", [0.0] * 3), dtype=float)
+        words = {"held": np.zeros(3), "carried": position, "best": "best"}
         out.append(
             (
-                np.array(pose.get("position", [0.0] * 3), dtype=float),
+                position,
                 np.array(pose.get("rotation", np.radians(pose.get("rotation_deg", [0.0] * 3))), dtype=float),
-                np.zeros(3) if s == "stay" else s if s == "best" else np.array(s, dtype=float),
+                words[s] if isinstance(s, str) else np.array(s, dtype=float),
                 pose.get("unit", objective.get("unit", "length")) == "zp",
             )
         )

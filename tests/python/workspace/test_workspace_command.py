@@ -198,7 +198,7 @@ def test_a_run_brings_its_limits_and_its_rule_for_the_internal_point(tmp_path, c
 def test_every_limit_of_a_run_is_replaced_by_its_option(tmp_path, capsys, a_run):
     folder, home = a_run
     quick = ["--method", "grid", "--resolution", "4", "--json", "--no-figures"]
-    own = "--legs 0.5 8 --lower 0 7 --base-cone-deg 70 --clearance 0.01 --any-singularity --internal-point stay".split()
+    own = "--legs 0.5 8 --lower 0 7 --base-cone-deg 70 --clearance 0.01 --any-singularity --internal-point held".split()
     run([str(folder), *quick, *own, "--base-cone-axis", "0", "1", "1", "--out", str(tmp_path / "a")], capsys)
     asked = json.loads((tmp_path / "a" / "record.json").read_text())["question"]
     assert asked["internal_point"] == home.internal_point.tolist()

@@ -98,7 +98,7 @@ def workspace(
     internal_point: Annotated[
         str | None,
         typer.Option(
-            help="Position of O: best, stay (as at home), or a fraction between the plates; by default the design's."
+            help="Position of O: best, held (as at home), or a fraction between the plates; by default the design's."
         ),
     ] = None,
     lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
