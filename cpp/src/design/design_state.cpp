@@ -32,11 +32,12 @@ void DesignState::set(const DesignFamily& family, const Coordinates& c, const St
   slopes_ = c.slopes(x);
   const std::size_t own = family.variables().size();
   family.blueprint({x.data(), own}, blueprint);
-  jet_.resize(blueprint_rows, c.size());
+  columns_ = c.size();
   if (column_.size() != own) {
     column_.resize(own);
     for (std::size_t v = 0; v < own; ++v) column_[v] = c.coordinate(static_cast<int>(v));
   }
+  jet_.resize(blueprint_rows, 1 + *std::ranges::max_element(column_));
   jet_.setZero();
   for (std::size_t v = 0; v < own; ++v)
     if (column_[v] >= 0)
@@ -102,7 +103,7 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
     characteristic_length = study_length.value;
     return;
   }
-  length_gradient.setZero(jet_.cols());
+  length_gradient.setZero(columns_);
   if (study_length.choice == Choice::free || study_length.kind == LengthKind::optimal) {
     if (coordinate >= 0) length_gradient[coordinate] = slopes_[coordinate];
     return;
@@ -150,23 +151,24 @@ void DesignState::set_natural_length(const PoseState& home) {
   for (std::size_t k = 0; k < point_count; ++k)
     turning.point[k] = 0.5 * characteristic_length * (turning.point[k] / rotation - shifting.point[k] / translation);
   turning.length = 0.0;
-  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(jet_.cols());
+  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(columns_);
   add(0, turning, gradient);
   length_gradient = gradient;
 }
 
 void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
-  for (int axis = 0; axis < 3; ++axis) out += g[axis] * jet_.row(3 * joint + axis);
+  for (int axis = 0; axis < 3; ++axis) add_jet(g[axis], 3 * joint + axis, out);
 }
 
 void DesignState::add_turn(int k, const Vec3& g, Row out) const {
-  out += g.dot(pose(k).twist_axis) * jet_.row(row_theta_z);
+  add_jet(g.dot(pose(k).twist_axis), row_theta_z, out);
 }
 
 void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   const PoseState& v = pose(k);
   if (point == point_s) {
-    out += g.z() * jet_.row(row_zs) + g.dot(v.s_by_zp) * jet_.row(row_zp);
+    add_zs(g.z(), out);
+    add_zp(g.dot(v.s_by_zp), out);
     for (int axis = 0; axis < 3; ++axis)
       if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
     return;

@@ -62,7 +62,7 @@ class DesignState {
 
   /// The evaluated poses: those of the objective, or the neutral one where there are none.
   int first_pose = 0, pose_count = 1;
-  Eigen::Index columns() const { return jet_.cols(); }
+  Eigen::Index columns() const { return columns_; }
   const PoseState& pose(int k) const { return poses[at_index(k)]; }
 
   /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
@@ -74,8 +74,8 @@ class DesignState {
 
   // Chain rule: each adds to the row `out` of a number the effect of its derivative `g` with respect to ...
   void add_joint(int joint, const Vec3& g, Row out) const;  ///< a joint in its body's frame
-  void add_zp(double g, Row out) const { out += g * jet_.row(row_zp); }
-  void add_zs(double g, Row out) const { out += g * jet_.row(row_zs); }
+  void add_zp(double g, Row out) const { add_jet(g, row_zp, out); }
+  void add_zs(double g, Row out) const { add_jet(g, row_zs, out); }
   void add_point(int pose, int point, const Vec3& g, Row out) const;  ///< a point in the base frame
   void add_turn(int pose, const Vec3& g, Row out) const;              ///< a rotation of the platform, base axes
   void add_leg(int pose, int leg, double g, Row out) const;           ///< a leg length
@@ -85,13 +85,15 @@ class DesignState {
   void add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const;
 
  private:
+  void add_jet(double g, int row, Row out) const { out.head(jet_.cols()) += g * jet_.row(row); }
   void set_length(const StudyLength& length, int coordinate);
   void set_natural_length(const PoseState& home);
   double trial_length() const { return std::max(blueprint.zp, 1e-150); }
   void set_pose(const PoseSpec& spec, PoseState& out) const;
   void set_extremes();
 
-  Rows jet_;  ///< Blueprint::gradient by free coordinate
+  Rows jet_;  ///< Blueprint::gradient by free coordinate, up to the last that the family depends on
+  Eigen::Index columns_ = 0;  ///< the free coordinates; those of internal points, of which there may be many, are last
   Eigen::VectorXd slopes_;
   std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
 };
