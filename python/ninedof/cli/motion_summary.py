@@ -11,6 +11,7 @@ from rich.table import Table
 
 from ninedof.cli.screen import Screen
 from ninedof.motion import Followed
+from ninedof.support.units import amount, heading, per
 
 SHOWN = 12  # breaks of limits
 
@@ -25,8 +26,10 @@ def legs_table(found: Followed) -> Table:
     columns |= {"low": "low", "high": "high", "margin": "margin"} if limited else {}
     columns |= {"speed": "speed", "acceleration": "accel."}
     columns |= {"push": "push", "pull": "pull"} if found.leg_forces is not None else {}
-    for words in columns.values():
-        table.add_column(words, justify="right")
+    units = dict.fromkeys(("shortest", "longest", "low", "high", "margin"), found.unit)
+    units |= {"speed": per(found.unit, "s"), "acceleration": per(found.unit, "s²")}
+    for key, words in columns.items():
+        table.add_column(heading(words, units.get(key, "")), justify="right")
     largest = {key: max(abs(leg[key]) for leg in legs.values()) for key in columns}
     if found.leg_forces is not None:
         largest["push"] = largest["pull"] = max(largest["push"], largest["pull"])
@@ -52,13 +55,15 @@ def sentences(found: Followed, unexamined: Sequence[str]) -> Iterator[str]:
     yield f"nearest singularity: {near['determinant']} = {near['value']:.4f} at t = {near['at']:.6g}"
     turning = float(np.linalg.norm(found.velocity[:, :3], axis=1).max())
     moving = float(np.linalg.norm(found.velocity[:, 3:6], axis=1).max())
-    yield f"platform: speed at most {moving:.5g}, turning at most {math.degrees(turning):.5g} degrees per unit of time"
+    speed, time = amount(f"{moving:.5g}", per(found.unit, "s")), "second" if found.unit else "unit of time"
+    yield f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     for broken in found.breaks[:SHOWN]:
         if broken.limit.startswith("det"):
             yield f"[bold]singularity[/bold]: {broken.limit} changes sign at t = {broken.begin:.6g}"
         else:
             when = f"from t = {broken.begin:.6g} to {broken.end:.6g}"
-            yield f"[bold]limit breaks[/bold]: {broken.limit}, {when}, at worst {broken.worst:.5g} at {broken.at:.6g}"
+            worst = amount(f"{broken.worst:.5g}", found.unit)
+            yield f"[bold]limit breaks[/bold]: {broken.limit}, {when}, at worst {worst} at {broken.at:.6g}"
     if len(found.breaks) > SHOWN:
         yield f"and {len(found.breaks) - SHOWN} more breaks of limits: see record.json"
     if unexamined:
@@ -75,5 +80,5 @@ def draw(found: Followed, screen: Screen, directory: Path) -> list[Path]:
     screen.say("drawing the motion")
     from ninedof import plot
 
-    figure = plot.motion(found.time, found.leg_lengths, found.condition_number, found.limits)
+    figure = plot.motion(found.time, found.leg_lengths, found.condition_number, found.limits, found.unit)
     return plot.save(figure, directory, "motion")

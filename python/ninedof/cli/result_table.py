@@ -7,6 +7,7 @@ from rich.table import Table
 from ninedof.design.study import LENGTH
 from ninedof.optimize.prices import price_words
 from ninedof.optimize.result import Candidate, Result
+from ninedof.support.units import with_unit
 
 SHOWN = 4  # candidates, side by side
 MOST_FIXED = 8  # variables; of more, only the free ones are listed
@@ -30,9 +31,11 @@ def result_table(result: Result) -> Table:
     if len(study.variables) - len(listed) <= MOST_FIXED:
         listed = list(study.variables)
     for name in listed:
-        table.add_row(name + " (rad)" * (name in study.angles), *(short(c.variables[name]) for c in shown))
+        values = (short(study.shown(name, c.variables[name])) for c in shown)
+        table.add_row(with_unit(name, study.unit_of(name)), *values)
     if study.characteristic_length != 1.0:
-        table.add_row(LENGTH.replace("_", " "), *(short(c.characteristic_length) for c in shown))
+        length = with_unit(LENGTH.replace("_", " "), study.unit)
+        table.add_row(length, *(short(c.characteristic_length) for c in shown))
     table.add_section()
     table.add_row("limits reached", *(", ".join(c.active) or "nothing" for c in shown))
     table.add_row("starts that ended here", *(str(c.reached) for c in shown))
@@ -58,7 +61,7 @@ def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> 
     """Add the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
     objective = result.study.objective
     plain = objective.index == "condition_number" and not objective.poses and objective.region is None
-    table.add_row(objective.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
+    table.add_row(result.study.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
     if plain:
         return
     several = len(result.solved.objective.poses) > 1

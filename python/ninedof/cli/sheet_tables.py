@@ -11,6 +11,7 @@ from rich.table import Table
 from ninedof.cli.result_table import short
 from ninedof.sheet.limit_rows import LimitRow
 from ninedof.sheet.sheet import Extreme, Sheet
+from ninedof.support.units import amount, heading, per, times, with_unit
 
 MECHANISMS = {
     "det_b": "O in the plane of the lower internal joints",
@@ -43,7 +44,7 @@ def poses_table(found: Sheet) -> Table:
     for k in (0, 3, 6):
         legs = found.legs[k : k + 3]
         ranges = "  ".join(f"{short(leg.shortest)} to {short(leg.longest)}" for leg in legs)
-        table.add_row(f"legs {' '.join(leg.name for leg in legs)}", ranges)
+        table.add_row(with_unit(f"legs {' '.join(leg.name for leg in legs)}", found.unit), ranges)
     table.add_row("largest stroke ratio", short(max(leg.stroke_ratio for leg in found.legs)))
     if found.idle:
         table.add_row("never move", ", ".join(found.idle))
@@ -60,7 +61,7 @@ def _table(title: str, *columns: str) -> Table:
 def _joints(found: Sheet) -> Table:
     table = _table(
         "Joints: in the frame of base or platform, and in base axes at the neutral pose",
-        *("joint", "x", "y", "z", "neutral x", "y", "z"),
+        *("joint", *(heading(name, found.unit) for name in ("x", "y", "z", "neutral x", "y", "z"))),
     )
     for k, (name, own, placed) in enumerate(found.joints()):
         numbers = (short(round(float(x), 9)) for x in (*own, *placed))
@@ -71,19 +72,21 @@ def _joints(found: Sheet) -> Table:
 def _legs(found: Sheet) -> Table:
     several = len(found.configurations) > 1
     title = f"Legs over {len(found.configurations)} poses" if several else "Legs at the neutral pose"
-    columns = ("shortest", "longest", "neutral", "stroke", "ratio", "speed", "base cone", "platform cone")
+    lengths = (heading(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke"))
+    columns = (*lengths, "ratio", heading("speed", per(found.unit, "s")), "base cone", "platform cone")
     table = _table(title, "leg", *columns)
     for k, leg in enumerate(found.legs):
-        lengths = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
+        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
         cones = ("-" if a is None else f"{math.degrees(a):.2f}°" for a in (leg.base_cone, leg.platform_cone))
-        table.add_row(leg.name, *(short(x) for x in lengths), *cones, end_section=k % 3 == 2)
+        table.add_row(leg.name, *(short(x) for x in numbers), *cones, end_section=k % 3 == 2)
     return table
 
 
 def _words(found: Sheet) -> Iterator[str]:
     linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
     yield (
-        f"Speed: the largest in any direction for a platform speed of {linear:g}, turning {angular:g}° per time unit, "
+        f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
+        f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, "
         f"{INTERNAL[found.motion.internal]}. Cones: from the direction at the neutral pose."
     )
     if found.idle:
@@ -98,7 +101,7 @@ def _forces(found: Sheet) -> Table:
     for k, leg in enumerate(found.legs):
         table.add_row(leg.name, *(f"{low:.4g} to {high:.4g}" for low, high in leg.forces), end_section=k % 3 == 2)
     table.caption = "; ".join(
-        f"load {k}: moment {_vector(load[:3])}, force {_vector(load[3:])}"
+        f"load {k}: moment {amount(_vector(load[:3]), times('force', found.unit))}, force {_vector(load[3:])}"
         for k, load in zip(count, found.loads, strict=True)
     )
     return table
@@ -114,7 +117,12 @@ def _worst(found: Sheet) -> Table:
 
     add("condition number", f"{found.condition_number.value:.6f}", found.condition_number.pose)
     table.add_row("mean condition number", f"{found.mean_condition_number:.6f}", "", "", end_section=True)
-    add("leg clearance", short(found.clearance.value), found.clearance.pose, " and ".join(found.clearance.legs))
+    add(
+        "leg clearance",
+        amount(short(found.clearance.value), found.unit),
+        found.clearance.pose,
+        " and ".join(found.clearance.legs),
+    )
     for name in sorted(found.determinants, key=lambda n: found.determinants[n].value):
         one = found.determinants[name]
         words = MECHANISMS[name] + ", CROSSED between poses" * one.changes_sign
@@ -122,12 +130,14 @@ def _worst(found: Sheet) -> Table:
     table.add_section()
     if found.accuracy is not None:
         a = found.accuracy
-        add("position error", f"{a.position.value:.4g}", a.position.pose)
+        add("position error", amount(f"{a.position.value:.4g}", found.unit), a.position.pose)
         add("rotation error", f"{math.degrees(a.rotation.value):.4g}°", a.rotation.pose)
-        add("error of O", f"{a.internal_point.value:.4g}", a.internal_point.pose, end=True)
+        add("error of O", amount(f"{a.internal_point.value:.4g}", found.unit), a.internal_point.pose, end=True)
     if found.stiffness is not None:
-        for label, least in zip(("stiffness", "turning stiffness, per rad"), found.stiffness, strict=True):
-            add(f"least {label}", f"{Extreme(*least).value:.4g}", least.pose)
+        units = (per("force", found.unit), times("force", found.unit))
+        labels = ("stiffness", "turning stiffness, per rad")
+        for label, unit, least in zip(labels, units, found.stiffness, strict=True):
+            add(f"least {label}", amount(f"{Extreme(*least).value:.4g}", unit), least.pose)
     table.caption = "\n".join(f"pose {k}: {_pose(found, k)}" for k in sorted(used) if k)
     table.caption_justify = "left"
     return table
@@ -138,12 +148,15 @@ def limits_table(found: Sheet) -> Table:
     table = _table("Limits of the study, at its poses", "limit", "", "allowed", "here", "margin")
     for row in found.limits:
         margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
-        table.add_row(row.name, row.side, _in_unit(row, row.limit), _in_unit(row, row.value), margin)
+        allowed, here = (_in_unit(row, value, found.unit) for value in (row.limit, row.value))
+        table.add_row(row.name, row.side, allowed, here, margin)
     return table
 
 
-def _in_unit(row: LimitRow, value: float) -> str:
-    return f"{math.degrees(value):.2f}°" if row.unit == "angle" else short(value)
+def _in_unit(row: LimitRow, value: float, unit: str) -> str:
+    if row.unit == "angle":
+        return f"{math.degrees(value):.2f}°"
+    return amount(short(value), unit if row.unit == "length" else "")
 
 
 def _pose(found: Sheet, k: int) -> str:
@@ -152,7 +165,8 @@ def _pose(found: Sheet, k: int) -> str:
     turn = c.rotation @ found.configurations.rotation[0].T
     skew = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     angle = math.degrees(math.atan2(float(np.linalg.norm(skew)), 0.5 * (float(np.trace(turn)) - 1.0)))
-    return f"p = {_vector(c.position)}, O = {_vector(c.internal_point)}, turned {angle:.2f}° from neutral"
+    p, o = (amount(_vector(point), found.unit) for point in (c.position, c.internal_point))
+    return f"p = {p}, O = {o}, turned {angle:.2f}° from neutral"
 
 
 def _vector(values: np.ndarray) -> str:

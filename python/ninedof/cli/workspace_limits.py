@@ -12,6 +12,7 @@ from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
 from ninedof.workspace.study_criteria import EASE, LEGS, leg_ranges, own_fraction, study_criteria
 
 CONES = ("base_cone", "platform_cone")
@@ -62,41 +63,44 @@ def rule_asked(text: str | None, geometry: Geometry, home: Configuration) -> str
     return tuple(home.internal_point.tolist()) if text == "held" or own is None else own
 
 
-def asked_lines(asked: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str]) -> Iterator[str]:
+def asked_lines(
+    asked: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
+) -> Iterator[str]:
     """Yield what is asked, a line for each part."""
-    yield f"home: p = {_point(home.position)}, O = {_point(home.internal_point)}"
-    yield f"O: {_rule_words(asked['internal_point'])}"
+    p, o = (amount(_point(point), unit) for point in (home.position, home.internal_point))
+    yield f"home: p = {p}, O = {o}"
+    yield f"O: {_rule_words(asked['internal_point'], unit)}"
     for name, value in asked["criteria"].items():
         whose = ", of the study" if name in own else ""
-        for words in _criterion_words(name, value):
+        for words in _criterion_words(name, value, unit):
             yield f"limit: {words}{whose}"
     if left:
         yield f"of the study, no limit of a single pose: {', '.join(left)}"
     if "box" in asked:
         low, high = asked["box"]
-        yield f"box: p from {_point(low)} to {_point(high)}"
+        yield f"box: p from {_point(low)} to {amount(_point(high), unit)}"
     if "position" in asked:
-        yield f"position: p = {_point(asked['position'])}"
+        yield f"position: p = {amount(_point(asked['position']), unit)}"
     if "region" in asked:
         yield "region: " + ", ".join(f"{name} to {math.degrees(a):.6g} degrees" for name, a in asked["region"].items())
 
 
-def _rule_words(rule: Any) -> str:
+def _rule_words(rule: Any, unit: str) -> str:
     if isinstance(rule, str):
         return "where the condition number is least, at each pose"
     if isinstance(rule, float):
         return f"at {rule:.4g} of the way from the lower to the upper internal joints"
-    return f"stays at {_point(rule)}"
+    return f"stays at {amount(_point(rule), unit)}"
 
 
-def _criterion_words(name: str, value: Any) -> Iterator[str]:
+def _criterion_words(name: str, value: Any, unit: str) -> Iterator[str]:
     if name == "leg_limits":
         low, high = (np.broadcast_to(end, 9) for end in value)
         kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
         for kind, legs in kinds.items():
             least, most = float(low[legs][0]), float(high[legs][0])
             if least > 0.0 or math.isfinite(most):
-                yield f"{kind} legs {least:.6g} to {most:.6g}"
+                yield amount(f"{kind} legs {least:.6g} to {most:.6g}", unit)
     elif name in CONES:
         angle, axis = (value["max"], value["axis"]) if isinstance(value, Mapping) else (value, None)
         about = "each leg's direction at home" if axis is None else f"the axis {_point(axis)}"
@@ -104,7 +108,8 @@ def _criterion_words(name: str, value: Any) -> Iterator[str]:
     elif name == "singularity_free":
         yield "connected with home, on its side of every singularity"
     else:
-        yield f"{name.replace('_', ' ')} {'at least' if name == 'leg_clearance' else 'at most'} {value:.6g}"
+        side, of = ("at least", unit) if name == "leg_clearance" else ("at most", "")
+        yield amount(f"{name.replace('_', ' ')} {side} {value:.6g}", of)
 
 
 def _axis(cone: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from rich.table import Table
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import INDICES, Index
 from ninedof.support.arrays import Floats
+from ninedof.support.units import with_unit
 from ninedof.workspace import IndexStatistics, WorkspaceMap
 
 SHOWN = 8  # limits in the table
@@ -22,7 +24,14 @@ def workspace_table(found: WorkspaceMap) -> Table:
     table = Table(title="Workspace", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
     table.add_column(justify="right")
-    table.add_row("volume", f"{found.volume:.6g}")
+    angles = found.of_angles
+    cubed = "rad³, of 8 π² in all" if angles else found.unit + "³" * bool(found.unit)
+    turn, unit = (math.degrees, "deg") if angles else (float, found.unit)
+
+    def numbers(label: str, values: Floats) -> None:
+        table.add_row(with_unit(label, unit), "  ".join(f"{turn(value):.4g}" for value in values))
+
+    table.add_row(with_unit("volume", cubed), f"{found.volume:.6g}")
     table.add_row("  error, estimated", f"{found.error:.2g}")
     table.add_row(
         f"  share of the {'region' if found.archetype == 'orientation' else 'box'}", f"{100.0 * found.share:.3g} %"
@@ -32,10 +41,10 @@ def workspace_table(found: WorkspaceMap) -> Table:
     if len(found.pieces) > 1:
         table.add_row("  pieces", str(len(found.pieces)))
     if found.ball_radius > 0.0:
-        table.add_row("largest ball: radius", f"{found.ball_radius:.4g}")
-        table.add_row("  centre", _numbers(found.ball_centre))
-        table.add_row("largest box: sides", _numbers(found.box_high - found.box_low))
-        table.add_row("  centre", _numbers(0.5 * (found.box_low + found.box_high)))
+        numbers("largest ball: radius", np.array([found.ball_radius]))
+        numbers("  centre", found.ball_centre)
+        numbers("largest box: sides", found.box_high - found.box_low)
+        numbers("  centre", 0.5 * (found.box_low + found.box_high))
     table.add_section()
     table.add_row("global conditioning index", f"{found.conditioning_index:.5f}")
     table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
@@ -45,7 +54,10 @@ def workspace_table(found: WorkspaceMap) -> Table:
         known = INDICES[name]
         for label, *values in _rows(known, over):
             table.add_row(
-                f"{label}: mean, least, greatest{' modulus' if known.signed else ''}",
+                with_unit(
+                    f"{label}: mean, least, greatest{' modulus' if known.signed else ''}",
+                    found.unit if known.unit == "length" else "",
+                ),
                 "  ".join(f"{value:.5g}" for value in values),
             )
     table.add_section()
@@ -53,10 +65,6 @@ def workspace_table(found: WorkspaceMap) -> Table:
         words = "ends of the torsion" if name == "box" and found.archetype == "orientation" else name.replace("_", " ")
         table.add_row(f"boundary by {words}", f"{100.0 * share:.1f} %")
     return table
-
-
-def _numbers(values: Floats) -> str:
-    return "  ".join(f"{value:.4g}" for value in values)
 
 
 def _rows(index: Index, over: IndexStatistics) -> Iterator[tuple[Any, ...]]:
@@ -96,5 +104,6 @@ def draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
         inner = (found.box_low[drawn], found.box_high[drawn]) if np.isfinite(found.box_low).all() else None
         plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
         sections.append(plot.Section(plane, ball, inner))
-    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels)
+    unit = "rad" if found.of_angles else found.unit
+    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)
     return plot.save(figure, directory, "workspace")

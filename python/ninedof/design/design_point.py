@@ -23,7 +23,7 @@ class DesignPoint:
     """One design of a study, with exact gradients."""
 
     variables: dict[str, float]
-    """Those of the family, then "characteristic_length" and the offsets of O, where they are free."""
+    """Those of the family, then "characteristic_length" and offsets of O, where they are free; angles in radians."""
     objective: float
     """The value of the study's objective; infinite where J' is singular."""
     condition_number: float

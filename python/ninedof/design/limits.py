@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ninedof import _core
-from ninedof.support.angles import exact_degrees
+from ninedof.support.angles import degrees_of, exact_degrees
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
 
 Limit = tuple[float | None, float | None] | Mapping[str, Any]
@@ -83,6 +83,14 @@ def place(limit: Limit) -> str:
 def label(name: str, at: str) -> str:
     """Return what margins, prices and messages call a limit, as in the core: "base_cone", "base_cone at neutral"."""
     return name if at == AT[0] else f"{name} at {at}"
+
+
+def shown_unit(name: str, limit: Limit, unit: str = "") -> str:
+    """Return the unit in which a limit is shown: "deg" for an angle, that of lengths for a length, "" for a ratio."""
+    if ROWS[name].is_angle:
+        return "deg"
+    plain = ROWS[name].kind == "length" and parts(limit)[2].get("of", ROWS[name].units[0]) == "length"
+    return unit if plain else ""
 
 
 def split_label(text: str) -> tuple[str, str]:
@@ -224,8 +232,11 @@ def _require_sensible(row: Row, name: str, low: float | None, high: float | None
     """Raise for limits that no design can meet or that have no effect."""
     least, most = 0.0 if low is None else low, math.inf if high is None else high
     if not (0.0 <= least <= most and least < math.inf and most > 0.0):
-        raise ValueError(f"{name}: got ({low}, {high}), expected 0 <= low <= high, high above 0")
+        ends = [None if end is None else degrees_of(end) if row.is_angle else end for end in (low, high)]
+        got = f"({ends[0]}, {ends[1]}){' degrees' * row.is_angle}"
+        raise ValueError(f"{name}: got {got}, expected 0 <= low <= high, high above 0")
     if high is not None and row.is_angle and not high <= math.pi:
-        raise ValueError(f"{name}: got {high:g} radians, expected at most pi (degrees are given as max_deg)")
+        got = f"{high:g} radians, {degrees_of(high):g} degrees"
+        raise ValueError(f"{name}: got {got}, expected at most pi, 180 degrees (degrees are given as max_deg)")
     if row.kind == "sign" and not 0.0 < least < 1.0:
         raise ValueError(f"{name}: got min = {least:g}, expected a number between 0 and 1")

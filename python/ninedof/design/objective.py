@@ -101,10 +101,14 @@ class Objective:
     @property
     def words(self) -> str:
         """The objective in words."""
+        return self.worded()
+
+    def worded(self, unit: str = "") -> str:
+        """Return the objective in words, with the name of the length unit where a length stands."""
         index = objectives()[self.index].words
         if self.region is not None:
             listed = f" and {len(self.poses)} poses" if self.poses else ""
-            return f"worst {index} over {self.region.words}{listed}"
+            return f"worst {index} over {self.region.worded(unit)}{listed}"
         if not self.poses:
             return index
         over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"

@@ -8,9 +8,9 @@ from typing import Any
 
 from ninedof.support.angles import rotation_entry, vector_argument
 from ninedof.support.arguments import Vector, choice, known_keys, shown, vector
+from ninedof.support.units import scale_argument
 
 ZERO: Vector = (0.0, 0.0, 0.0)
-UNITS = ("length", "zp")
 INTERNAL_POINTS = ("carried", "held", "best")
 DEFAULT_INTERNAL_POINT = "carried"
 POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit")
@@ -31,8 +31,8 @@ class Pose:
         follow the platform, and q1 q2 q3 its rotation. "held" is no shift: r1 r2 r3 never move. With "best" the
         optimizer chooses the position.
     unit : {"length", "zp"}
-        Of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger design
-        moves farther.
+        Scale of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger
+        design moves farther. The name of the length unit is the `unit` of the study.
 
     Raises
     ------
@@ -65,7 +65,7 @@ class Pose:
         object.__setattr__(self, "position", vector("position", self.position))
         object.__setattr__(self, "rotation", vector("rotation", self.rotation))
         object.__setattr__(self, "internal_point", _named(chosen, self.position))
-        object.__setattr__(self, "unit", choice("unit", self.unit, UNITS))
+        object.__setattr__(self, "unit", scale_argument(self.unit))
 
     @classmethod
     def from_dict(

@@ -9,10 +9,10 @@ from typing import Any
 
 from ninedof.support.angles import exact_degrees
 from ninedof.support.arguments import Vector, choice, finite, items, known_keys, number, pair, vector
+from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
 INTERNAL_POINTS = ("carried", "held")
-UNITS = ("length", "zp")
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Region:
         "carried", the default: s - p stays as at the neutral pose, in base axes; without turns q1, q2, q3 do not move.
         "held": s stays, and r1, r2, r3 never move.
     unit : {"length", "zp"}
-        Of positions: the length unit of the study (default), or the height zp of the design.
+        Scale of positions: the length unit of the study (default), or the height zp of the design. The name of the
+        length unit is the `unit` of the study.
 
     Raises
     ------
@@ -76,7 +77,7 @@ class Region:
             "tilt": finite("tilt", self.tilt, 0.0, math.pi),
             "yaw": finite("yaw", self.yaw, 0.0, math.pi),
             "internal_point": choice("internal_point", self.internal_point, INTERNAL_POINTS),
-            "unit": choice("unit", self.unit, UNITS),
+            "unit": scale_argument(self.unit),
         }.items():
             object.__setattr__(self, name, value)
 
@@ -112,14 +113,19 @@ class Region:
     @property
     def words(self) -> str:
         """The region in words."""
-        unit = " zp" if self.unit == "zp" else ""
+        return self.worded()
+
+    def worded(self, unit: str = "") -> str:
+        """Return the region in words, with the name of the length unit."""
+        unit = "zp" if self.unit == "zp" else unit
         where = "the neutral position"
         if self.box is not None:
-            where = f"a box of half edges {', '.join(f'{x:g}' for x in self.box)}{unit}"
+            where = f"a box of half edges {amount(', '.join(f'{x:g}' for x in self.box), unit)}"
         elif self.ball is not None:
-            where = f"a ball of radius {self.ball:g}{unit}"
+            where = f"a ball of radius {amount(f'{self.ball:g}', unit)}"
         elif self.cylinder is not None:
-            where = f"a cylinder of radius {self.cylinder[0]:g} and half height {self.cylinder[1]:g}{unit}"
+            radius, half = (amount(f"{x:g}", unit) for x in self.cylinder)
+            where = f"a cylinder of radius {radius} and half height {half}"
         elif self.path is not None:
             where = f"a path of {len(self.path)} corners"
         turns = [("tilts", self.tilt), ("yaws", self.yaw)]

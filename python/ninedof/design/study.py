@@ -17,7 +17,9 @@ from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.objective import Objective
 from ninedof.design.study_file import read_toml, study_arguments, study_tables, write_toml
 from ninedof.robot.configuration import Configuration
+from ninedof.support.angles import DEG, degrees_of, in_radians
 from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
+from ninedof.support.units import unit_argument
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
@@ -40,7 +42,8 @@ class Study:
         Name to (low, high) for a free variable (either may be infinite) or to a number for a fixed one. Those left out
         take the family's defaults, in characteristic lengths if that is a number and in units of length otherwise; a
         hexagonal design has sides in [0, 60], heights in [0.05, 80] and theta_z = 0. Lengths in any one
-        unit, angles in radians.
+        unit, angles in radians, or in degrees with _deg behind the name: {"theta_z_deg": (-60, 60)}. The attribute
+        has radians.
     constraints : mapping
         Name to (low, high), None for an open side, or to a mapping of min, max (max_deg for an angle) and options:
         {"leg_ratio": (None, 3.0), "base_cone": {"max_deg": 45, "axis": [0, 0, 1]}}. 0 < zs < zp (eq. 9b) always holds.
@@ -64,6 +67,9 @@ class Study:
     starts, seed : int
         Number of low-discrepancy starts and the shift of their sequence. `optimize` goes on to at most four times as
         many while few of them agree.
+    unit : str, optional
+        Name of the length unit, "mm", "cm", "m", "in" or "ft", shown wherever a length stands. A label: nothing is
+        converted. None by default. The `unit` of poses and regions is something else, the scale of their shifts.
 
     Raises
     ------
@@ -86,6 +92,8 @@ class Study:
     starts: int = 64
     seed: int = 0
     objective: Objective = field(default_factory=Objective)
+    unit: str = ""
+    """Name of the length unit; "" without one."""
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
 
@@ -96,13 +104,13 @@ class Study:
         family = choice("family", self.family, _core.design_family_names())
         known = _core.family_variables(family)
         length = _length(self.characteristic_length)
-        known_keys("variables", self.variables, [name for name, *_ in known])
+        given = self._known("variables", self.variables, [name for name, *_ in known])
         known_keys("constraints", self.constraints, limits.CONSTRAINTS)
         variables: dict[str, Bound] = {}
         for name, kind, low, high in known:
             unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
             default: Bound = low * unit if low == high else (low * unit, high * unit)
-            variables[name] = _bound(name, self.variables.get(name, default))
+            variables[name] = _bound(name, given.get(name, default))
         objective = self.objective
         for name, value in {
             "variables": MappingProxyType(variables),
@@ -111,7 +119,8 @@ class Study:
             "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
             "starts": whole("starts", self.starts, 1, 2**31 - 1),
             "seed": whole("seed", self.seed, 0),
-            "defaulted": tuple(n for n, b in variables.items() if n not in self.variables and isinstance(b, tuple)),
+            "unit": unit_argument(self.unit),
+            "defaulted": tuple(n for n, b in variables.items() if n not in given and isinstance(b, tuple)),
         }.items():
             object.__setattr__(self, name, value)
         self.problem()
@@ -158,8 +167,26 @@ class Study:
 
     @property
     def angles(self) -> tuple[str, ...]:
-        """Names of the variables that are angles, in radians."""
+        """Names of the variables that are angles, in radians; in files and on screens in degrees."""
         return tuple(name for name, kind, *_ in _core.family_variables(self.family) if kind == "angle")
+
+    def unit_of(self, variable: str) -> str:
+        """Return the unit in which a variable is shown: "deg" for an angle, else that of lengths."""
+        return "deg" if variable in self.angles else self.unit
+
+    def shown(self, variable: str, value: float) -> float:
+        """Return the value of a variable in the unit in which it is shown: angles in degrees."""
+        return degrees_of(value) if variable in self.angles else value
+
+    @property
+    def words(self) -> str:
+        """The objective in words, with the unit of lengths."""
+        return self.objective.worded(self.unit)
+
+    def _known(self, where: str, given: Any, names: list[str]) -> dict[str, Any]:
+        """Return named values with angles in radians; raise for unknown names."""
+        known_keys(where, given, [*names, *(name + DEG for name in self.angles)])
+        return in_radians(where, given, self.angles)
 
     def problem(self) -> _core.Problem:
         """Return the study as the core's problem, validated there."""
@@ -181,22 +208,23 @@ class Study:
     def vector(self, variables: Mapping[str, float]) -> list[float]:
         """Return named values in the order of the problem.
 
-        Fixed variables may be left out. So may a free characteristic length, which is then the one that is best at
-        the neutral pose, and free offsets of O, which are then zero.
+        Angles are in radians, or in degrees with _deg behind the name. Fixed variables may be left out. So may a free
+        characteristic length, which is then the one that is best at the neutral pose, and free offsets of O, which are
+        then zero.
         """
         problem = self.problem()
         names = list(problem.names)
-        known_keys("variables", variables, names)
+        given = self._known("variables", variables, names)
         out = []
         for name in names:
             bound = self.variables.get(name, 0.0)
-            if name in variables:
-                out.append(finite(name, variables[name]))
+            if name in given:
+                out.append(finite(name, given[name]))
             elif isinstance(bound, tuple):
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
             else:
                 out.append(bound)
-        if LENGTH in names and LENGTH not in variables:
+        if LENGTH in names and LENGTH not in given:
             out[names.index(LENGTH)] = 1.0  # any value: the robot does not depend on it
             out[names.index(LENGTH)] = self._best_length(problem, out)
         return out

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from ninedof import _core
 from ninedof.design import limits
 from ninedof.design.objective import Objective
-from ninedof.support.arguments import known_keys, table
+from ninedof.support.angles import angle_entry
+from ninedof.support.arguments import known_keys, shown, table
 from ninedof.support.files import write_whole
+from ninedof.support.units import AT_TOP, unit_entry
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -48,17 +51,26 @@ def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(data, Mapping) and "geometry" in data:
         raise ValueError("study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`")
     names = ["design", "variables", "constraints", "objective", "solver"]
-    known_keys("study", data, names)
+    known_keys("study", data, ["unit", *names])
     tables = {name: table(name, data.get(name, {})) for name in names}
+    require_unit_at_top({name: given for name, given in tables.items() if name != "objective"})
     known_keys("design", tables["design"], ["family", "characteristic_length"])
     known_keys("solver", tables["solver"], ["starts", "seed"])
     return {
         "variables": tables["variables"],
         "constraints": {name: _limits(f"constraints.{name}", given) for name, given in tables["constraints"].items()},
         "objective": Objective.from_dict(tables["objective"]),
+        **({"unit": data["unit"]} if "unit" in data else {}),
         **tables["design"],
         **tables["solver"],
     }
+
+
+def require_unit_at_top(tables: Mapping[str, Mapping[str, Any]]) -> None:
+    """Raise where the length unit stands in a table: in TOML a key below [solver] is one of that table."""
+    for name, given in tables.items():
+        if "unit" in given:
+            raise ValueError(f"{name}.unit: got {shown(given['unit'])}, expected no unit here: {AT_TOP}")
 
 
 def _limits(name: str, given: Any) -> Mapping[str, Any] | list[Mapping[str, Any]]:
@@ -72,12 +84,23 @@ def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """Return the tables of a study file for the normalized arguments of a `Study`."""
     length = arguments["characteristic_length"]
     return {
+        **unit_entry(arguments["unit"]),
         "design": {
             "family": arguments["family"],
             "characteristic_length": list(length) if isinstance(length, tuple) else length,
         },
-        "variables": {name: list(b) if isinstance(b, tuple) else b for name, b in arguments["variables"].items()},
+        "variables": dict(_variable(arguments["family"], arguments["variables"])),
         "constraints": {name: limits.to_table(name, limit) for name, limit in arguments["constraints"].items()},
         "objective": arguments["objective"].to_dict(),
         "solver": {"starts": arguments["starts"], "seed": arguments["seed"]},
     }
+
+
+def _variable(family: str, variables: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the entries of [variables], angles in degrees where that is exact."""
+    angles = [name for name, kind, *_ in _core.family_variables(family) if kind == "angle"]
+    for name, bound in variables.items():
+        if name in angles:
+            yield angle_entry(name, bound)
+        else:
+            yield name, list(bound) if isinstance(bound, tuple) else bound

@@ -23,6 +23,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.statics import leg_forces
 from ninedof.support.arrays import Floats, as_number
+from ninedof.support.units import unit_argument
 
 SAME = 1e-9  # difference of a pose tracked back
 
@@ -36,6 +37,7 @@ def follow(
     characteristic_length: float | str = 1.0,
     force: ArrayLike | None = None,
     moment: ArrayLike | None = None,
+    unit: str | None = None,
 ) -> Followed:
     """Return lengths, rates and accelerations of the legs along a trajectory, and what limits it.
 
@@ -62,6 +64,9 @@ def follow(
         Length l_c of the condition number, or a kind of `characteristic_length`, taken at home.
     force, moment : array_like, shape (3,) or (n, 3), optional
         Load on the platform at its origin, base axes, for the leg forces.
+    unit : str, optional
+        Name of the length unit, for screens, figures and the head of legs.csv: "mm", "cm", "m", "in" or "ft". None by
+        default. With one, times are in seconds: rates are labelled mm/s.
 
     Returns
     -------
@@ -122,6 +127,7 @@ def follow(
         tracked=returned == len(trajectory),
         tracked_until=float(trajectory.time[returned - 1]),
         tracking_error=error,
+        unit=unit_argument(unit),
     )
 
 

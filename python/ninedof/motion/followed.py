@@ -13,6 +13,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
+from ninedof.support.units import unit_entry
 
 LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
 ROUNDING = 1e-9  # of a limit: a length that passes it by less keeps it
@@ -68,6 +69,8 @@ class Followed:
     """The time of the last pose before one that it loses or returns differently, as beyond a singularity."""
     tracking_error: float
     """Largest difference of a pose that `track` reached: of Q, and of p and O over the largest leg length."""
+    unit: str = ""
+    """Name of the length unit; "" without one."""
 
     @property
     def time(self) -> Floats:
@@ -124,6 +127,7 @@ class Followed:
                     "pull": float((-self.leg_forces[:, k]).max(initial=0.0)),
                 }
         return {
+            **unit_entry(self.unit),
             "poses": len(self.time),
             "begin": float(self.time[0]),
             "end": float(self.time[-1]),

@@ -1,11 +1,14 @@
-"""Shadow prices in words: what relaxing an active limit or bound gains."""
+"""Active limits and their shadow prices in words: what relaxing one gains."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 
-from ninedof.design.limits import each, label, place
+from ninedof.design.limits import Limit, each, label, parts, place, shown_unit, split_label
 from ninedof.design.study import LENGTH, Study
+from ninedof.support.angles import degrees_of
+from ninedof.support.units import amount
 
 LEAST_PRICE = 0.0005  # per cent of the objective for one per cent of the limit; smaller prices are left out
 
@@ -22,10 +25,35 @@ def price_words(study: Study, variables: Mapping[str, float], prices: Mapping[st
     """
     largest_first = sorted(prices.items(), key=lambda item: -item[1])
     return [
-        f"1 % {_direction(study, variables, name)} {name} buys {price:.3g} %"
+        f"1 % {_direction(study, variables, name)} {name}{_part(study, variables, name, 0.01)} buys {price:.3g} %"
         for name, price in largest_first
         if price >= LEAST_PRICE
     ]
+
+
+def reached_words(study: Study, variables: Mapping[str, float], active: Iterable[str]) -> str:
+    """Return the active limits and bounds of a candidate; where the study names its length unit, with their values."""
+    return ", ".join(name + _part(study, variables, name) for name in active) or "nothing"
+
+
+def _part(study: Study, variables: Mapping[str, float], name: str, share: float = 1.0) -> str:
+    """Return a share of a limit or bound in brackets, such as " (45 deg)"; nothing without a unit or a single value."""
+    if not study.unit:
+        return ""
+    if name in variables:
+        value, unit = variables[name], "deg" if name in study.angles else study.unit
+    else:
+        limit = _stated(study).get(name)
+        sides = [] if limit is None else [side for side in parts(limit)[:2] if side is not None]
+        if limit is None or len(sides) != 1:
+            return ""
+        value, unit = sides[0], shown_unit(split_label(name)[0], limit, study.unit)
+    value = degrees_of(value) if unit == "deg" else value
+    return f" ({amount(f'{share * value:.6g}', unit)})" if unit and value != 0.0 and math.isfinite(value) else ""
+
+
+def _stated(study: Study) -> dict[str, Limit]:
+    return {label(constraint, place(limit)): limit for constraint, limit in each(study.constraints)}
 
 
 def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
@@ -37,7 +65,7 @@ def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
         low, high = bound
         value = variables[name]
         return "less" if abs(value - low) < abs(high - value) else "more"
-    stated = {label(constraint, place(limit)): limit for constraint, limit in each(study.constraints)}
+    stated = _stated(study)
     if name not in stated:
         return "more"
     limit = stated[name]

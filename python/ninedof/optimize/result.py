@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from ninedof.design.internal_points import idle_words, rule_words
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.prices import price_words
+from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
@@ -55,7 +55,7 @@ class Candidate:
     """Condition number at each pose of the objective."""
     characteristic_length: float
     variables: dict[str, float]
-    """Those of the family, then "characteristic_length" and the offsets of O, where they are free."""
+    """Those of the family, then "characteristic_length" and offsets of O, where they are free; angles in radians."""
     geometry: Geometry = field(metadata=DERIVED)
     configuration: Configuration = field(metadata=DERIVED)
     """The neutral one."""
@@ -135,7 +135,7 @@ class Result:
     condition_number = _OfBest(lambda c: c.condition_number, "Condition number of the best candidate, neutral pose.")
     conditions = _OfBest(lambda c: c.conditions, "Its condition numbers at the poses of the objective.")
     characteristic_length = _OfBest(lambda c: c.characteristic_length, "Characteristic length of the best candidate.")
-    variables = _OfBest(lambda c: c.variables, "Variables of the best candidate by name.")
+    variables = _OfBest(lambda c: c.variables, "Variables of the best candidate by name, angles in radians.")
     geometry = _OfBest(lambda c: c.geometry, "Geometry of the best candidate.")
     configuration = _OfBest(lambda c: c.configuration, "Neutral configuration of the best candidate.")
     configurations = _OfBest(
@@ -183,13 +183,13 @@ class Result:
         if best is None:
             return lines[0]
         objective = self.study.objective
-        value = f"{objective.words} {best.objective:.6f}"
+        value = f"{self.study.words} {best.objective:.6f}"
         if objective.index != "condition_number" or objective.poses or objective.region is not None:
             value += f"; condition number {best.condition_number:.6f} at the neutral pose"
         if len(best.conditions) > 1:
             value += f", {min(best.conditions):.6f} to {max(best.conditions):.6f} over the poses"
         lines.append(value)
-        lines.append(f"limits reached: {', '.join(best.active) or 'nothing'}")
+        lines.append(f"limits reached: {reached_words(self.study, best.variables, best.active)}")
         if self.region is not None:
             lines.append(self.region.words)
         if self.internal_points:

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
+from ninedof.support.units import with_unit as with_unit
 
 # Okabe and Ito's palette, which is safe for colour-blind readers.
 EXTERNAL = "#0072B2"
@@ -89,11 +90,6 @@ def new_figure(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width, height), dpi=DPI)
     FigureCanvasAgg(figure)
     return figure
-
-
-def with_unit(name: str, unit: str) -> str:
-    """Return an axis label such as "zs (m)"; the name alone without a unit."""
-    return f"{name} ({unit})" if unit else name
 
 
 def power_of_ten(value: float, position: object = None) -> str:

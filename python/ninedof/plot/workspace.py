@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
 
 if TYPE_CHECKING:
     from ninedof.workspace import WorkspaceSlice
@@ -70,7 +71,7 @@ def workspace(
     levels : array_like, shape (n, 4)
         Cells, evaluations, volume and error after each level; none for a grid or a sample.
     unit : str
-        Of lengths, for the labels.
+        Of the coordinates, for the labels. Those in "rad" are drawn in degrees.
 
     Raises
     ------
@@ -134,7 +135,9 @@ def _kind(name: str) -> str:
 
 def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[float, float], unit: str) -> Any:
     """Draw a section: the condition number inside, the boundary in the colour of its limit."""
-    s = section.plane
+    s, turn = section.plane, (np.degrees if unit == "rad" else np.asarray)
+    unit = "deg" if unit == "rad" else unit
+    s = s._replace(horizontal=turn(s.horizontal), vertical=turn(s.vertical), plane=(s.plane[0], turn(s.plane[1])))
     half = [0.5 * (c[1] - c[0]) for c in (s.horizontal, s.vertical)]
     extent = (
         s.horizontal[0] - half[0],
@@ -155,13 +158,13 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     )
     line: dict[str, Any] = {"fill": False, "lw": 1.3, "ec": "white"}
     if section.ball is not None:
-        axes.add_patch(Circle(tuple(np.asarray(section.ball[0])), section.ball[1], **line))
+        axes.add_patch(Circle(tuple(turn(section.ball[0])), float(turn(section.ball[1])), **line))
     if section.box is not None:
-        low, high = (np.asarray(corner, dtype=np.float64) for corner in section.box)
+        low, high = (np.asarray(turn(corner), dtype=np.float64) for corner in section.box)
         axes.add_patch(Rectangle(tuple(low), *(high - low), **line, ls=(0, (4, 2))))
     axes.grid(visible=False)
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
-    axes.set_title(f"{s.plane[0]} = {s.plane[1]:.4g}")
+    axes.set_title(f"{s.plane[0]} = {amount(f'{s.plane[1]:.4g}', unit)}")
     found = np.argwhere(s.state > 0)
     if len(found):
         # The allowed part with a margin.

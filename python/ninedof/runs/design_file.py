@@ -14,11 +14,13 @@ from ninedof.conditioning.characteristic_length import KINDS, characteristic_len
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.indices import computed
 from ninedof.design.study import Study
-from ninedof.design.study_file import read_toml
+from ninedof.design.study_file import read_toml, require_unit_at_top
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.runs.folder import load_record
+from ninedof.support.angles import in_radians
 from ninedof.support.arguments import is_number, known_keys, number, table
+from ninedof.support.units import unit_argument
 
 
 class Design(NamedTuple):
@@ -27,6 +29,8 @@ class Design(NamedTuple):
     geometry: Geometry
     configuration: Configuration
     characteristic_length: float | str
+    unit: str = ""
+    """Name of the length unit; "" without one."""
 
 
 HEXAGON = ("a1", "a2", "b1", "b2")
@@ -41,10 +45,11 @@ def hexagonal_design(values: Mapping[str, float], length: float | str = 1.0) -> 
 def load_design(path: str | os.PathLike[str]) -> Design:
     """Read a design.
 
-    A TOML file has `characteristic_length` (a number or a kind, 1.0 by default) and two tables: [geometry] with a1 a2
-    b1 b2, or with four lists of three joints base_external, base_internal, platform_external, platform_internal;
-    [configuration] with zp, zs and theta_z (radians), or with position, internal_point and, optionally, rotation
-    (three rows). A run folder or its record.json gives the best design of that run.
+    A TOML file has `characteristic_length` (a number or a kind, 1.0 by default), `unit` (the name of the length unit,
+    none by default) and two tables: [geometry] with a1 a2 b1 b2, or with four lists of three joints base_external,
+    base_internal, platform_external, platform_internal; [configuration] with zp, zs and theta_z_deg (or theta_z in
+    radians), or with position, internal_point and, optionally, rotation (three rows). A run folder or its record.json
+    gives the best design of that run.
 
     Raises
     ------
@@ -78,7 +83,7 @@ def _from_record(file: Path) -> Design:
     if variables is None:
         raise ValueError("the record holds no design: the run found none")
     point = record.study.evaluate(variables)
-    return Design(point.geometry, point.configuration, point.characteristic_length)
+    return Design(point.geometry, point.configuration, point.characteristic_length, record.study.unit)
 
 
 def _from_tables(data: Mapping[str, Any]) -> Design:
@@ -86,10 +91,12 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
         raise ValueError(
             "design: got a study, expected a design with [geometry] and [configuration]; see `ninedof optimize`"
         )
-    known_keys("design", data, ("geometry", "configuration", "characteristic_length"))
+    known_keys("design", data, ("unit", "geometry", "configuration", "characteristic_length"))
     geometry, configuration = (table(name, _present(name, data, name)) for name in ("geometry", "configuration"))
+    require_unit_at_top({"geometry": geometry, "configuration": configuration})
     if "zp" in configuration or "zs" in configuration:
-        known_keys("configuration", configuration, ("zp", "zs", "theta_z"))
+        known_keys("configuration", configuration, ("zp", "zs", "theta_z", "theta_z_deg"))
+        configuration = in_radians("configuration", configuration, ["theta_z"])
         zp, zs = (_present(f"configuration.{name}", configuration, name) for name in ("zp", "zs"))
         c = Configuration.neutral(zp, zs, configuration.get("theta_z", 0.0))
         if c.shape:
@@ -110,7 +117,7 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
     length = data.get("characteristic_length", 1.0)
     if not isinstance(length, str) and not is_number(length):
         raise ValueError(f"characteristic_length: got {length!r}, expected a number or a kind")
-    return Design(g, c, length)
+    return Design(g, c, length, unit_argument(data.get("unit")))
 
 
 def _present(where: str, data: Mapping[str, Any], name: str) -> Any:
@@ -125,7 +132,7 @@ def indices(design: Design) -> dict[str, Any]:
     Where a kind of length has no value, at a singular configuration, indices that depend on it are left out, but for
     the condition number and the singular values.
     """
-    g, c, length = design
+    g, c, length = design.geometry, design.configuration, design.characteristic_length
     lc = characteristic_length(g, c, length) if isinstance(length, str) else float(length)
     known = math.isfinite(lc) or not isinstance(length, str)
     found = {

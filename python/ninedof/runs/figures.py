@@ -15,6 +15,7 @@ from ninedof.paper import published
 from ninedof.paper.comparison import Comparison
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.units import amount
 
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
@@ -52,8 +53,9 @@ def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **
     say("drawing the mechanisms")
     from ninedof import plot
 
-    panels = [plot.Mechanism(name, g, c, kappa, _heights(c)) for name, g, c, kappa, _ in designs]
-    unit = "l_c" if compared else ""  # the paper's unit; a study keeps its own
+    unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
+    note = "" if compared else unit
+    panels = [plot.Mechanism(name, g, c, kappa, _heights(c, note)) for name, g, c, kappa, _ in designs]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     say("drawing the condition number along zs and theta_z")
     curves = [_curves(*designs[0], **compared), *(_curves(*design) for design in designs[1:])]
@@ -69,8 +71,9 @@ def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **
     return files
 
 
-def _heights(c: Configuration) -> str:
-    return f"zp = {c.position[2]:.4f}, zs = {c.internal_point[2]:.4f}"
+def _heights(c: Configuration, unit: str) -> str:
+    zp, zs = (amount(f"{point[2]:.4f}", unit) for point in (c.position, c.internal_point))
+    return f"zp = {zp}, zs = {zs}"
 
 
 def _curves(

@@ -1,4 +1,7 @@
-"""The run folder of a motion along a trajectory: record, legs.csv in the order of controllers, poses.csv."""
+"""The run folder of a motion along a trajectory: record, legs.csv in the order of controllers, poses.csv.
+
+Where the motion names its length unit, the names of columns have it in brackets: "l1 (mm)", "l1_rate (mm/s)".
+"""
 
 from __future__ import annotations
 
@@ -15,8 +18,10 @@ from ninedof.motion.followed import LEGS
 from ninedof.runs.folder import Record, write_record
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
+from ninedof.support.units import per, with_unit
 
 LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"
+LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z", "leg_margin")  # columns of poses.csv
 RATE, ACCELERATION, FORCE = "_rate", "_acceleration", "_force"
 
 
@@ -53,14 +58,16 @@ def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:
     parts = {"": found.leg_lengths, RATE: found.leg_rates, ACCELERATION: found.leg_accelerations}
     if found.leg_forces is not None:
         parts[FORCE] = found.leg_forces
-    names = ["t", *(leg + what for what in parts for leg in LEGS)]
+    units = {"": found.unit, RATE: per(found.unit, "s"), ACCELERATION: per(found.unit, "s^2"), FORCE: ""}
+    names = ["t", *(with_unit(leg + what, units[what]) for what in parts for leg in LEGS)]
     return names, (found.time[:, None], *parts.values())
 
 
 def _poses(found: Followed) -> tuple[list[str], Iterable[Floats]]:
     c = found.configurations
-    names = ["t", *"xyz", *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), "o_x", "o_y", "o_z", "condition_number"]
-    names += [*found.singularity_margins._fields, "leg_margin"]
+    x, y, z, o_x, o_y, o_z, margin = (with_unit(name, found.unit) for name in LENGTHS)
+    names = ["t", x, y, z, *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), o_x, o_y, o_z, "condition_number"]
+    names += [*found.singularity_margins._fields, margin]
     last = (found.condition_number, *found.singularity_margins, found.leg_margins.min(axis=1))
     return names, (found.time[:, None], c.position, c.rotation.reshape(-1, 9), c.internal_point, np.stack(last, axis=1))
 

@@ -23,6 +23,7 @@ from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import error_bounds
 from ninedof.statics.statics import stiffness
 from ninedof.support.arrays import Floats
+from ninedof.support.units import per, unit_argument, with_unit
 
 
 class Extreme(NamedTuple):
@@ -99,6 +100,8 @@ class Sheet:
     """Each limit of the study beside the value at the study's own poses; empty where the input has no study.
 
     Of a region they are the poses that ruled. Nothing is looked at between them."""
+    unit: str = ""
+    """Name of the length unit; "" without one."""
 
     @property
     def idle(self) -> tuple[str, ...]:
@@ -126,7 +129,10 @@ class Sheet:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses"."""
+        """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses".
+
+        "unit" names the length unit where there is one.
+        """
         c = self.configurations
         out: dict[str, Any] = {
             "joints": {name: {"own_frame": own, "neutral_pose": placed} for name, own, placed in self.joints()},
@@ -135,7 +141,7 @@ class Sheet:
                 for p, q, s in zip(c.position, c.rotation, c.internal_point, strict=True)
             ],
         }
-        skipped = ("geometry", "configurations")
+        skipped = ("geometry", "configurations", *(["unit"] if not self.unit else []))
         out |= {f.name: _plain(getattr(self, f.name)) for f in fields(self) if f.name not in skipped}
         out["motion"] = {
             "linear_speed": self.motion.linear_speed,
@@ -151,11 +157,15 @@ class Sheet:
         return {**out, "idle": list(self.idle)}
 
     def to_csv(self) -> str:
-        """Return the table of the legs as CSV text: one row for each leg, empty where a leg has no such joint."""
+        """Return the table of the legs as CSV text: one row for each leg, empty where a leg has no such joint.
+
+        Names of columns are followed by the length unit in brackets, where there is one: "shortest (mm)".
+        """
         rows = [leg.flat() for leg in self.legs]
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-        writer.writeheader()
+        units = dict.fromkeys(("shortest", "longest", "neutral", "stroke"), self.unit) | {"speed": per(self.unit, "s")}
+        writer.writerow({name: with_unit(name, units.get(name, "")) for name in rows[0]})
         writer.writerows(rows)
         return text.getvalue()
 
@@ -172,6 +182,7 @@ def sheet(
     joint_errors: ArrayLike | None = None,
     leg_stiffness: ArrayLike | None = None,
     characteristic_length: float | str | None = None,
+    unit: str | None = None,
 ) -> Sheet:
     """Return the engineering sheet of a design over its poses.
 
@@ -202,6 +213,9 @@ def sheet(
     characteristic_length : float or str, optional
         For the condition numbers; a kind is taken at the neutral pose, and where it has no value there, at a singular
         one, they are infinite. That of the design by default, 1 for a Geometry.
+    unit : str, optional
+        Name of the length unit; that of the study or the design file by default. With one, times are in seconds: the
+        speed of a leg is labelled mm/s. The unit of forces is the caller's and has no name.
 
     Returns
     -------
@@ -249,6 +263,7 @@ def sheet(
         accuracy=_accuracy(g, c, leg_errors, joint_errors) if bounded else None,
         stiffness=None if leg_stiffness is None else _stiffness(g, c, leg_stiffness),
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
+        unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
     )
 
 

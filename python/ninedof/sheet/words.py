@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from ninedof.sheet.limit_rows import LimitRow
+from ninedof.support.units import amount, per, times
 
 HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "base cone", "platf. cone")
 WIDTH = 12
@@ -13,7 +14,11 @@ WIDTH = 12
 
 def sheet_words(found: Any) -> list[str]:
     """Return the lines of `Sheet.summary`; takes a Sheet."""
+    unit = found.unit
     lines = ["".join(f"{name:>{WIDTH}}" if k else f"{name:<4}" for k, name in enumerate(HEAD))]
+    if unit:
+        units = ("", *[f"({unit})"] * 4, "", f"({unit}/s)")
+        lines.append("".join(f"{name:>{WIDTH}}" if k else f"{name:<4}" for k, name in enumerate(units)))
     for leg in found.legs:
         numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
         cones = ("-" if a is None else f"{math.degrees(a):.2f} deg" for a in (leg.base_cone, leg.platform_cone))
@@ -25,7 +30,7 @@ def sheet_words(found: Any) -> list[str]:
     near = found.determinants[found.nearest_singularity]
     lines += [
         f"condition number {worst.value:.6f} at worst ({_pose(worst.pose)}), {mean:.6f} on average",
-        f"least clearance {clear.value:.6g}, {' and '.join(clear.legs)} ({_pose(clear.pose)})",
+        f"least clearance {amount(f'{clear.value:.6g}', unit)}, {' and '.join(clear.legs)} ({_pose(clear.pose)})",
         f"nearest singularity |{_det(found.nearest_singularity)}| = {near.value:.6f} ({_pose(near.pose)})",
     ]
     crossed = [_det(name) for name, one in found.determinants.items() if one.changes_sign]
@@ -34,12 +39,16 @@ def sheet_words(found: Any) -> list[str]:
     if found.accuracy is not None:
         a = found.accuracy
         turn = f"{math.degrees(a.rotation.value):.4g} deg"
-        lines.append(f"errors: position {a.position.value:.4g}, rotation {turn}, O {a.internal_point.value:.4g}")
+        shift, of_o = (amount(f"{x.value:.4g}", unit) for x in (a.position, a.internal_point))
+        lines.append(f"errors: position {shift}, rotation {turn}, O {of_o}")
     if found.stiffness is not None:
         s = found.stiffness
-        lines.append(f"least stiffness: {s.translation.value:.4g}, turning {s.rotation.value:.4g} per rad")
+        shifting = amount(f"{s.translation.value:.4g}", per("force", unit))
+        turning = amount(f"{s.rotation.value:.4g}", times("force", unit))
+        lines.append(f"least stiffness: {shifting}, turning {turning} per rad")
     return lines + [
-        f"{row.name} {row.side} {_in_unit(row, row.limit)}: {_in_unit(row, row.value)}, margin {_margin(row)}"
+        f"{row.name} {row.side} {_in_unit(row, row.limit, unit)}: {_in_unit(row, row.value, unit)}, "
+        f"margin {_margin(row)}"
         for row in found.limits
     ]
 
@@ -52,8 +61,10 @@ def _pose(k: int) -> str:
     return f"pose {k}" if k else "neutral pose"
 
 
-def _in_unit(row: LimitRow, value: float) -> str:
-    return f"{math.degrees(value):.2f} deg" if row.unit == "angle" else f"{value:.6g}"
+def _in_unit(row: LimitRow, value: float, unit: str) -> str:
+    if row.unit == "angle":
+        return f"{math.degrees(value):.2f} deg"
+    return amount(f"{value:.6g}", unit if row.unit == "length" else "")
 
 
 def _margin(row: LimitRow) -> str:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ninedof.support.arguments import Vector, vector
+from ninedof.support.arguments import Vector, is_number, number, pair, vector
 
 DIGITS = 9  # decimals of degrees: more than a person types
+DEG = "_deg"
 
 
 def exact_degrees(*radians: float) -> tuple[float, ...] | None:
@@ -34,3 +36,48 @@ def rotation_entry(name: str, radians: Vector) -> dict[str, list[float]]:
     """Return the entry of a file for three angles, in degrees if that is exact."""
     degrees = exact_degrees(*radians)
     return {name: list(radians)} if degrees is None else {f"{name}_deg": list(degrees)}
+
+
+def in_radians(where: str, given: Mapping[str, Any], angles: Iterable[str]) -> dict[str, Any]:
+    """Return a mapping with the entries `angle`_deg of numbers or pairs of numbers in radians, under their own names.
+
+    Raises
+    ------
+    ValueError
+        If an angle is given both ways; the message names both.
+
+    """
+    keys = {name + DEG: name for name in angles}
+    found: dict[str, Any] = {}
+    for key, value in given.items():
+        if key not in keys:
+            found[key] = value
+            continue
+        if keys[key] in given:
+            raise ValueError(f"{where}: got both {keys[key]} and {key}, expected one of the two")
+        found[keys[key]] = _radians(value, key)
+    return found
+
+
+def _radians(value: Any, name: str) -> Any:
+    if is_number(value):
+        return math.radians(number(name, value))
+    return tuple(math.radians(number(name, end)) for end in pair(name, value, "a number of degrees, or (low, high)"))
+
+
+def angle_entry(name: str, radians: float | tuple[float, float]) -> tuple[str, float | list[float]]:
+    """Return key and value of a file for an angle or its bounds: in degrees if that is exact.
+
+    0 and infinity are the same in both, and keep the plain name.
+    """
+    ends = radians if isinstance(radians, tuple) else (radians,)
+    degrees = exact_degrees(*ends)
+    if degrees is None or all(x == 0.0 or math.isinf(x) for x in ends):
+        return name, list(ends) if isinstance(radians, tuple) else radians
+    return name + DEG, list(degrees) if isinstance(radians, tuple) else degrees[0]
+
+
+def degrees_of(radians: float) -> float:
+    """Return an angle in degrees: the short number that was typed, where there is one."""
+    exact = exact_degrees(radians)
+    return math.degrees(radians) if exact is None else exact[0]

@@ -94,6 +94,8 @@ class WorkspaceMap(Saved):
     at other poses a miss makes the workspace too small. No poses if O follows a rule or every pose is searched."""
     indices: dict[str, IndexStatistics] = field(default_factory=dict)
     """Of the indices asked for, by name."""
+    unit: str = ""
+    """Name of the length unit; "" without one."""
 
     limit_names = LIMITS
 
@@ -101,6 +103,11 @@ class WorkspaceMap(Saved):
     def interrupted(self) -> bool:
         """Whether Ctrl-C ended the search."""
         return self.status == WorkspaceStatus.STOPPED
+
+    @property
+    def of_angles(self) -> bool:
+        """Whether the coordinates are angles: in radians here, in degrees on screens and in figures."""
+        return self.archetype == "orientation"
 
     @property
     def share(self) -> float:
@@ -163,7 +170,7 @@ class WorkspaceMap(Saved):
         out: dict[str, Any] = {}
         for one in fields(self):
             value = getattr(self, one.name)
-            if one.name in ("cells", "limit_area"):
+            if one.name in ("cells", "limit_area") or (one.name == "unit" and not self.unit):
                 continue
             if one.name == "levels":
                 names = ("cells", "evaluations", "volume", "error")

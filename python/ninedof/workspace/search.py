@@ -18,6 +18,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown, whole
 from ninedof.support.arrays import as_number, thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.units import unit_argument
 from ninedof.workspace.cells import LIMITS, WorkspaceCells
 from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
@@ -55,6 +56,7 @@ def workspace(
     threads: int | None = None,
     progress: Progress | None = None,
     index: What | None = None,
+    unit: str | None = None,
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
@@ -128,6 +130,8 @@ def workspace(
     index : str, callable, or sequence of them, optional
         Indices to take over the workspace (docs/sweeps.md), in `WorkspaceMap.indices`. Callables as in `sweep`. Not for
         sets of orientations, nor with the best O. Ctrl-C during this returns the map without them, as "stopped".
+    unit : str, optional
+        Name of the length unit, for screens and figures: "mm", "cm", "m", "in" or "ft". None by default.
 
     Returns
     -------
@@ -160,6 +164,7 @@ def workspace(
     require_geometry(geometry)
     progress_argument(progress)
     choice("method", method, METHODS)
+    named = unit_argument(unit)
     domain = domain_of(archetype, box, position, rotation, region, orientations)
     rule = rule_of(internal_point)
     indices = () if index is None else indices_of(index)
@@ -186,6 +191,7 @@ def workspace(
     begin = perf_counter()
     found = _core.workspace(geometry, domain, *rule, limits, settings, home_of(home), progress)
     made = _map(found, domain["chart"], archetype, method, settings["resolution"], perf_counter() - begin)
+    made = replace(made, unit=named)
     if not indices or made.interrupted:
         return made
     try:

@@ -232,7 +232,7 @@ def test_the_figure_has_the_given_sections_and_limits(found):
         "m",
     )
     titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert titles[:2] == ["y = 0", "z = 4.8"]
+    assert titles[:2] == ["y = 0 m", "z = 4.8 m"]
     assert figure.axes[0].get_xlabel() == "x (m)"
     words = [text.get_text() for text in figure.legends[0].get_texts()]
     assert set(words) == {"external legs", "upper internal legs", "condition number"}

@@ -17,6 +17,7 @@ from ninedof.cli.sheet_tables import limits_table, poses_table
 from ninedof.design.indices import computed
 from ninedof.runs.design_file import indices
 from ninedof.sheet.sheet import sheet
+from ninedof.support.units import amount, unit_entry, with_unit
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -51,22 +52,24 @@ def evaluate(
     screen = Screen(json)
     sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
     given = with_length(chosen_design(design, sides, theta_z_deg), lc)
-    values = indices(given)
+    values = unit_entry(given.unit) | indices(given)
     table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
     table.add_column(justify="right")
     for name, index in computed().items():
         if name in values and name not in ("singular_values", "leg_lengths"):
             table.add_row(index.words, "  ".join(f"{value:.6f}" for value in np.atleast_1d(values[name])))
-    table.add_row("characteristic length", f"{values['characteristic_length']:.6f}", end_section=True)
+    length = with_unit("characteristic length", given.unit)
+    table.add_row(length, f"{values['characteristic_length']:.6f}", end_section=True)
     for k, value in enumerate(values["singular_values"]):
         table.add_row(f"singular value {k + 1} of J'", f"{value:.6f}", end_section=k == 5)
     for kind, lengths in values["leg_lengths"].items():
-        table.add_row(f"legs {kind}1 {kind}2 {kind}3", "  ".join(f"{v:.6f}" for v in lengths))
+        table.add_row(with_unit(f"legs {kind}1 {kind}2 {kind}3", given.unit), "  ".join(f"{v:.6f}" for v in lengths))
     table.add_section()
     for kind, found in values["characteristic_lengths"].items():
         if math.isfinite(found["length"]):
-            table.add_row(f"at the {kind} length {found['length']:.6f}", f"k = {found['condition_number']:.6f}")
+            length = amount(f"{found['length']:.6f}", given.unit)
+            table.add_row(f"at the {kind} length {length}", f"k = {found['condition_number']:.6f}")
     screen.print(table)
     if values["singular"]:
         screen.print("This configuration is singular: the platform or O can move with all legs locked.")

@@ -20,6 +20,7 @@ from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import figures_of
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
+from ninedof.support.units import amount, unit_entry
 from ninedof.verify.verdict import check as examine
 
 PLACE = 1
@@ -60,7 +61,7 @@ def optimize(
     stems = sorted({path.stem for path in directory.glob("*.png")})
     drawn = f", figures {', '.join(stems)} (PNG and SVG)" if stems else ""
     screen.print(f"run folder {directory}: {record.name}{drawn}")
-    screen.data({**data, "record": str(record)})
+    screen.data({**unit_entry(chosen.unit), **data, "record": str(record)})
     raise typer.Exit(exit_status(result))
 
 
@@ -76,8 +77,9 @@ def _solve_paper(study: Study, threads: int | None, screen: Screen) -> Compariso
 
 def _solve_study(study: Study, name: str, threads: int | None, screen: Screen) -> Result:
     for variable in study.defaulted:
-        low, high = study.variables[variable]  # type: ignore[misc]  # a free one
-        screen.print(f"{variable} is not given: [{low:g}, {high:g}] assumed")
+        low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
+        ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
+        screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
         result = solve(study, threads=threads, progress=bar.show)
     screen.print(f"[bold]{result.status}[/bold]: {result.reason}")

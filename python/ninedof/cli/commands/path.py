@@ -23,6 +23,7 @@ from ninedof.runs.design_file import hexagonal_design, load_design
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import load_record
 from ninedof.runs.motion_folder import LEGS_FILE, POSES_FILE, write_motion
+from ninedof.support.units import unit_entry
 
 Three = tuple[float, float, float]
 PLACE = 7
@@ -80,14 +81,14 @@ def path(
         design, file = None, design
     given = hexagonal_design(published_variables()) if design is None else load_design(design)
     given = with_length(given, lc)
-    g, home, length = given
+    g, home, length = given.geometry, given.configuration, given.characteristic_length
     shape = {"circle": circle, "line": line, "spiral": spiral}
     trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
     study = _study(design)
     limits: Any = legs if legs is not None or study is None else leg_limits_of(study, float(home.position[2]))
     asked = {"internal_point": _rule(internal_point), "limits": limits, "force": force, "moment": moment}
     with run_directory(out) as directory:
-        found = follow(g, trajectory, home, **asked, characteristic_length=length)
+        found = follow(g, trajectory, home, **asked, characteristic_length=length, unit=given.unit)
     screen.print(legs_table(found))
     for sentence in sentences(found, other_limits_of(study) if study else ()):
         screen.print(sentence)
@@ -95,6 +96,7 @@ def path(
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),
+        **unit_entry(given.unit),
         **asked,
         **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }

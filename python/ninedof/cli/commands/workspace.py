@@ -162,11 +162,12 @@ def workspace(
         "points": points,
         "seed": seed,
         "index": index or None,
+        "unit": given.unit or None,
     }
     asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
-    for line in asked_lines(asked, home, own, left):
+    for line in asked_lines(asked, home, own, left, given.unit):
         screen.print(line)
     screen.print(workspace_table(found))
     for sentence in sentences(found):
