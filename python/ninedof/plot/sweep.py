@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from ninedof.plot import style
+from ninedof.support.angles import plain_name
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
@@ -22,6 +24,7 @@ MOST_CURVES = 9
 RANGE = 30.0  # times the least: larger values are cut off
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
+TURNS = (-50.0, -25.0, 0.0, 25.0, 50.0)  # degrees: ticks of Fig. 6, which goes to one radian
 
 
 def sweep(result: SweepResult, name: str = "") -> Figure:
@@ -60,14 +63,15 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
         if labels is not None:
             values, name = values[..., 0], f"{name}, {labels[0]}"
         picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
-        titles = [f"{swept[0]} = {result.coords[swept[0]][k]:.4g}" for k in picks]
+        first, unit = _values(result, swept[0])
+        titles = [f"{plain_name(swept[0])} = {amount(f'{first[k]:.4g}', unit)}" for k in picks]
         return _maps(result, name, swept[1:], values[picks], titles)
 
 
 def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any) -> Figure:
     figure = style.new_figure(7.0, 4.2)
     axes = figure.add_axes((0.1, 0.13, 0.87, 0.79))
-    x = result.coords[dim]
+    x, _ = _values(result, dim)
     for k, row in enumerate(rows[:MOST_CURVES]):
         colour = style.SERIES[k % len(style.SERIES)]
         label = None if labels is None else str(labels[k])
@@ -100,7 +104,7 @@ def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats,
     slices = slices[:, :: coarser[0], :: coarser[1]]
     norm = _norm(slices.ravel(), name)
     colours = style.CONDITION if name.startswith("condition_number") else MAP
-    x, y = (result.coords[d][::step] for d, step in zip(dims, coarser, strict=True))
+    x, y = (_values(result, d)[0][::step] for d, step in zip(dims, coarser, strict=True))
     drawn = None
     for axes, title, part in zip(grid.flat, titles, slices, strict=False):
         drawn = axes.pcolormesh(
@@ -149,19 +153,24 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
 
     """
     names, x, rows = (result[key] for key in ("coordinate", "displacement", "condition_number"))
-    groups = ((0, f"platform moved ({unit})"), (3, "platform turned (rad)"), (6, f"O moved ({unit})"))
+    ends = [x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]]
+    groups = (
+        (0, x, ends, f"platform moved ({unit})"),
+        (3, np.degrees(x), TURNS, "platform turned (deg)"),
+        (6, x, ends, f"O moved ({unit})"),
+    )
     with style.settings():
         figure = style.new_figure(9.0, 3.9)
         panels = figure.subplots(1, 3, sharey=True)
         top = min(float(rows[np.isfinite(rows)].max()), 2.4 * float(rows.min()))
-        for axes, (first, title) in zip(panels, groups, strict=True):
+        for axes, (first, x, ticks, title) in zip(panels, groups, strict=True):
             for k, dashes in zip(range(first, first + 3), ("-", (0, (5, 2)), (0, (1.2, 1.2))), strict=True):
                 colour = style.SERIES[k - first]
                 axes.plot(x, style.without_infinite(rows[k]), color=colour, ls=dashes, lw=2.0, label=names[k])
             axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
             if words := _cut_off(names[first : first + 3].tolist(), rows[first : first + 3], top):
                 axes.text(0.5, 0.975, words, transform=axes.transAxes, ha="center", va="top", size=style.SMALL_SIZE)
-            axes.set_xticks([x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]])
+            axes.set_xticks(ticks)
             axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
         panels[0].set_ylabel("condition number")
         figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.12)
@@ -203,9 +212,16 @@ def _words(name: str) -> str:
 
 
 def _unit(result: SweepResult, name: str) -> str:
+    """Return the unit that is drawn: degrees in the place of radians."""
     unit = result.units.get(name, "1")
-    return "" if unit in ("1", "length") else unit
+    return "deg" if unit == "rad" else "" if unit in ("1", "length") else unit
+
+
+def _values(result: SweepResult, dim: str) -> tuple[Any, str]:
+    """Return the values along a dimension in the unit that is drawn, and that unit."""
+    values = result.coords[dim]
+    return np.degrees(values) if result.units.get(dim) == "rad" else values, _unit(result, dim)
 
 
 def _axis(result: SweepResult, dim: str) -> str:
-    return style.with_unit(dim, _unit(result, dim))
+    return style.with_unit(plain_name(dim), _unit(result, dim))

@@ -65,6 +65,11 @@ def _radians(value: Any, name: str) -> Any:
     return tuple(math.radians(number(name, end)) for end in pair(name, value, "a number of degrees, or (low, high)"))
 
 
+def plain_name(name: str) -> str:
+    """Return a name without the ending that says degrees."""
+    return name.removesuffix(DEG)
+
+
 def angle_entry(name: str, radians: float | tuple[float, float]) -> tuple[str, float | list[float]]:
     """Return key and value of a file for an angle or its bounds: in degrees if that is exact.
 

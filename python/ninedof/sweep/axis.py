@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice, finite, is_number, shown, whole
 from ninedof.support.arrays import Floats, as_floats
 
@@ -84,13 +85,23 @@ class Grid:
         numbers = np.unravel_index(np.arange(first, last), self.shape)
         return {axis.name: axis.at(k) for axis, k in zip(self.axes, numbers, strict=True)}
 
+    def in_radians(self, first: int, last: int) -> dict[str, Floats]:
+        """Return the same with angles in radians, under their plain names."""
+        at = self.at(first, last).items()
+        return {plain_name(n): np.radians(values) if n.endswith(DEG) else values for n, values in at}
 
-def axes_of(over: Any, known: Sequence[str]) -> Grid:
-    """Check the argument `over` and return its grid."""
+
+def axes_of(over: Any, known: Sequence[str], angles: Iterable[str] = ()) -> Grid:
+    """Check the argument `over` and return its grid; an angle may be swept in degrees, with _deg behind its name."""
     expected = f"a mapping of one to {MOST_AXES} names to values"
     if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
         raise ValueError(f"over: got {shown(over)}, expected {expected}")
-    grid = Grid(tuple(_axis(choice("over", name, known), values) for name, values in over.items()))
+    degrees = {angle + DEG for angle in angles}
+    names = [*known, *(name for name in over if name in degrees)]  # in messages the plain ones are enough
+    grid = Grid(tuple(_axis(choice("over", name, names), values) for name, values in over.items()))
+    for name in degrees & set(over):
+        if plain_name(name) in over:
+            raise ValueError(f"over: got both {plain_name(name)} and {name}, expected one of the two")
     if grid.points > MOST:
         raise ValueError(f"over: got {' x '.join(map(str, grid.shape))} points, expected at most {MOST}")
     return grid

@@ -30,7 +30,8 @@ class SweepResult(Saved):
     coords: Mapping[str, NDArray[Any]]
     """Name of a dimension to the values along it: numbers, or words."""
     units: Mapping[str, str] = field(default_factory=dict)
-    """Name of an index or a dimension to its unit: "rad", "length" for the caller's own, "1" for none."""
+    """Name of an index or a dimension to its unit: "rad", or "deg" for names that end in _deg; "mm" or another length
+    unit where the sweep names one, "length" where it does not; "1" for none."""
     attributes: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of the call and versions, as plain JSON values."""
 

@@ -14,9 +14,11 @@ from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.index_argument import What, indices_of
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
+from ninedof.support.angles import DEG, in_radians, plain_name
 from ninedof.support.arguments import choice, finite, known_keys
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress
+from ninedof.support.units import unit_argument
 from ninedof.sweep.axis import Values, axes_of
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
@@ -41,6 +43,7 @@ def sweep(
     chunk: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    unit: str | None = None,
 ) -> SweepResult:
     """Return an index over a grid of one, two or three of the nine configuration coordinates.
 
@@ -54,8 +57,9 @@ def sweep(
         A single one.
     over : mapping
         Name of a coordinate, x_p y_p z_p theta_x theta_y theta_z x_s y_s z_s, to its values: an array of shape (n,), or
-        a tuple (low, high, count) for evenly spaced ones. Lengths in one unit, angles in radians. The order of names is
-        the order of dimensions.
+        a tuple (low, high, count) for evenly spaced ones. Lengths in one unit, angles in radians, or in degrees with
+        _deg behind the name: the dimension is then "theta_z_deg" and its values are degrees. The order of names is the
+        order of dimensions.
     index : str, callable, or a sequence of them
         Names of the table in docs/sweeps.md, "condition_number" or "leg_lengths" among them. A callable takes the
         geometry, a stack of n configurations and the characteristic length and returns n numbers.
@@ -81,6 +85,8 @@ def sweep(
         Threads within a chunk; one per processor by default, and one with an executor.
     progress : callable, optional
         Called as progress(points done, points in all, None).
+    unit : str, optional
+        Name of the length unit, for labels: "mm", "cm", "m", "in" or "ft". None by default.
 
     Returns
     -------
@@ -105,7 +111,8 @@ def sweep(
 
     """
     single(geometry, home)
-    grid = axes_of(over, COORDINATES)
+    grid = axes_of(over, COORDINATES, ROTATION)
+    named = unit_argument(unit)
     rule = choice("internal_point", internal_point, RULES)
     length = length_argument(characteristic_length)
     swept = {axis.name for axis in grid.axes}
@@ -123,7 +130,7 @@ def sweep(
     workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
     work = GridWork(poses, grid, indices_of(index), points, workers)
     units = {name: "rad" if name in ROTATION else "length" for name in COORDINATES}
-    return work.result(units, executor=executor, out=out, progress=progress)
+    return work.result(units, named, executor=executor, out=out, progress=progress)
 
 
 def sweep_designs(
@@ -137,6 +144,7 @@ def sweep_designs(
     out: str | os.PathLike[str] | None = None,
     chunk: int | None = None,
     progress: Progress | None = None,
+    unit: str | None = None,
 ) -> SweepResult:
     """Return an index at the neutral pose over a grid of one, two or three variables of a design family.
 
@@ -144,6 +152,7 @@ def sweep_designs(
     ----------
     design : mapping
         Name to value of the variables that are not swept; those with a fixed default, as theta_z, may be left out.
+        Angles in radians, or in degrees with _deg behind the name.
     over : mapping
         Name of a variable to its values: an array of shape (n,), or a tuple (low, high, count) for evenly spaced ones.
     index : str, callable, or a sequence of them
@@ -153,7 +162,7 @@ def sweep_designs(
         As in `Study`: "hexagonal", "symmetric", "symmetric_nonplanar" or "general".
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each design.
-    executor, out, chunk, progress : optional
+    executor, out, chunk, progress, unit : optional
         As in `sweep`.
 
     Returns
@@ -175,10 +184,15 @@ def sweep_designs(
     [3.924, 3.909, 3.91, 3.929]
 
     """
-    known = [name for name, *_ in _core.family_variables(choice("family", family, _core.design_family_names()))]
-    grid = axes_of(over, known)
-    known_keys("design", design, known)
-    if both := [axis.name for axis in grid.axes if axis.name in design]:
+    variables = _core.family_variables(choice("family", family, _core.design_family_names()))
+    known = [name for name, *_ in variables]
+    angles = [name for name, kind, *_ in variables if kind == "angle"]
+    grid = axes_of(over, known, angles)
+    named = unit_argument(unit)
+    known_keys("design", design, [*known, *(name + DEG for name in angles)])
+    design = in_radians("design", design, angles)
+    swept = [plain_name(axis.name) for axis in grid.axes]
+    if both := [name for name in swept if name in design]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
     variants = Variants(
         family,
@@ -186,9 +200,11 @@ def sweep_designs(
         length_argument(characteristic_length),
     )
     study = variants.study()
-    study.vector({axis.name: float(axis.values()[0]) for axis in grid.axes})  # raises for missing variables
+    study.vector(
+        {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
+    )  # raises for missing variables
     units = {name: "rad" if name in study.angles else "length" for name in known}
     indices = indices_of(index)
-    fast = all(variants.has_closed_form(i, [axis.name for axis in grid.axes]) for i in indices)
+    fast = all(variants.has_closed_form(i, swept) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
-    return work.result(units, executor=executor, out=out, progress=progress)
+    return work.result(units, named, executor=executor, out=out, progress=progress)

@@ -11,7 +11,9 @@ import numpy as np
 from ninedof.chunks import Arrays, run
 from ninedof.design.index_argument import identity
 from ninedof.design.indices import Index
+from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats
+from ninedof.support.units import unit_entry
 from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
 from ninedof.sweep.result import SweepResult
@@ -41,7 +43,7 @@ class GridTask:
 
     def __call__(self) -> Arrays:
         """Compute them."""
-        at = self.grid.at(self.first, self.last)
+        at = self.grid.in_radians(self.first, self.last)
         return self.subject.values(at, self.last - self.first, self.indices, self.threads)
 
 
@@ -71,16 +73,21 @@ class GridWork:
     def _points(self) -> dict[str, Any]:
         return {**self.subject.question(), "over": [axis.question() for axis in self.grid.axes]}
 
-    def result(self, units: Mapping[str, str], **options: Any) -> SweepResult:
-        """Compute everything and return it with its labels; options as of `chunks.run`."""
+    def result(self, units: Mapping[str, str], unit: str = "", **options: Any) -> SweepResult:
+        """Compute everything and return it with its labels; options as of `chunks.run`.
+
+        `unit` is the name of the length unit, in the place of "length".
+        """
         sink = Sink(self.indices, self.grid.shape)
         run(self, sink.begin, **options)
         swept = tuple(axis.name for axis in self.grid.axes)
+        labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
+        labelled |= {i.name: i.unit for i in self.indices}
         labels = {i.dimension: np.array(i.components) for i in self.indices if i.dimension}
         return SweepResult(
             arrays=sink.arrays(),
             dims={i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices},
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
-            units={name: units[name] for name in swept} | {i.name: i.unit for i in self.indices},
-            attributes={**self._points(), "index": [i.name for i in self.indices], **versions()},
+            units={name: (unit or "length") if of == "length" else of for name, of in labelled.items()},
+            attributes={**unit_entry(unit), **self._points(), "index": [i.name for i in self.indices], **versions()},
         )

@@ -20,14 +20,16 @@ from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.indices import computed
 from ninedof.paper.published import published_variables
 from ninedof.runs.design_file import Design, hexagonal_design
+from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
 from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
-from ninedof.sweep.poses import COORDINATES
+from ninedof.sweep.poses import COORDINATES, ROTATION
 
 FIGURES = ("figure-6", "figure-7")
+ANGLES_DEG = tuple(name + DEG for name in ROTATION)
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -96,7 +98,7 @@ def sweep(
     else:
         grid, indices = _grid(what, over or [], points), index or ("condition_number",)
         title = f"over {', '.join(grid)}"
-        if all(name in COORDINATES for name in grid):
+        if all(plain_name(name) in COORDINATES for name in grid):
             design = with_length(_design(what, sides, theta_z_deg), lc)
             asked = partial(
                 sweep_poses,
@@ -107,6 +109,7 @@ def sweep(
                 relative=not absolute,
                 internal_point=internal_point or "held",
                 characteristic_length=design.characteristic_length,
+                unit=design.unit,
                 chunk=chunk,
                 threads=threads,
             )
@@ -120,7 +123,7 @@ def sweep(
     if result is None:
         raise typer.Exit(INTERRUPTED)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
-    screen.print(summary_table(summary, title))
+    screen.print(summary_table(summary, title, result.units))
     draw = (lambda: _figures(result, what)) if figures else None
     write(result, directory, "sweep", draw, screen, json_data(result, summary))
 
@@ -134,8 +137,8 @@ def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str
     _expect_none("with --over", {"points": points})
     grid = dict(parse_over(text) for text in over)
     for name in grid:
-        choice("--over", name, (*COORDINATES, *HEXAGONAL))
-    if set(grid) & set(HEXAGONAL) and set(grid) - {*HEXAGONAL, "theta_z"}:  # theta_z is both
+        choice("--over", name, (*COORDINATES, *ANGLES_DEG, *HEXAGONAL))
+    if set(grid) & set(HEXAGONAL) and set(grid) - {*HEXAGONAL, "theta_z", "theta_z_deg"}:  # theta_z is both
         got = ", ".join(grid)
         raise ValueError(f"--over: got {got}, expected coordinates of the configuration or variables of the design")
     if len(grid) < len(over):
@@ -153,19 +156,16 @@ def _expect_none(where: str, given: Mapping[str, Any]) -> None:
 
 
 def parse_over(text: str) -> tuple[str, Values]:
-    """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; an angle's name may end in _deg."""
+    """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; the name of an angle in degrees ends in _deg."""
     expected = "NAME=LOW:HIGH:COUNT, or NAME=VALUE,VALUE,..."
     name, equals, rest = text.partition("=")
     parts = rest.split(":")
     try:
         if not equals or len(parts) not in (1, 3):
             raise ValueError
-        in_degrees = name.startswith("theta") and name.endswith("_deg")
-        unit = math.radians if in_degrees else float
-        name = name.removesuffix("_deg") if in_degrees else name
         if len(parts) == 1:
-            return name, np.array([unit(float(value)) for value in rest.split(",")])
-        return name, (unit(float(parts[0])), unit(float(parts[1])), int(parts[2]))
+            return name, np.array([float(value) for value in rest.split(",")])
+        return name, (float(parts[0]), float(parts[1]), int(parts[2]))
     except ValueError:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
@@ -184,6 +184,7 @@ def _variables(
     if what is not None:
         raise ValueError(f"sweep: got {shown(what)} and --over {', '.join(over)}, expected a design by --a1 ... --zs")
     given = {name: value for name, value in sides.items() if value is not None}
+    over = {plain_name(name): axis for name, axis in over.items()}
     if both := sorted(set(given) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
     values = given or published_variables()
