@@ -9,6 +9,7 @@ from typing import Any
 
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
+from ninedof.pareto.limited import unit_of, without_degrees
 
 SAME = 1e-9  # relative: smaller differences of objectives do not count
 
@@ -20,8 +21,9 @@ class Front:
     study: Study
     """The given study, with the index that was minimized; the limit takes the values of `limits`."""
     against: str
-    """The limit: a constraint ("base_cone", "base_cone at neutral"), whose max moves, or "condition_limit"."""
+    """The limit: a constraint ("base_cone_deg", "base_cone at neutral"), whose max moves, or "condition_limit"."""
     limits: tuple[float, ...]
+    """Radians for an angle, or degrees where the name in `against` ends in _deg."""
     results: tuple[Result, ...]
     """One for each limit."""
     interrupted: bool = False
@@ -42,10 +44,20 @@ class Front:
         return tuple(objective_of(result) for result in self.results)
 
     @property
+    def limit_name(self) -> str:
+        """What prices and active limits call the limit: `against` without _deg."""
+        return str(without_degrees(self.against)[0])
+
+    @property
+    def unit(self) -> str:
+        """The unit of `limits`: "deg", "rad", the length unit of the study, or "" for a ratio."""
+        return unit_of(self.study, self.against)
+
+    @property
     def prices(self) -> tuple[float | None, ...]:
         """Per cent by which the objective falls when the limit is relaxed by 1 %; None without an optimum."""
         return tuple(
-            r.best.prices.get(self.against, 0.0) if r.best is not None and r.status == Status.OPTIMAL else None
+            r.best.prices.get(self.limit_name, 0.0) if r.best is not None and r.status == Status.OPTIMAL else None
             for r in self.results
         )
 
@@ -64,9 +76,9 @@ class Front:
         Returns
         -------
         list of dict
-            limit; status and reason; objective, condition_number (at the neutral pose), price, active, variables of
-            the best design, None where there is none; dominated. `active` leaves out the swept limit where its price
-            is 0: the best design without the limit just meets it.
+            limit (in `unit`); status and reason; objective, condition_number (at the neutral pose), price, active,
+            variables (angles in radians) of the best design, None where there is none; dominated. `active` leaves out
+            the swept limit where its price is 0: the best design without the limit just meets it.
 
         """
         rows = []
@@ -82,7 +94,9 @@ class Front:
                     "objective": None if best is None else best.objective,
                     "condition_number": None if best is None else best.condition_number,
                     "price": price,
-                    "active": None if best is None else [n for n in best.active if n != self.against or price != 0.0],
+                    "active": None
+                    if best is None
+                    else [n for n in best.active if n != self.limit_name or price != 0.0],
                     "variables": None if best is None else dict(best.variables),
                     "dominated": flat,
                 }
@@ -93,7 +107,8 @@ class Front:
         """Return the front as plain JSON values, without the results of the limits."""
         return {
             "against": self.against,
-            "objective": self.study.objective.words,
+            **({"limit_unit": self.unit} if self.unit else {}),
+            "objective": self.study.words,
             "interrupted": self.interrupted,
             "seconds": self.seconds,
             "rows": self.table(),

@@ -8,13 +8,40 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof.design.indices import objectives
-from ninedof.design.limits import AT, each, label, names_with_max, place, split_label
+from ninedof.design.limits import AT, ROWS, each, label, names_with_max, place, shown_unit, split_label
 from ninedof.design.study import Study
+from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
 
 CONDITION_LIMIT = "condition_limit"
 MOST_STEPS = 100  # of Newton's method; it takes about ten
 SMALL = 1e-8  # margin from which one more step is exact
+
+
+def without_degrees(against: Any) -> tuple[Any, bool]:
+    """Return the limit behind "base_cone_deg", and whether its values are in degrees."""
+    if not isinstance(against, str):
+        return against, False
+    name, at = split_label(against)
+    plain = plain_name(name)
+    if plain == name or plain not in ROWS or not ROWS[plain].is_angle:
+        return against, False
+    return label(plain, at), True
+
+
+def with_degrees(against: str) -> str:
+    """Return the name for values in degrees of a limit on an angle: "base_cone_deg"; any other name unchanged."""
+    name, at = split_label(against)
+    return label(name + DEG, at) if name in ROWS and ROWS[name].is_angle else against
+
+
+def unit_of(study: Study, against: str) -> str:
+    """Return the unit of the values of a limit: "deg", "rad", that of lengths, or "" for a ratio."""
+    plain, degrees = without_degrees(against)
+    if plain == CONDITION_LIMIT:
+        return ""
+    unit = shown_unit(split_label(plain)[0], {"max": None} | _entry(study, plain), study.unit)
+    return "rad" if unit == "deg" and not degrees else unit
 
 
 def resolve(study: Study, against: str) -> tuple[Study, str]:
@@ -42,7 +69,7 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
     hint = did_you_mean(against, [*labels, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
     raise ValueError(
         f"against: got {shown(against)}, expected a constraint with a max ({', '.join(known)}; one at the neutral "
-        f'pose alone as "{label(known[0], AT[1])}"), '
+        f'pose alone as "{label(known[0], AT[1])}", an angle in degrees as "base_cone_deg"), '
         f"{CONDITION_LIMIT} or another index{hint}"
     )
 

@@ -10,8 +10,10 @@ from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import SAME, objective_of
-from ninedof.pareto.limited import limited
+from ninedof.pareto.limited import limited, unit_of
+from ninedof.support.angles import degrees_of
 from ninedof.support.progress import Progress
+from ninedof.support.units import amount
 
 
 class Interrupted(Exception):  # ends the computation, not an error
@@ -85,7 +87,9 @@ class Sweep:
             if best is not None and self._is_worse(limit, best[1]):
                 self.solve(limit, [best[1]], again=True)
                 if self._is_worse(limit, best[1]):
-                    self.results[limit] = _adopted(best[1], limited(self.study, self.against, limit), best[0])
+                    self.results[limit] = _adopted(
+                        best[1], limited(self.study, self.against, limit), self._words(best[0])
+                    )
             if not math.isnan(objective_of(self.results[limit])):
                 best = limit, self.results[limit]
 
@@ -94,6 +98,10 @@ class Sweep:
         if result.status == Status.UNBOUNDED:
             return False
         return not objective_of(result) <= objective_of(tighter) * (1.0 + SAME)
+
+    def _words(self, limit: float) -> str:
+        unit = unit_of(self.study, self.against)
+        return amount(f"{degrees_of(limit):g}", "deg") if unit == "rad" else amount(f"{limit:g}", unit)
 
     def _beside(self, limits: Sequence[float], k: int) -> list[Result | None]:
         return [self.results.get(limits[j]) for j in (k - 1, k + 1, k) if 0 <= j < len(limits)]
@@ -108,7 +116,7 @@ def _rank(result: Result, better_by: float = 0.0) -> tuple[int, float]:
     return int(result.status != Status.OPTIMAL), result.best.objective * (1.0 - better_by)
 
 
-def _adopted(result: Result, study: Study, limit: float) -> Result:
+def _adopted(result: Result, study: Study, limit: str) -> Result:
     """Return the design of a tighter limit as the result of a looser one, not as an optimum."""
-    reason = f"the design found for the limit {limit:g} is better than all found for this one, so it is used here too"
+    reason = f"the design found for the limit {limit} is better than all found for this one, so it is used here too"
     return replace(result, study=study, status=Status.STOPPED, reason=reason)

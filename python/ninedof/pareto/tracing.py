@@ -11,9 +11,10 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
-from ninedof.pareto.limited import resolve
+from ninedof.pareto.limited import resolve, with_degrees, without_degrees
 from ninedof.pareto.solving import Interrupted, Sweep
 from ninedof.pareto.span import span
+from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import finite, items, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
@@ -43,13 +44,14 @@ def pareto(
         Its own value of the limit is replaced; the min and the other options of the limit are kept.
     against : str
         A constraint with a max ("radius_ratio", "leg_ratio", "height", "stroke", ...; "leg_ratio at neutral" for the
-        limit at the neutral pose alone), or a second index: with "condition_limit" the study's own index is minimized
-        under limits on the condition number at every pose; with "speed" or "frobenius", for a study of the condition
-        number, that index is minimized.
+        limit at the neutral pose alone; "base_cone_deg" for an angle in degrees), or a second index: with
+        "condition_limit" the study's own index is minimized under limits on the condition number at every pose; with
+        "speed" or "frobenius", for a study of the condition number, that index is minimized.
     values : sequence of float, optional
-        Limits to solve, in the unit of the constraint (radians for angles). By default from the value of
-        the best design without the limit down to the least limit with a design, evenly spaced in logarithms and closer
-        together where the objective changes fast, and the largest limit found to be infeasible.
+        Limits to solve, in the unit of the constraint: radians for an angle, degrees with "base_cone_deg". The limits
+        of the front are in the same unit. By default from the value of the best design without the limit down to the
+        least limit with a design, evenly spaced in logarithms and closer together where the objective changes fast, and
+        the largest limit found to be infeasible.
     points : int
         Number of limits with a design, if `values` is None; 13 by default.
     starts : int, optional
@@ -82,8 +84,9 @@ def pareto(
     progress_argument(progress)
     thread_argument(threads)
     count = whole("points", points, 2, MOST_POINTS)
-    given = None if values is None else _values(values)
-    posed, limit = resolve(study.with_solver(starts), against)
+    plain, degrees = without_degrees(against)
+    posed, limit = resolve(study.with_solver(starts), plain)
+    given = None if values is None else _values(values, limit, degrees)
     sweep = Sweep(posed, limit, threads, progress)
     begin, interrupted = perf_counter(), False
     wanted: list[float] | None = given
@@ -96,15 +99,20 @@ def pareto(
         interrupted = True
     shown_limits = sorted(sweep.results if wanted is None else set(wanted) & set(sweep.results))
     results = tuple(sweep.results[value] for value in shown_limits)
-    return Front(posed, limit, tuple(shown_limits), results, interrupted, perf_counter() - begin)
+    limits = tuple(degrees_of(value) if degrees else value for value in shown_limits)
+    return Front(posed, against if degrees else limit, limits, results, interrupted, perf_counter() - begin)
 
 
-def _values(values: Sequence[float]) -> list[float]:
+def _values(values: Sequence[float], limit: str, degrees: bool) -> list[float]:
+    """Return the limits in increasing order, angles in radians."""
     listed = items("values", values, "a sequence of limits")
     found = {finite(f"values[{k}]", value) for k, value in enumerate(listed)}
     if not found or min(found) <= 0.0:
         raise ValueError(f"values: got {shown(values)}, expected one or more limits above 0")
-    return sorted(found)
+    if not degrees and with_degrees(limit) != limit and max(found) > math.pi:
+        in_degrees = f'degrees are given with against="{with_degrees(limit)}"'
+        raise ValueError(f"values: got {max(found):g} radians, expected at most pi ({in_degrees})")
+    return sorted(math.radians(value) if degrees else value for value in found)
 
 
 def _trace(sweep: Sweep, count: int) -> list[float]:

@@ -14,6 +14,7 @@ from ninedof.plot import style
 from ninedof.plot.plates import outlines
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
 
 
 class Sketch(NamedTuple):
@@ -47,11 +48,11 @@ def front(
     rows : sequence of mappings
         The rows of `ninedof.pareto.Front.table`: limit, status, objective, price, dominated.
     against : str
-        Name of the limit.
+        Name of the limit; of "base_cone_deg" the limits are in degrees.
     objective : str
         Name of the objective.
     unit : str
-        Of the limit, if it is a length.
+        Of the limit, as `ninedof.Front.unit`. Limits in "rad" are drawn in degrees.
     sketches : sequence of Sketch
         At most five designs.
 
@@ -71,7 +72,12 @@ def front(
     >>> figure = front(rows, "radius_ratio")
 
     """
+    if "_deg" in against:
+        against, unit = against.replace("_deg", ""), "deg"
     shown = [row for row in rows if math.isfinite(row["limit"])]
+    if unit == "rad":
+        shown, unit = [{**row, "limit": math.degrees(row["limit"])} for row in shown], "deg"
+        sketches = [sketch._replace(limit=math.degrees(sketch.limit)) for sketch in sketches]
     if not shown:
         raise ValueError(f"rows: got {len(rows)} without a finite limit, expected at least one")
     if len(sketches) > MOST_SKETCHES:
@@ -86,7 +92,7 @@ def front(
         _prices(lower, shown, name)
         _limits(upper, shown)
         if sketches:
-            _sketches(figure, upper, sketches, share)
+            _sketches(figure, upper, sketches, share, unit)
         _legend(figure, upper, shown)
     return figure
 
@@ -163,7 +169,7 @@ def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> Non
     axes.legend(handles=keys, loc="upper right")
 
 
-def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float) -> None:
+def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float, unit: str) -> None:
     """Draw plates from above in one row, in the order of their limits."""
     ordered = sorted(sketches, key=lambda sketch: sketch.limit)
     width = 0.885 / len(ordered)
@@ -174,7 +180,9 @@ def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: flo
         axes = figure.add_axes((0.095 + k * width, 0.005, width, share - 0.045))
         axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(-1.08 * reach, 1.08 * reach), aspect="equal")
         axes.set_axis_off()
-        axes.set_title(f"at {sketch.limit:.4g}", size=style.SMALL_SIZE, loc="center", pad=2, weight="normal")
+        axes.set_title(
+            f"at {amount(f'{sketch.limit:.4g}', unit)}", size=style.SMALL_SIZE, loc="center", pad=2, weight="normal"
+        )
         joints = _joints(sketch)
         for body, colour, alpha in ((joints[:6], style.BASE, 0.88), (joints[6:], style.PLATFORM, 0.62)):
             flat = np.column_stack([body[:, :2], np.zeros(6)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,7 +13,7 @@ from ninedof.optimize.result import result_from
 from ninedof.paper import published
 from ninedof.paper.comparison import Comparison, Row
 from ninedof.pareto import Front
-from ninedof.pareto.limited import limited
+from ninedof.pareto.limited import limited, without_degrees
 
 
 def describe_front(front: Front) -> dict[str, Any]:
@@ -24,7 +25,9 @@ def front_from(study: Study, data: Mapping[str, Any]) -> Front:
     """Return the front of a study."""
     against = data["against"]
     limits = tuple(float(row["limit"]) for row in data["rows"])
-    studies = (limited(study, against, limit if np.isfinite(limit) else None) for limit in limits)
+    plain, degrees = without_degrees(against)
+    values = (math.radians(limit) if degrees else limit for limit in limits)
+    studies = (limited(study, plain, value if np.isfinite(value) else None) for value in values)
     results = tuple(result_from(each, found) for each, found in zip(studies, data["results"], strict=True))
     return Front(study, against, limits, results, data["interrupted"], float(data["seconds"]))
 

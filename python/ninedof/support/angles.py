@@ -83,6 +83,7 @@ def angle_entry(name: str, radians: float | tuple[float, float]) -> tuple[str, f
 
 
 def degrees_of(radians: float) -> float:
-    """Return an angle in degrees: the short number that was typed, where there is one."""
-    exact = exact_degrees(radians)
-    return math.degrees(radians) if exact is None else exact[0]
+    """Return an angle in degrees: the short number that was typed, or one that converts back, where there is one."""
+    exact, near = exact_degrees(radians), math.degrees(radians)
+    tried = exact or (near, math.nextafter(near, math.inf), math.nextafter(near, -math.inf))
+    return next((degrees for degrees in tried if math.radians(degrees) == radians), near)

@@ -117,7 +117,7 @@ def test_wide_ranges_are_logarithmic_and_carry_the_unit():
 def test_plates_are_drawn_in_the_order_of_their_limits():
     figure = drawn("front with plates")
     first, second = figure.axes[2:]
-    assert [axes.get_title() for axes in (first, second)] == ["at 1.3", "at 3"]
+    assert [axes.get_title() for axes in (first, second)] == ["at 1.3 m", "at 3 m"]
     for axes in (first, second):
         reach = max(np.abs(p.get_xy()).max() for p in axes.patches if isinstance(p, Polygon))
         assert reach < axes.get_xlim()[1] < 1.2 * reach

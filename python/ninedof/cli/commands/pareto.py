@@ -15,9 +15,11 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
+from ninedof.pareto.limited import with_degrees
 from ninedof.runs.directory import new_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
+from ninedof.support.units import with_unit
 
 if TYPE_CHECKING:
     from ninedof.plot.front import Sketch
@@ -30,7 +32,9 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof pareto --against radius_ratio    the paper's optimum for several sizes of the base
 
-  ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4"""
+  ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4
+
+  ninedof pareto study.toml --against base_cone_deg --value 30 --value 35"""
 
 
 def pareto(
@@ -38,12 +42,15 @@ def pareto(
     against: Annotated[
         str,
         typer.Option(
-            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral"), or condition_limit.'
+            help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), or '
+            "condition_limit."
         ),
     ] = "radius_ratio",
     value: Annotated[
         list[float] | None,
-        typer.Option(help="A limit to solve; may be repeated. By default the command selects the limits."),
+        typer.Option(
+            help="A limit to solve, angles in degrees; may be repeated. By default the command selects the limits."
+        ),
     ] = None,
     points: Annotated[int, typer.Option(help="Number of limits, if the command selects them.")] = 13,
     out: Out = None,
@@ -56,6 +63,7 @@ def pareto(
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
+    against = with_degrees(against)  # at the terminal angles are degrees
     directory = new_directory(out)
     name = "the paper's problem" if study is None else study.name
     with screen.progress(f"{name}, {against}") as bar:
@@ -74,14 +82,15 @@ def pareto(
 
 def front_table(front: Front) -> Table:
     """Return the table of a front: one limit per row, the tightest first."""
-    words = front.study.objective.words
-    table = Table(title=f"{words} against {front.against.replace('_', ' ')}", title_justify="left", title_style="bold")
-    for title in (f"{front.against}\nat most", "objective", "neutral\ncondition number", "price\n% for 1 %"):
+    title = f"{front.study.words} against {front.limit_name.replace('_', ' ')}"
+    table = Table(title=title, title_justify="left", title_style="bold")
+    limit = f"{front.limit_name}\n{with_unit('at most', 'deg' if front.unit == 'rad' else front.unit)}"
+    for title in (limit, "objective", "neutral\ncondition number", "price\n% for 1 %"):
         table.add_column(title, justify="right")
     table.add_column("limits reached, or why there is no design", overflow="fold")
     for row in front.table():
         if row["objective"] is None:
-            table.add_row(f"{row['limit']:.5g}", "-", "-", "-", f"{row['status']}: {row['reason']}")
+            table.add_row(_limit(front, row["limit"]), "-", "-", "-", f"{row['status']}: {row['reason']}")
             continue
         reached = ", ".join(row["active"]) or "nothing"
         if row["status"] != "optimal":
@@ -89,12 +98,16 @@ def front_table(front: Front) -> Table:
         elif row["dominated"]:
             reached += " (no better than a tighter limit)"
         elif row["price"] == 0.0:
-            reached += f" ({front.against} without effect)"
+            reached += f" ({front.limit_name} without effect)"
         price = "-" if row["price"] is None else f"{row['price']:.3f}"
         table.add_row(
-            f"{row['limit']:.5g}", f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price, reached
+            _limit(front, row["limit"]), f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price, reached
         )
     return table
+
+
+def _limit(front: Front, value: float) -> str:
+    return f"{math.degrees(value) if front.unit == 'rad' else value:.5g}"
 
 
 def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
@@ -102,7 +115,7 @@ def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
     from ninedof import plot
     from ninedof.plot.front import front as front_figure
 
-    figure = front_figure(front.table(), front.against, front.study.objective.words, sketches=_sketches(front))
+    figure = front_figure(front.table(), front.limit_name, front.study.words, front.unit, _sketches(front))
     return plot.save(figure, directory, "front")
 
 
