@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ninedof.support.angles import exact_degrees
-from ninedof.support.arguments import Vector, choice, finite, items, known_keys, number, pair, vector
+from ninedof.support.arguments import Vector, choice, finite, items, known_keys, pair, vector
 from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
@@ -91,7 +91,7 @@ class Region:
             if f"{name}_deg" in entries:
                 if name in entries:
                     raise ValueError(f"{name}: got both {name} and {name}_deg, expected one of the two")
-                entries[name] = math.radians(number(f"{name}_deg", entries.pop(f"{name}_deg")))
+                entries[name] = math.radians(finite(f"{name}_deg", entries.pop(f"{name}_deg"), 0.0, 180.0))
         return cls(**entries)
 
     def to_dict(self) -> dict[str, Any]:

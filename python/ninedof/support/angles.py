@@ -62,7 +62,10 @@ def in_radians(where: str, given: Mapping[str, Any], angles: Iterable[str]) -> d
 def _radians(value: Any, name: str) -> Any:
     if is_number(value):
         return math.radians(number(name, value))
-    return tuple(math.radians(number(name, end)) for end in pair(name, value, "a number of degrees, or (low, high)"))
+    low, high = (number(name, end) for end in pair(name, value, "a number of degrees, or (low, high)"))
+    if not low <= high:
+        raise ValueError(f"{name}: got [{low:g}, {high:g}], expected low <= high, in degrees")
+    return math.radians(low), math.radians(high)
 
 
 def plain_name(name: str) -> str:

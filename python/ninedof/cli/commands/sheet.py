@@ -13,6 +13,7 @@ from ninedof.cli.chosen_design import design_or_result
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import sheet_tables
 from ninedof.sheet.sheet import sheet as sheet_of
+from ninedof.support.arguments import finite
 from ninedof.support.files import write_whole
 
 PLACE = 3
@@ -47,7 +48,7 @@ def sheet(
     found = sheet_of(
         design_or_result(design),
         linear_speed=speed,
-        angular_speed=math.radians(turn_deg),
+        angular_speed=math.radians(finite("--turn-deg", turn_deg, 0.0)),
         internal=internal,
         loads=[_load(text) for text in load] if load else None,
         leg_errors=leg_error,

@@ -24,6 +24,7 @@ from ninedof.robot.geometry import triples
 from ninedof.runs.design_file import hexagonal_design, load_design, study_of
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
+from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import workspace as find_workspace
 
@@ -130,8 +131,8 @@ def workspace(
         "upper_length": upper,
         "lower_length": lower,
         "condition_number": condition,
-        "base_cone": _radians(base_cone_deg),
-        "platform_cone": _radians(platform_cone_deg),
+        "base_cone": _radians("base-cone", base_cone_deg),
+        "platform_cone": _radians("platform-cone", platform_cone_deg),
         "base_cone_axis": base_cone_axis,
         "platform_cone_axis": platform_cone_axis,
         "leg_clearance": clearance,
@@ -145,7 +146,11 @@ def workspace(
     if method == "grid":
         for name, value in _given({"points": points, "seed": seed}).items():
             raise ValueError(f"--{name}: got {value}, expected none with --method grid")
-    region = {"angle": _radians(angle_deg), "tilt": _radians(tilt_deg), "torsion": _radians(torsion_deg)}
+    region = {
+        "angle": _radians("angle", angle_deg),
+        "tilt": _radians("tilt", tilt_deg),
+        "torsion": _radians("torsion", torsion_deg),
+    }
     length = given.characteristic_length
     if isinstance(length, str):
         length = float(characteristic_length(given.geometry, given.configuration, length))
@@ -187,8 +192,8 @@ def _given(entries: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in entries.items() if value is not None}
 
 
-def _radians(degrees: float | None) -> float | None:
-    return None if degrees is None else math.radians(degrees)
+def _radians(name: str, degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(finite(f"--{name}-deg", degrees, 0.0, 180.0))
 
 
 def _place(
