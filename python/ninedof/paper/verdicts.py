@@ -20,6 +20,8 @@ from ninedof.paper.published import (
 )
 from ninedof.robot.configuration import Configuration
 
+TWIST = 0.05  # rad, towards a lower condition number
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -41,7 +43,8 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
     least = kappa["base at most twice the platform"]
     slopes = displacement_slopes(best_zs)
     moving = {name: value for name, value in slopes.items() if abs(value) > 1e-6}
-    twisted = float(condition_number(published_geometry(), Configuration.neutral(ZP, best_zs, 0.05)))
+    twisted = float(condition_number(published_geometry(), Configuration.neutral(ZP, best_zs, TWIST)))
+    turn = float(np.degrees(TWIST))
     open_study = found["eqs. (8)-(9) alone"]
     coupled = best["a1"] == best["b2"] == 0.0
     crossing = max(abs(kappa_at(zs) - KAPPA) for zs in (below, above)) < 5e-5
@@ -53,7 +56,7 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
         (
             "eq. (7)",
             "dk = 0 in seven displacements",
-            ", ".join(f"dk/d{n} = {v:+.4f}" for n, v in moving.items()) + f"; k = {twisted:.4f} at +0.05 rad",
+            f"{', '.join(_slope(n, v) for n, v in moving.items())}; k = {twisted:.4f} at {turn:+.3g} degrees",
             f"holds in {len(slopes) - len(moving)}, not in {', '.join(moving)}" if moving else "holds",
         ),
         (
@@ -130,6 +133,13 @@ def verdicts(threads: int | None = None) -> tuple[Verdict, ...]:
         ),
     ]
     return tuple(Verdict(*row) for row in rows)
+
+
+def _slope(name: str, value: float) -> str:
+    """Return a derivative in words; that along an angle is a degree's."""
+    if name.startswith("theta"):
+        return f"dk/d{name} = {np.radians(value):+.4f} a degree"
+    return f"dk/d{name} = {value:+.4f}"
 
 
 def _verdict(holds: bool, yes: str, no: str) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.limited import unit_of, without_degrees
+from ninedof.support.units import unit_entry
 
 SAME = 1e-9  # relative: smaller differences of objectives do not count
 
@@ -106,6 +107,7 @@ class Front:
     def to_dict(self) -> dict[str, Any]:
         """Return the front as plain JSON values, without the results of the limits."""
         return {
+            **unit_entry(self.study.unit),
             "against": self.against,
             **({"limit_unit": self.unit} if self.unit else {}),
             "objective": self.study.words,
