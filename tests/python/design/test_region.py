@@ -64,7 +64,7 @@ def test_random_poses_are_in_the_region(region):
 BAD = {
     "two shapes": ({"box": (1, 1, 1), "ball": 1}, r"region: got box and ball, expected one of"),
     "negative": ({"ball": -1}, r"objective\.region\.ball: got -1"),
-    "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt: got"),
+    "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt_deg: got"),
     "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
     "word": ({"internal_point": "best"}, r"objective\.region\.internal_point: got 'best'"),
     "key": ({"bal": 1}, r"objective\.region\.region\.bal|did you mean"),

@@ -1,0 +1,241 @@
+"""Every screen shows the length unit where a length stands, and degrees where an angle stands."""
+
+import json
+import math
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+STUDY = """
+[design]
+characteristic_length = 150.0
+[variables]
+a1 = 0.0
+a2 = 500.0
+b1 = 250.0
+b2 = 0.0
+zp = [300.0, 450.0]
+zs = [100.0, 300.0]
+theta_z_deg = [7.0, 11.0]
+[constraints]
+footprint = { max = 300.0 }
+leg_length = { min = 100.0 }
+platform_cone = { max_deg = 55.0 }
+base_cone = { max_deg = 38.05 }
+leg_clearance = { min = 1.0 }
+[objective.box]
+half = [40.0, 40.0, 0.0]
+points = 2
+tilt_deg = [10.0, 0.0, 0.0]
+[solver]
+starts = 2
+"""
+DESIGN = """
+characteristic_length = 150.0
+[geometry]
+a1 = 0.0
+a2 = 500.0
+b1 = 250.0
+b2 = 0.0
+[configuration]
+zp = 400.0
+zs = 200.0
+theta_z_deg = 9.0
+"""
+WORKSPACE = "--z 380 420 --x -20 20 --y -20 20 --tolerance 0.1 --resolution 4 --points 64"
+SCREENS = {  # what stands where the unit is mm
+    "optimize study.toml": ("zp (mm)", "zs (mm)", "characteristic length (mm)"),
+    "optimize study.toml --check": ("zp (mm)",),
+    "evaluate run": ("legs l1 l2 l3 (mm)", "characteristic length (mm)", ") mm, O = (", "300.0000 mm"),
+    "sheet run --load '0 0 0 0 0 -10' --leg-error 0.01 --leg-stiffness 1e4": (
+        *("(mm/s)", "0 mm", "force/mm", "force mm", "platform speed of 1 mm/s", ") mm, O = (", ") force mm, force ("),
+    ),
+    "path run --circle 20 --points 21 --force 0 0 -10": ("(mm)", "(mm/s)", "(mm/s²)", "speed at most 125."),
+    f"workspace run {WORKSPACE}": (
+        *("volume (mm³)", "radius (mm)", "centre (mm)", "sides (mm)", "inf mm, of the study", "at least 1 mm"),
+        *(") mm, O = (", "420) mm"),
+    ),
+    "pareto study.toml --against footprint --value 295 --value 300": ("at most (mm)",),
+    "sweep run --over x_p=-20:20:3 --index leg_lengths": ("x_p = -20 mm", "leg lengths"),
+    "evaluate design.toml": ("legs l1 l2 l3 (mm)", "natural length"),
+    "sheet design.toml": ("(mm/s)",),
+    "path design.toml --line 10 0 0 --points 21 --legs 100 401": ("(mm/s)", "mm at "),
+    f"workspace design.toml --legs 100 500 {WORKSPACE}": ("legs 100 to 500 mm", "volume (mm³)"),
+    "sweep design.toml --over z_s=-20:20:3 --index leg_lengths": ("20 mm",),
+}
+OTHERWISE = re.compile(r"runs?\S*|\d+:\d\d:\d\d|╺|╸|━")
+
+
+def run(capsys, line):
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    captured = capsys.readouterr()
+    assert end.value.code in (0, 3), captured.err
+    return " ".join(captured.out.split())
+
+
+@pytest.fixture(scope="module", params=["mm", ""])
+def folder(request, tmp_path_factory):
+    """A folder with a study, a design and the run of the study, with a unit and without."""
+    folder = tmp_path_factory.mktemp("named" if request.param else "plain")
+    head = f'unit = "{request.param}"\n' if request.param else ""
+    (folder / "study.toml").write_text(head + STUDY)
+    (folder / "design.toml").write_text(head + DESIGN)
+    with pytest.raises(SystemExit):
+        main(["optimize", str(folder / "study.toml"), "--no-figures", "--out", str(folder / "run")])
+    return folder, request.param
+
+
+@pytest.fixture
+def here(folder, tmp_path, monkeypatch):
+    for name in ("study.toml", "design.toml", "run"):
+        (tmp_path / name).symlink_to(folder[0] / name)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "300")
+    return folder[1]
+
+
+@pytest.mark.parametrize("line", SCREENS)
+def test_every_screen_has_the_unit_where_it_is_given(capsys, here, line):
+    figures = "" if line.split()[0] in ("evaluate", "sheet") else " --no-figures"
+    said = run(capsys, line + figures)
+    if here:
+        assert [words for words in SCREENS[line] if words not in said] == []
+    else:
+        assert re.search(r"\bmm", said) is None
+
+
+def test_records_json_and_csv_have_the_unit(capsys, here):
+    unit = {"unit": "mm"} if here else {}
+    record = json.loads(Path("run/record.json").read_text())
+    assert {k: v for k, v in record["study"].items() if k == "unit"} == unit
+    result = nd.load("run")
+    assert result.study.unit == here
+    lines = {
+        "evaluate run": lambda data: data,
+        "sheet run --csv sheet.csv": lambda data: data,
+        "path run --circle 20 --points 21 --no-figures --out path": lambda data: data["motion"],
+        f"workspace run {WORKSPACE} --no-figures --out workspace": lambda data: data["workspace"],
+        "pareto study.toml --against footprint --value 300 --no-figures": lambda data: data["front"],
+        "sweep run --over x_p=-20:20:3 --no-figures --out sweep": lambda data: data["sweep"]["attributes"],
+        "optimize study.toml --no-figures": lambda data: data,
+    }
+    for line, part in lines.items():
+        data = part(json.loads(run(capsys, line + " --json")))
+        assert {k: v for k, v in data.items() if k == "unit"} == unit, line
+    assert nd.load("workspace").unit == here
+    assert nd.load("sweep").units["x_p"] == (here or "length")
+    heads = [Path(name).read_text().split("\n")[0].split(",") for name in ("sheet.csv", "path/legs.csv")]
+    bracket = " (mm)" if here else ""
+    assert heads[0][1:5] == [f"{name}{bracket}" for name in ("shortest", "longest", "neutral", "stroke")]
+    assert heads[1][:2] + heads[1][10:11] == ["t", f"l1{bracket}", "l1_rate (mm/s)" if here else "l1_rate"]
+
+
+def test_a_unit_changes_no_number(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    for unit in ("", 'unit = "in"\n'):
+        Path("study.toml").write_text(unit + STUDY)
+        data = json.loads(run(capsys, f"optimize study.toml --json --no-figures --out run{len(unit)}"))
+        found[unit] = {k: v for k, v in data["optimization"].items() if k != "seconds"}
+        found[unit]["sheet"] = nd.load(f"run{len(unit)}").sheet().to_dict()
+        assert found[unit]["sheet"].pop("unit", "") == ("in" if unit else "")
+    first, second = (json.dumps(one, default=lambda a: a.tolist()) for one in found.values())
+    assert first == second
+
+
+# --- Degrees ----------------------------------------------------------------------------------------------------------
+
+ANGLES = {  # line: the angles in degrees that it shows, and others that stand in it
+    "optimize study.toml": ("theta_z (deg)",),
+    "evaluate run": ("38.05°", "55.00°", "turned 0.00°"),
+    "sheet run --turn-deg 25": ("38.05°", "55.00°", "turning 25° per time unit"),
+    "path run --circle 20 --points 21": ("turning at most 0 degrees",),
+    f"workspace run {WORKSPACE}": ("base cone 38.05 degrees", "platform cone 55 degrees"),
+    "workspace run --archetype orientation --angle-deg 12 --tolerance 0.5 --resolution 4 --points 64": (
+        *("region: angle to 12 degrees", "radius (deg) │ 11.93", "centre (deg)"),
+    ),
+    "sweep run --over theta_z=-0.35:0.35:3": ("theta_z = 20.054 deg",),
+    "sweep run --over theta_z_deg=-20:20:3 --over theta_x_deg=0,17": ("theta_z = 20 deg", "theta_x = 17 deg"),
+    "sweep figure-6 --points 5": ("displacement = -57.296 deg", "displacement = 28.648 deg"),
+    "pareto study.toml --against base_cone --value 38.05 --value 50": ("at most (deg)", "│ 38.05 │", "│ 50 │"),
+    "pareto study.toml --against base_cone_deg --value 38.05": ("at most (deg)", "│ 38.05 │"),
+}
+DEGREES = (7.0, 9.0, 10.0, 11.0, 12.0, 17.0, 20.0, 25.0, 38.05, 50.0, 55.0, math.degrees(0.35))
+
+
+@pytest.mark.parametrize("line", ANGLES)
+def test_no_screen_shows_radians(capsys, here, line):
+    figures = "" if line.split()[0] in ("evaluate", "sheet") else " --no-figures"
+    said = run(capsys, line + figures)
+    if here:
+        said = said.replace("per second", "per time unit")
+    if line.startswith("sweep figure-6"):
+        assert any(words in said for words in ANGLES[line])
+    else:
+        assert [words for words in ANGLES[line] if words not in said] == []
+    numbers = {float(text) for text in re.findall(r"-?\d+\.\d+", OTHERWISE.sub(" ", said))}
+    variables = nd.load("run").variables
+    shown = [*DEGREES, math.degrees(variables["theta_z"])]
+    in_radians = {sign * math.radians(angle) for angle in shown for sign in (1, -1)}
+    wrong = [(n, r) for n in numbers for r in in_radians if abs(n - r) <= 6e-5 * abs(r)]
+    assert wrong == []
+    assert "rad)" not in said
+
+
+def test_the_optimum_and_its_file_are_in_degrees(capsys, here):
+    theta = nd.load("run").variables["theta_z"]
+    assert math.radians(7.0) <= theta <= math.radians(11.0)  # the attribute stays in radians
+    said = run(capsys, "optimize study.toml --no-figures")
+    assert f"theta_z (deg) │ {math.degrees(theta):.4f}" in said
+    assert json.loads(Path("run/record.json").read_text())["study"]["variables"]["theta_z_deg"] == [7.0, 11.0]
+
+
+def test_a_free_angle_without_bounds_is_assumed_in_degrees(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("study.toml").write_text('unit = "mm"\n[design]\nfamily = "symmetric"\n[solver]\nstarts = 1\n')
+    said = run(capsys, "optimize study.toml --no-figures")
+    assert "base_internal_angle is not given: [-inf, inf] deg assumed" in said
+    assert "zp is not given: [0.05, 80] mm assumed" in said
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("sweep design.toml --over theta_z=0:1:3 --over theta_z_deg=0:30:3", "over: got both theta_z and theta_z_deg"),
+        ("pareto study.toml --against base_cone --value 400", "400 degrees"),
+        ("pareto study.toml --against footprint_deg", "against: got 'footprint_deg'"),
+        ("workspace design.toml --legs 1 900 --archetype orientation --angle-deg 400", "--angle-deg: got 400"),
+        ("workspace design.toml --base-cone-deg 200", "--base-cone-deg: got 200"),
+        ("sheet design.toml --turn-deg -5", "--turn-deg: got -5"),
+    ],
+)
+def test_errors_speak_in_degrees(capsys, here, line, words):
+    with pytest.raises(SystemExit) as end:
+        main(shlex.split(line))
+    assert end.value.code == 2
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            DESIGN.replace("theta_z_deg", "theta_z = 0.1\ntheta_z_deg"),
+            "configuration: got both theta_z and theta_z_deg",
+        ),
+        ('unit = "zp"\n' + DESIGN, "design.toml: unit: got 'zp'"),
+        (DESIGN + 'unit = "mm"\n', "configuration.unit: got 'mm', expected no unit here"),
+    ],
+)
+def test_wrong_design_files(capsys, tmp_path, text, words):
+    (tmp_path / "design.toml").write_text(text)
+    with pytest.raises(SystemExit) as end:
+        main(["evaluate", str(tmp_path / "design.toml")])
+    assert end.value.code == 2
+    assert words in " ".join(capsys.readouterr().err.split())
