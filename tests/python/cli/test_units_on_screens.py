@@ -110,6 +110,30 @@ def test_every_screen_has_the_unit_where_it_is_given(capsys, here, line):
         assert re.search(r"\bmm", said) is None
 
 
+ROWS = {  # of the sheet: the unit behind the value
+    "leg clearance": "mm",
+    "position error": "mm",
+    "error of O": "mm",
+    "least stiffness": "force/mm",
+    "least turning stiffness, per rad": "force mm",
+    "footprint │ max": "mm",
+    "leg_length │ min": "mm",
+    "leg_clearance │ min": "mm",
+}
+
+
+def test_every_length_of_the_sheet_has_its_unit(capsys, here):
+    said = run(capsys, "sheet run --load '0 0 0 0 0 -10' --leg-error 0.01 --leg-stiffness 1e4")
+    found = {row: re.search(re.escape(row) + r" │ [\d.e+]+ ?([^│]*?) │", said) for row in ROWS}
+    units = {row: match[1] for row, match in found.items() if match}
+    assert units == (ROWS if here else dict.fromkeys(ROWS, ""))
+    text = nd.load("run").sheet(leg_errors=0.01, leg_stiffness=1e4).summary()
+    unit = " mm" if here else ""
+    for line in ("least clearance {}", "position {}", "O {}\n", "footprint max {}: {},", "leg_clearance min {}: {},"):
+        assert re.search(line.replace("{}", rf"[\d.]+{unit}"), text), line
+    assert ("force/mm" in text) == ("(mm/s)" in text) == bool(here)
+
+
 def test_records_json_and_csv_have_the_unit(capsys, here):
     unit = {"unit": "mm"} if here else {}
     record = json.loads(Path("run/record.json").read_text())
