@@ -137,7 +137,8 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     """Draw a section: the condition number inside, the boundary in the colour of its limit."""
     s, turn = section.plane, (np.degrees if unit == "rad" else np.asarray)
     unit = "deg" if unit == "rad" else unit
-    s = s._replace(horizontal=turn(s.horizontal), vertical=turn(s.vertical), plane=(s.plane[0], float(turn(s.plane[1]))))
+    name, at = s.plane
+    s = s._replace(horizontal=turn(s.horizontal), vertical=turn(s.vertical), plane=(name, float(turn(at))))
     half = [0.5 * (c[1] - c[0]) for c in (s.horizontal, s.vertical)]
     extent = (
         s.horizontal[0] - half[0],

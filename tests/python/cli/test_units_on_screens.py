@@ -50,7 +50,6 @@ theta_z_deg = 9.0
 WORKSPACE = "--z 380 420 --x -20 20 --y -20 20 --tolerance 0.1 --resolution 4 --points 64"
 SCREENS = {  # what stands where the unit is mm
     "optimize study.toml": ("zp (mm)", "zs (mm)", "characteristic length (mm)"),
-    "optimize study.toml --check": ("zp (mm)",),
     "evaluate run": ("legs l1 l2 l3 (mm)", "characteristic length (mm)", ") mm, O = (", "300.0000 mm"),
     "sheet run --load '0 0 0 0 0 -10' --leg-error 0.01 --leg-stiffness 1e4": (
         *("(mm/s)", "0 mm", "force/mm", "force mm", "platform speed of 1 mm/s", ") mm, O = (", ") force mm, force ("),
