@@ -183,7 +183,7 @@ ANGLES = {  # line: the angles in degrees that it shows, and others that stand i
     "workspace run --archetype orientation --angle-deg 12 --tolerance 0.5 --resolution 4 --points 64": (
         *("region: angle to 12 degrees", "radius (deg) │ 11.93", "centre (deg)"),
     ),
-    "sweep run --over theta_z=-0.35:0.35:3": ("theta_z = 20.054 deg",),
+    "sweep run --over theta_z=-0.35:0.35:3": ("20.054 deg",),
     "sweep run --over theta_z_deg=-20:20:3 --over theta_x_deg=0,17": ("theta_z = 20 deg", "theta_x = 17 deg"),
     "sweep figure-6 --points 5": ("displacement = -57.296 deg", "displacement = 28.648 deg"),
     "pareto study.toml --against base_cone --value 38.05 --value 50": ("at most (deg)", "│ 38.05 │", "│ 50 │"),
