@@ -77,9 +77,9 @@ Objective objective_from(const py::dict& d) {
   out.weight = d["weight"].cast<double>();
   out.condition_limit = d["condition_limit"].cast<double>();
   out.neutral_condition_limit = d["neutral_condition_limit"].cast<double>();
-  using Entry = std::tuple<Vector, Vector, Vector, bool, bool>;
-  for (const auto& [position, rotation, internal, best, in_zp] : d["poses"].cast<std::vector<Entry>>())
-    out.poses.push_back({vec3(position), vec3(rotation), vec3(internal), best, in_zp});
+  using Entry = std::tuple<Vector, Vector, Vector, bool, bool, double>;
+  for (const auto& [position, rotation, internal, best, in_zp, weight] : d["poses"].cast<std::vector<Entry>>())
+    out.poses.push_back({vec3(position), vec3(rotation), vec3(internal), best, in_zp, weight});
   return out;
 }
 

@@ -39,6 +39,16 @@ void Objective::validate() const {
       throw InvalidArgument("objective.poses[" + std::to_string(k) + "]", "a number that is not finite",
                             "finite shifts and rotations");
   }
+  bool counted = poses.empty();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const double w = poses[k].weight;
+    if (!(w >= 0.0 && std::isfinite(w)))
+      throw InvalidArgument("objective.poses[" + std::to_string(k) + "].weight", format_number(w),
+                            "a number of at least 0");
+    counted |= w > 0.0;
+  }
+  if (!counted && aggregate != Aggregate::worst)
+    throw InvalidArgument("objective.poses", "no weight above 0", "one that counts in the mean");
   if (index == Index::six_legged && !poses.empty())
     throw InvalidArgument("objective.poses", std::to_string(poses.size()) + " poses",
                           "none: the index six_legged is for the neutral pose");

@@ -30,7 +30,7 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables) {
   Evaluation out;
   // With weights, a singular pose decides however small its share: the largest level alone is the objective.
   constexpr double singular = 460.0;
-  const bool decisive = p.levels > 1 && p.levels > p.objective_poses && level_slopes[p.levels - 1] > 0.0 &&
+  const bool decisive = p.levels > p.mean_weights.size() && p.levels > 1 && level_slopes[p.levels - 1] > 0.0 &&
                         design.levels.maxCoeff() > singular;
   out.log_objective = decisive ? design.levels.maxCoeff() : design.log_objective;
   out.gradient = objective_gradient(p, design, level_slopes);

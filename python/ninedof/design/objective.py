@@ -95,8 +95,8 @@ class Objective:
         if self.region is not None:
             if objectives()[self.index].function is None:
                 raise ValueError(f"objective.region: got a region, expected none: {self.index} is for the neutral pose")
-            if self.aggregate != "worst":
-                raise ValueError(f'objective.aggregate: got "{self.aggregate}", expected "worst" over a region')
+            if self.aggregate != "worst" and any(pose.weight > 0.0 for pose in self.poses):
+                raise ValueError("objective.poses: got poses beside a mean over a region, expected weight = 0 for them")
 
     @property
     def words(self) -> str:
@@ -108,7 +108,7 @@ class Objective:
         index = objectives()[self.index].words
         if self.region is not None:
             listed = f" and {len(self.poses)} poses" if self.poses else ""
-            return f"worst {index} over {self.region.worded(unit)}{listed}"
+            return f"{AGGREGATES[self.aggregate].format(index=index)} over {self.region.worded(unit)}{listed}"
         if not self.poses:
             return index
         over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from ninedof.support.angles import rotation_entry, vector_argument
-from ninedof.support.arguments import Vector, choice, known_keys, shown, vector
+from ninedof.support.arguments import Vector, choice, finite, known_keys, shown, vector
 from ninedof.support.units import scale_argument
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 INTERNAL_POINTS = ("carried", "held", "best")
 DEFAULT_INTERNAL_POINT = "carried"
-POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit")
+POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit", "weight")
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,10 @@ class Pose:
         Scale of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger
         design moves farther. The name of the length unit is the `unit` of the study.
 
+    weight : float
+        Weight in a mean over the poses; 1 by default. With 0 the limits hold at the pose, and it counts as one of which
+        the worst is taken, but not in the mean.
+
     Raises
     ------
     ValueError
@@ -52,6 +56,7 @@ class Pose:
     rotation: Vector = ZERO
     internal_point: Vector | str = DEFAULT_INTERNAL_POINT
     unit: str = "length"
+    weight: float = 1.0
 
     def __post_init__(self) -> None:
         """Check and normalize every entry."""
@@ -66,6 +71,7 @@ class Pose:
         object.__setattr__(self, "rotation", vector("rotation", self.rotation))
         object.__setattr__(self, "internal_point", _named(chosen, self.position))
         object.__setattr__(self, "unit", scale_argument(self.unit))
+        object.__setattr__(self, "weight", finite("weight", self.weight, least=0.0))
 
     @classmethod
     def from_dict(
@@ -78,6 +84,7 @@ class Pose:
             rotation=vector_argument("rotation", data.get("rotation"), data.get("rotation_deg")),
             internal_point=data.get("internal_point", internal_point),
             unit=data.get("unit", unit),
+            weight=data.get("weight", 1.0),
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -92,13 +99,15 @@ class Pose:
             out["internal_point"] = point if isinstance(point, str) else list(point)
         if self.unit != "length":
             out["unit"] = self.unit
+        if self.weight != 1.0:
+            out["weight"] = self.weight
         return out
 
-    def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool]:
-        """Return position, rotation vector, shift of s, whether the optimizer chooses s, whether shifts are in zp."""
+    def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool, float]:
+        """Return position, rotation vector, shift of s, whether the optimizer chooses s or shifts are in zp, weight."""
         point = self.internal_point
         shift = point if not isinstance(point, str) else self.position if point == "carried" else ZERO
-        return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp"
+        return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp", self.weight
 
 
 def _named(point: Vector | str, position: Vector) -> Vector | str:

@@ -20,7 +20,8 @@ from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.region_report import PASSED, RegionReport, posed
+from ninedof.optimize.region_mean import MOST_NODES, NODES, TOLERANCE, region_mean, uniform_poses
+from ninedof.optimize.region_report import PASSED, RegionMean, RegionReport, posed
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.optimize.warm import Warm
 from ninedof.support.arrays import Floats
@@ -62,12 +63,15 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
     assert region is not None
     begin = perf_counter()
     ruling = [(("", 0), at) for at in first_poses(region)]
+    mean = study.objective.aggregate != "worst"
+    nodes = uniform_poses(region, NODES, study.seed) if mean else ()
     starts, thorough, evaluations = study.starts, False, 0
     result: Result | None = None
     look: Look | None = None
+    average: RegionMean | None = None
     try:
         for rounds in range(1, MOST_ROUNDS + 1):
-            poses = tuple(_pose(region, at) for _, at in ruling)
+            poses = (*nodes, *(_pose(region, at, 0.0 if mean else 1.0) for _, at in ruling))
             found = solve(posed(study, poses), starts, warm)
             if found.best is None and starts < study.starts and not found.interrupted:
                 found = solve(posed(study, poses), study.starts, warm)  # no verdict from a single start
@@ -75,11 +79,16 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
             evaluations += found.evaluations
             if found.best is None or found.interrupted:
                 break
-            look = search(study, found.best, QUICK, rounds, threads)
+            look = search(study, poses, found.best, QUICK, rounds, threads)
             if not look.worse:
-                look = search(study, found.best, DENSE, rounds, threads)
+                look = search(study, poses, found.best, DENSE, rounds, threads)
             if not look.worse and (thorough or starts == 1 == study.starts):
-                break
+                average = region_mean(study, nodes, found.best.variables) if mean else None
+                if average is None or average.error <= TOLERANCE * average.value or len(nodes) >= MOST_NODES:
+                    break
+                nodes = uniform_poses(region, 2 * len(nodes), study.seed)
+                starts, warm, thorough = 1, found.candidates[:4], False
+                continue
             # The last run from all starts has all poses: it shows whether another design is better with them.
             thorough = not look.worse
             starts, warm = (study.starts if thorough else 1), found.candidates[:4]
@@ -93,7 +102,7 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
     report = None
     if result.best is not None:
         if look is None:
-            report = RegionReport(imposed, rounds, 0, result.best.objective, imposed[0], math.inf, "")
+            report = RegionReport(imposed, rounds, 0, result.best.objective, imposed[0], math.inf, "", average)
         else:
             if not look.worse:
                 result, imposed = _only_ruling(study, result, imposed)
@@ -101,7 +110,7 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
                 reason = f"after {rounds} rounds the design is still worse between the poses than at them"
                 result = replace(result, status=Status.STOPPED, reason=reason)
             at = _pose(region, look.objective_at)
-            report = RegionReport(imposed, rounds, look.looked_at, look.objective, at, look.margin, look.limit)
+            report = RegionReport(imposed, rounds, look.looked_at, look.objective, at, look.margin, look.limit, average)
     return replace(
         result,
         study=study,
@@ -112,8 +121,8 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
     )
 
 
-def search(study: Study, best: Candidate, samples: int, seed: int, threads: int) -> Look:
-    """Search a region for where a design is worst."""
+def search(study: Study, imposed: tuple[Pose, ...], best: Candidate, samples: int, seed: int, threads: int) -> Look:
+    """Search a region for where a design is worse than its limits and than at the imposed poses."""
     region = study.objective.region
     assert region is not None
     plain = replace(study, objective=replace(study.objective, poses=(), region=None)).problem()
@@ -130,7 +139,8 @@ def search(study: Study, best: Candidate, samples: int, seed: int, threads: int)
     lengths = leg_lengths(point.geometry, point.configurations[-18:])
     limits += [(margin, (name, k), extremes[k]) for name, k, margin in _spreads(lengths, point.margins)]
     worse = [(-margin, cause, at) for margin, cause, at in limits if margin < -PASSED]
-    excess = [(logarithm - math.log(best.objective), at) for logarithm, at in found["index"]]
+    may_be = worst_index(study, imposed, best)
+    excess = [(logarithm - math.log(may_be), at) for logarithm, at in found["index"]]
     worse += [(by, ("index", 0), at) for by, at in excess if by > PASSED]
     largest, largest_at = max(found["index"])
     margin, (limit, _), _ = min(limits, default=(math.inf, ("", 0), ()))
@@ -140,13 +150,25 @@ def search(study: Study, best: Candidate, samples: int, seed: int, threads: int)
     )
 
 
+def worst_index(study: Study, imposed: tuple[Pose, ...], best: Candidate) -> float:
+    """Return the largest index at the imposed poses; infinity where the objective is a mean alone."""
+    objective = study.objective
+    if objective.aggregate == "worst":
+        return best.objective
+    if objective.aggregate == "mean_inverse":
+        return math.inf
+    worst = replace(study, objective=replace(objective, aggregate="worst"))
+    return float(posed(worst, imposed).evaluate(best.variables).objective)
+
+
 def _only_ruling(study: Study, result: Result, poses: tuple[Pose, ...]) -> tuple[Result, tuple[Pose, ...]]:
     """Return a result without the poses that are far from deciding anything: it stays an optimum without them."""
     best = result.candidates[0]
-    alone = replace(study, objective=replace(study.objective, poses=()))
+    alone = replace(study, objective=replace(study.objective, aggregate="worst", poses=()))
     names = alone.problem().names
     variables = {name: value for name, value in best.variables.items() if name in names}
     single = [posed(alone, (pose,)).evaluate(variables) for pose in poses]
+    mean, worst = study.objective.aggregate != "worst", worst_index(study, poses, best)
     lengths = np.array([leg_lengths(best.geometry, point.configurations[-1]) for point in single])
     extreme = (lengths >= lengths.max(axis=0) * (1.0 - NEAR)) | (lengths <= lengths.min(axis=0) * (1.0 + NEAR))
     # Limits of the design itself are the same at every pose.
@@ -155,7 +177,8 @@ def _only_ruling(study: Study, result: Result, poses: tuple[Pose, ...]) -> tuple
         pose
         for pose, point, ends in zip(poses, single, extreme.any(axis=1), strict=True)
         if ends
-        or point.objective >= best.objective * (1.0 - NEAR)
+        or (mean and pose.weight > 0.0)
+        or point.objective >= worst * (1.0 - NEAR)
         or min((point.margins[name] for name in of_poses), default=1.0) <= NEAR
     )
     count = len(study.objective.poses)
@@ -230,6 +253,6 @@ def first_poses(region: Region) -> list[At]:
     return list(dict.fromkeys(tuple(row.tolist()) for row in rows))
 
 
-def _pose(region: Region, at: At) -> Pose:
+def _pose(region: Region, at: At, weight: float = 1.0) -> Pose:
     position, rotation, internal = _core.region_pose(region.for_core(), at)
-    return Pose(position, rotation, internal, region.unit)
+    return Pose(position, rotation, internal, region.unit, weight)

@@ -13,11 +13,31 @@ PASSED = 2e-7  # by which a limit or the index may be passed between the poses, 
 
 
 @dataclass(frozen=True)
+class RegionMean:
+    """The harmonic mean of an index over a region."""
+
+    nodes: int
+    """Poses of the quadrature that the optimizer used."""
+    quadrature: float
+    """The mean over them."""
+    value: float
+    """The mean over many other poses."""
+    error: float
+    """Of the quadrature: its distance from `value`, and two standard errors of that."""
+
+    @property
+    def words(self) -> str:
+        """The mean in a few words."""
+        return f"harmonic mean {self.quadrature:.6f} by {self.nodes} poses, error {self.error:.1e}"
+
+
+@dataclass(frozen=True)
 class RegionReport:
     """The poses that ruled a region study, how densely the best design was looked at, and the worst found."""
 
     poses: tuple[Pose, ...]
-    """Those at which the limits and the index were imposed, besides the poses of the study."""
+    """Those at which the limits and the index were imposed, besides the poses of the study; first, with weight 1, those
+    of the quadrature where the objective is a mean."""
     rounds: int
     """Designs that were searched over the region."""
     looked_at: int
@@ -29,6 +49,8 @@ class RegionReport:
     """The least margin of a limit found: below zero it is passed, relative to its value. Infinite without limits."""
     limit: str
     """The name of that limit; "" without limits."""
+    mean: RegionMean | None = None
+    """Where the objective is a mean over the region."""
 
     def posed(self, study: Study) -> Study:
         """Return a region study with its poses and these in the place of the region."""
@@ -38,27 +60,35 @@ class RegionReport:
     def words(self) -> str:
         """The report in a sentence."""
         if self.looked_at == 0:
-            return f"{len(self.poses)} poses of the region were imposed; the design was not looked at between them"
+            return f"{self._ruling} poses of the region were imposed; the design was not looked at between them"
         passed = f"{self.limit} is passed by {-self.margin:.1e} of it"
         if self.margin >= -PASSED:
             passed = "no limit is passed"
+        average = "" if self.mean is None else f"{self.mean.words}; "
         return (
-            f"{len(self.poses)} poses of the region ruled; of {self.looked_at} looked at the worst has "
+            f"{average}{self._ruling} poses of the region ruled; of {self.looked_at} looked at the worst has "
             f"{self.objective:.6f}, and {passed}"
         )
+
+    @property
+    def _ruling(self) -> int:
+        return len(self.poses) - (0 if self.mean is None else self.mean.nodes)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""
         return self.__dict__ | {
             "poses": [pose.to_dict() for pose in self.poses],
             "objective_at": self.objective_at.to_dict(),
+            "mean": None if self.mean is None else dict(self.mean.__dict__),
         }
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
         poses = tuple(Pose.from_dict(pose) for pose in data["poses"])
-        return cls(**{**data, "poses": poses, "objective_at": Pose.from_dict(data["objective_at"])})
+        mean = RegionMean(**data["mean"]) if data.get("mean") else None
+        at = Pose.from_dict(data["objective_at"])
+        return cls(**{**data, "poses": poses, "objective_at": at, "mean": mean})
 
 
 def posed(study: Study, poses: tuple[Pose, ...]) -> Study:

@@ -24,13 +24,14 @@ class ObjectiveRule:
     weight: float = 0.5
     condition_limit: float = math.inf
     neutral_condition_limit: float = math.inf
+    pose_weights: tuple[float, ...] = (1.0,)
 
     @classmethod
     def of(cls, study: Study) -> ObjectiveRule:
         """Return the objective of a study."""
         o = study.objective
         limits = (math.inf if limit is None else limit for limit in (o.condition_limit, o.neutral_condition_limit))
-        return cls(o.index, o.aggregate, o.weight, *limits)
+        return cls(o.index, o.aggregate, o.weight, *limits, tuple(p.weight for p in o.poses) or (1.0,))
 
     def values(self, robot: Robot) -> Floats:
         """Return the index at every pose of the objective, shape (n,), by the general path."""
@@ -51,7 +52,7 @@ class ObjectiveRule:
         worst = float(values.max())
         if self.aggregate == "worst" or not math.isfinite(worst):
             return worst
-        harmonic = 1.0 / float(np.mean(1.0 / values))
+        harmonic = 1.0 / float(np.average(1.0 / values, weights=self.pose_weights))
         if self.aggregate == "mean_inverse":
             return harmonic
         return math.exp(self.weight * math.log(worst) + (1.0 - self.weight) * math.log(harmonic))
@@ -105,7 +106,8 @@ class Gradients:
         best_of_worst: Floats = min((each[k] for k in worst), key=lambda g: float(g @ direction))
         if o.aggregate == "worst":
             return best_of_worst
-        mean: Floats = (1.0 / values) @ each / float(np.sum(1.0 / values))
+        shares = np.asarray(o.pose_weights) / values
+        mean: Floats = shares @ each / float(np.sum(shares))
         return mean if o.aggregate == "mean_inverse" else o.weight * best_of_worst + (1.0 - o.weight) * mean
 
     def held(self, direction: Floats) -> list[Floats]:

@@ -31,11 +31,24 @@ def worst_at_random(study: Study, variables: Mapping[str, float], count: int, se
     return float(ObjectiveRule.of(there).values(robot).max()), min(every, default=np.inf)
 
 
-def random_poses(region: Region, count: int, rng: np.random.Generator) -> tuple[Pose, ...]:
-    """Return poses of a region, many of them on its boundary."""
-    tilt = _in_disc(count, rng) * region.tilt
-    yaw = region.yaw * _in_interval(count, rng)
-    shifts = _positions(region, count, rng)
+def mean_at_random(study: Study, variables: Mapping[str, float], count: int, seed: int) -> tuple[float, float]:
+    """Return the harmonic mean of the index at uniformly random poses of the region, and its standard error."""
+    region = study.objective.region
+    assert region is not None
+    there = posed(study, random_poses(region, count, np.random.default_rng(seed), 0.0))
+    space = DesignSpace(there, variables)
+    inverse = 1.0 / ObjectiveRule.of(there).values(space.robot(space.x))
+    mean = 1.0 / float(inverse.mean())
+    return mean, mean * mean * float(inverse.std()) / count**0.5
+
+
+def random_poses(
+    region: Region, count: int, rng: np.random.Generator, on_boundary: float = ON_BOUNDARY
+) -> tuple[Pose, ...]:
+    """Return poses of a region, a share of them on its boundary."""
+    tilt = _in_disc(count, rng, on_boundary) * region.tilt
+    yaw = region.yaw * _in_interval(count, rng, on_boundary)
+    shifts = _positions(region, count, rng, on_boundary)
     out = []
     for p, (a, b), turn in zip(shifts, tilt, yaw, strict=True):
         shift = (float(p[0]), float(p[1]), float(p[2]))
@@ -44,30 +57,31 @@ def random_poses(region: Region, count: int, rng: np.random.Generator) -> tuple[
     return tuple(out)
 
 
-def _positions(region: Region, count: int, rng: np.random.Generator) -> Floats:
+def _positions(region: Region, count: int, rng: np.random.Generator, share: float) -> Floats:
     if region.path is not None:
         corners = np.array(region.path)
-        leg = rng.integers(0, len(corners) - 1, count)
-        share = rng.uniform(size=(count, 1))
-        return np.asarray(corners[leg] + share * (corners[leg + 1] - corners[leg]))
+        length = np.linalg.norm(np.diff(corners, axis=0), axis=1)
+        leg = rng.choice(len(corners) - 1, count, p=length / length.sum())
+        way = rng.uniform(size=(count, 1))
+        return np.asarray(corners[leg] + way * (corners[leg + 1] - corners[leg]))
     if region.ball is not None:
         ways = rng.normal(size=(count, 3))
-        radius = np.where(rng.uniform(size=count) < ON_BOUNDARY, 1.0, rng.uniform(size=count) ** (1.0 / 3.0))
+        radius = np.where(rng.uniform(size=count) < share, 1.0, rng.uniform(size=count) ** (1.0 / 3.0))
         return np.asarray(region.ball * radius[:, None] * ways / np.linalg.norm(ways, axis=1, keepdims=True))
     if region.cylinder is not None:
         wide, high = region.cylinder
-        return np.column_stack([wide * _in_disc(count, rng), high * _in_interval(count, rng)])
+        return np.column_stack([wide * _in_disc(count, rng, share), high * _in_interval(count, rng, share)])
     half = np.array(region.box or (0.0, 0.0, 0.0))
-    return np.asarray(half * np.column_stack([_in_interval(count, rng) for _ in range(3)]))
+    return np.asarray(half * np.column_stack([_in_interval(count, rng, share) for _ in range(3)]))
 
 
-def _in_interval(count: int, rng: np.random.Generator) -> Floats:
-    return np.clip(rng.uniform(-1.0, 1.0, count) / (1.0 - ON_BOUNDARY), -1.0, 1.0)
+def _in_interval(count: int, rng: np.random.Generator, share: float) -> Floats:
+    return np.clip(rng.uniform(-1.0, 1.0, count) / (1.0 - share), -1.0, 1.0)
 
 
-def _in_disc(count: int, rng: np.random.Generator) -> Floats:
+def _in_disc(count: int, rng: np.random.Generator, share: float) -> Floats:
     angle = rng.uniform(0.0, 2.0 * np.pi, count)
-    radius = np.where(rng.uniform(size=count) < ON_BOUNDARY, 1.0, np.sqrt(rng.uniform(size=count)))
+    radius = np.where(rng.uniform(size=count) < share, 1.0, np.sqrt(rng.uniform(size=count)))
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
 
 

@@ -28,7 +28,7 @@ def positions(found):
 def test_the_neutral_pose_is_the_default():
     assert nd.Pose() == nd.Pose((0, 0, 0), np.zeros(3), [0, 0, 0], "length")
     assert nd.Pose().to_dict() == {}
-    assert nd.Pose().for_core() == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), False, False)
+    assert nd.Pose().for_core() == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), False, False, 1.0)
 
 
 def test_numbers_of_any_kind_become_floats():

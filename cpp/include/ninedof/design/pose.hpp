@@ -12,6 +12,7 @@ struct Pose {
   Vec3 internal = Vec3::Zero();  ///< shift of s
   bool best_internal = false;    ///< the optimizer chooses s, starting from that shift
   bool in_zp = false;            ///< shifts are fractions of zp, else lengths
+  double weight = 1.0;           ///< in a mean over poses; 0: of these the limits alone hold, and the worst counts
 };
 
 }  // namespace ninedof

@@ -57,11 +57,21 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
   }
   first_row_.push_back(rows);
   const bool single = o.aggregate == Aggregate::worst || poses == 1;
-  levels = single ? 1 : o.aggregate == Aggregate::mean_inverse ? poses : poses + 1;
+  const bool weighted = !single && o.aggregate == Aggregate::weighted;
+  std::vector<int> level_of(at_index(poses), single ? 0 : -1);
+  std::vector<double> weights;
+  for (int k = 0; k < poses && !single; ++k) {
+    const double weight = o.poses[at_index(k)].weight;
+    if (weight == 0.0) continue;
+    level_of[at_index(k)] = static_cast<int>(weights.size());
+    weights.push_back(weight);
+  }
+  mean_weights = Eigen::VectorXd::Map(weights.data(), static_cast<Eigen::Index>(weights.size()));
+  levels = single ? 1 : static_cast<int>(weights.size()) + weighted;
   for (int k = 0; k < poses; ++k)
     for (int row = first_row(k); row < first_row(k + 1); ++row) {
-      row_levels.push_back({row, single ? 0 : k});
-      if (!single && o.aggregate == Aggregate::weighted) row_levels.push_back({row, poses});
+      if (level_of[at_index(k)] >= 0) row_levels.push_back({row, level_of[at_index(k)]});
+      if (weighted) row_levels.push_back({row, levels - 1});
     }
   const auto full = static_cast<int>(full_variables(problem).size());
   for (const Limit& limit : problem.limits) {
@@ -198,11 +208,11 @@ double PreparedProblem::objective(const Eigen::VectorXd& t, Eigen::VectorXd* slo
     return t[0];
   }
   const Objective& o = problem.objective;
-  const Eigen::Index poses = evaluated_poses();
+  const Eigen::Index poses = mean_weights.size();
   const double least = t.head(poses).minCoeff();
-  const Eigen::VectorXd share = (least - t.head(poses).array()).exp();
+  const Eigen::VectorXd share = mean_weights.array() * (least - t.head(poses).array()).exp();
   const double sum = share.sum();
-  const double mean = least - std::log(sum / static_cast<double>(poses));  // -log of the mean of exp(-t)
+  const double mean = least - std::log(sum / mean_weights.sum());  // -log of the mean of exp(-t)
   const double w = o.aggregate == Aggregate::weighted ? o.weight : 0.0;
   if (slopes != nullptr) {
     slopes->resize(levels);

@@ -46,6 +46,8 @@ struct PreparedProblem {
   /// Platform joints whose distance may be the characteristic length, see length_joint.hpp; empty unless it has a kink.
   std::vector<int> length_joints;
   int rows = 0, levels = 1;
+  /// Of the poses that count in a mean: the first levels. Empty where the objective is the worst or one pose.
+  Eigen::VectorXd mean_weights;
   int auxiliary_count = 0;
 
   int evaluated_poses() const { return std::max(objective_poses, 1); }
