@@ -39,7 +39,8 @@ from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, be
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.runs.folder import load
+from ninedof.runs.design_file import Design
+from ninedof.runs.objects import load, save
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.singularity import (
     Mechanism,
@@ -70,6 +71,7 @@ __all__ = [
     "AssemblyModes",
     "Candidate",
     "Configuration",
+    "Design",
     "DesignPoint",
     "Ellipsoid",
     "ErrorBounds",
@@ -138,6 +140,7 @@ __all__ = [
     "optimize",
     "pareto",
     "reciprocal_condition_number",
+    "save",
     "self_stress",
     "sheet",
     "singular_values",

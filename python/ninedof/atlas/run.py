@@ -16,6 +16,7 @@ from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
 from ninedof.chunks import Arrays, chunk_argument, run
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import whole
+from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.versions import versions
 from ninedof.sweep.result import SweepResult
@@ -137,5 +138,5 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
         coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
         units=dict.fromkeys(("histogram", "best", "number", "radius_ratio", "condition_number"), "1")
         | {"design": "l_c"},
-        attributes={**work.question(), **versions()},
+        attributes=plain({**work.question(), **versions()}, words=False),
     )

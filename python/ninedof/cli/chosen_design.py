@@ -1,33 +1,75 @@
-"""The design given by options, as a file or as sides and heights, and its characteristic length."""
+"""The design that a command is about: named by DESIGN, or by sides and heights; and its characteristic length."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
+from typing import NamedTuple
 
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.design.study import Study
 from ninedof.optimize.result import Result
-from ninedof.runs.design_file import Design, hexagonal_design, load_design
-from ninedof.runs.folder import load
+from ninedof.paper.published import published_variables
+from ninedof.pareto import Front
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.runs.design_file import Design, hexagonal_design
+from ninedof.runs.objects import load
 
 
-def chosen_design(design: Path | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
-    """Return the design of a file, or of the sides and heights of the hexagonal family."""
-    named = {name: value for name, value in sides.items() if value is not None}
-    if design is not None:
+class Chosen(NamedTuple):
+    """A design at its neutral pose, and the result of the study that found it, if one did."""
+
+    geometry: Geometry
+    configuration: Configuration
+    characteristic_length: float | str
+    unit: str = ""
+    result: Result | None = None
+
+    @property
+    def design(self) -> Design:
+        """The design alone."""
+        return Design(self.geometry, self.configuration, self.characteristic_length, self.unit)
+
+    @property
+    def study(self) -> Study | None:
+        """The study that found it."""
+        return None if self.result is None else self.result.study
+
+
+def named_design(name: str | None) -> Chosen:
+    """Return the design that an argument DESIGN names; the published design at its best zs without one."""
+    if name is None:
+        return Chosen(*hexagonal_design(published_variables()))
+    found = load(name)
+    if isinstance(found, Design):
+        return Chosen(*found)
+    if isinstance(found, Front):
+        raise ValueError(f"{name}: got a front, expected one of its points: {name}#1 to {name}#{len(found)}")
+    if not isinstance(found, Result):
+        raise ValueError(f"{name}: got a run without a design, expected one of `ninedof optimize` or `ninedof pareto`")
+    best = found.best
+    if best is None:
+        raise ValueError(f"{name}: the record holds no design: {found.reason}")
+    return Chosen(best.geometry, best.configuration, best.characteristic_length, found.study.unit, found)
+
+
+def chosen_design(name: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:
+    """Return the design that an argument DESIGN names, or that of the sides and heights of the hexagonal family."""
+    named = {side: value for side, value in sides.items() if value is not None}
+    if name is not None:
         if named or theta_z_deg is not None:
-            raise ValueError(f"design: got a file and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
-        return load_design(design)
-    missing = [f"--{name}" for name, value in sides.items() if value is None]
+            raise ValueError(f"design: got {name} and {', '.join(named) or '--theta-z-deg'}, expected one of the two")
+        return named_design(name)
+    missing = [f"--{side}" for side, value in sides.items() if value is None]
     if missing:
         raise ValueError(f"design: got no {', '.join(missing)}, expected a design file or all of a1 a2 b1 b2 zp zs")
-    return hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)})
+    return Chosen(*hexagonal_design(named | {"theta_z": math.radians(theta_z_deg or 0.0)}))
 
 
-def with_length(design: Design, lc: str | None) -> Design:
+def with_length(chosen: Chosen, lc: str | None) -> Chosen:
     """Return the design with the characteristic length given by --lc, if any."""
-    return design if lc is None else design._replace(characteristic_length=length_option(lc))
+    return chosen if lc is None else chosen._replace(characteristic_length=length_option(lc))
 
 
 def length_option(text: str) -> float | str:
@@ -38,20 +80,3 @@ def length_option(text: str) -> float | str:
         if text not in KINDS:
             raise ValueError(f"--lc: got {text!r}, expected a number or one of {', '.join(KINDS)}") from None
         return text
-
-
-def is_run(path: Path) -> bool:
-    """Return whether a path is that of a run and not of a design file."""
-    return path.is_dir() or path.suffix == ".json"
-
-
-def design_or_result(path: Path) -> Design | Result:
-    """Return the result of a run of a study, or the design of a file."""
-    if not is_run(path):
-        return load_design(path)
-    run = load(path)
-    if not isinstance(run, Result):
-        raise ValueError(f"{path}: got a run without an optimum, expected one of `ninedof optimize` or a design file")
-    if run.best is None:
-        raise ValueError(f"{path}: the record holds no design: the run found none")
-    return run

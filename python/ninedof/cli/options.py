@@ -13,6 +13,15 @@ Json = Annotated[
 Threads = Annotated[
     int | None, typer.Option(help="Threads; one per processor by default. The result does not depend on it.")
 ]
+DESIGN = "a design file (TOML), a run folder (its best design), or RUN#7 (point 7 of a front, counted from 1)"
+Design = Annotated[str, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}.")]
+DesignOrPublished = Annotated[
+    str | None, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}; the published design if none is given.")
+]
+Lc = Annotated[
+    str | None,
+    typer.Option(help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; the design's."),
+]
 StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
 Out = Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")]
 Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
 from rich.table import Table
 
+from ninedof.cli.pose_words import pose_words, vector_words
 from ninedof.cli.result_table import short
 from ninedof.sheet.limit_rows import LimitRow
 from ninedof.sheet.sheet import Extreme, Sheet
@@ -101,7 +101,7 @@ def _forces(found: Sheet) -> Table:
     for k, leg in enumerate(found.legs):
         table.add_row(leg.name, *(f"{low:.4g} to {high:.4g}" for low, high in leg.forces), end_section=k % 3 == 2)
     table.caption = "; ".join(
-        f"load {k}: moment {amount(_vector(load[:3]), times('force', found.unit))}, force {_vector(load[3:])}"
+        f"load {k}: moment {amount(vector_words(load[:3]), times('force', found.unit))}, force {vector_words(load[3:])}"
         for k, load in zip(count, found.loads, strict=True)
     )
     return table
@@ -160,14 +160,4 @@ def _in_unit(row: LimitRow, value: float, unit: str) -> str:
 
 
 def _pose(found: Sheet, k: int) -> str:
-    c = found.configurations[k]
-    # Of the turn from the neutral pose; the arc tangent is exact for small angles too.
-    turn = c.rotation @ found.configurations.rotation[0].T
-    skew = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    angle = math.degrees(math.atan2(float(np.linalg.norm(skew)), 0.5 * (float(np.trace(turn)) - 1.0)))
-    p, o = (amount(_vector(point), found.unit) for point in (c.position, c.internal_point))
-    return f"p = {p}, O = {o}, turned {angle:.2f}° from neutral"
-
-
-def _vector(values: np.ndarray) -> str:
-    return "(" + ", ".join(f"{round(float(x), 9):g}" for x in values) + ")"
+    return pose_words(found.configurations[k], found.configurations.rotation[0], found.unit)

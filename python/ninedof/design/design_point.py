@@ -50,14 +50,14 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     """Evaluate one full vector of variables."""
     names = list(problem.names)
     core = problem.evaluate(x)
-    objective = _infinite_if_singular(core["objective"])
+    objective = infinite_if_singular(core["objective"])
     slope = objective * core["gradient"] if math.isfinite(objective) else np.full(len(names), np.nan)
     configurations = Configuration(*problem.configurations(x))
     return DesignPoint(
         variables=dict(zip(names, x, strict=True)),
         objective=objective,
-        condition_number=_infinite_if_singular(core["condition_number"]),
-        conditions=tuple(_infinite_if_singular(k) for k in core["conditions"]),
+        condition_number=infinite_if_singular(core["condition_number"]),
+        conditions=tuple(infinite_if_singular(k) for k in core["conditions"]),
         characteristic_length=core["characteristic_length"],
         gradient=dict(zip(names, slope.tolist(), strict=True)),
         margins={name: value for name, value, _ in core["margins"]},
@@ -68,5 +68,6 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
     )
 
 
-def _infinite_if_singular(value: float) -> float:
+def infinite_if_singular(value: float) -> float:
+    """Return a value of the core, infinite where the core has replaced a vanishing singular value."""
     return float(value) if value < LARGEST else math.inf

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.indices import Index, computed
+from ninedof.design.indices import INDICES, Index, computed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown
@@ -39,12 +39,17 @@ class _Own:
         return found
 
 
-def indices_of(index: Any) -> tuple[Index, ...]:
-    """Return the indices for the argument `index`: a name, a function, or several of them."""
+def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
+    """Return the indices for the argument `index`: a name, a function, or several of them.
+
+    Of designs at their neutral pose there are more: those that the core alone has, as objectives.
+    """
     given = [index] if isinstance(index, str) or callable(index) else index
     if not isinstance(given, Iterable) or not (listed := list(given)):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")
-    known = computed()
+    known = INDICES if of_designs else computed()
+    if "six_legged" in listed and not of_designs:
+        raise ValueError("index: got 'six_legged', which is for the neutral pose: sweep over variables of the design")
     found = tuple(_own(one) if callable(one) else known[choice("index", one, known)] for one in listed)
     names = [one.name for one in found]
     if len(set(names)) < len(names):

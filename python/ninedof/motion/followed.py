@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -10,9 +10,11 @@ import numpy as np
 
 from ninedof.motion.trajectory import Trajectory
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays, Saved
+from ninedof.support.json import decode, encode
 from ninedof.support.units import unit_entry
 
 LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
@@ -35,8 +37,10 @@ class LimitBreak(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Followed:
+class Followed(Saved):
     """A motion along a trajectory, legs in the order of `leg_lengths`."""
+
+    FORMAT = "ninedof-motion-1"
 
     geometry: Geometry
     trajectory: Trajectory
@@ -157,6 +161,31 @@ class Followed:
         """Show the number of poses and what is not kept."""
         broken = sorted({entry.limit for entry in self.breaks})
         return f"<Followed: {len(self.time)} poses, {'breaks ' + ', '.join(broken) if broken else 'within limits'}>"
+
+    def _contents(self) -> dict[str, Any]:
+        moving = self.trajectory
+        arrays = {**triples(self.geometry), "time": moving.time, "position": moving.position}
+        arrays |= {"rotation": moving.rotation, "o": self.configurations.internal_point}
+        arrays |= {"limits": np.stack(self.limits), "singularity_margins": np.stack(self.singularity_margins)}
+        others = [f.name for f in fields(self) if f.name not in (*arrays, "geometry", "trajectory", "configurations")]
+        values = {name: getattr(self, name) for name in others}
+        words = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
+        arrays |= {name: value for name, value in values.items() if name not in words}
+        return {"words": np.array(encode({"format": self.FORMAT, **words}, indent=None)), **arrays}
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> Followed:
+        data: dict[str, Any] = dict(contents)
+        words = decode(str(data.pop("words")))
+        if words.pop("format") != cls.FORMAT:
+            raise ValueError
+        geometry = Geometry(**{name: data.pop(name) for name in TRIPLES})
+        moving = Trajectory(data.pop("time"), data.pop("position"), data.pop("rotation"))
+        poses = Configuration(moving.position, moving.rotation, data.pop("o"))
+        low, high = data.pop("limits")
+        margins = SingularityMargins(*data.pop("singularity_margins"))
+        known = {"limits": (low, high), "singularity_margins": margins, **words, **data}
+        return cls(geometry=geometry, trajectory=moving, configurations=poses, **known)
 
 
 def _stretches(name: str, time: Floats, lengths: Floats, margin: Floats, limit: float) -> list[LimitBreak]:

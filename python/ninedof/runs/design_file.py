@@ -1,4 +1,4 @@
-"""One design from a TOML file, a run's record or named values, and its indices, as `ninedof evaluate` prints them."""
+"""One design from a TOML file or named values, and its indices, as `ninedof evaluate` prints them."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.indices import computed
-from ninedof.design.study import Study
-from ninedof.design.study_file import read_toml, require_unit_at_top
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import TRIPLES, Geometry
-from ninedof.runs.folder import load_record
+from ninedof.design.study_file import read_toml, require_unit_at_top, write_toml
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
 from ninedof.support.arguments import is_number, known_keys, number, table
-from ninedof.support.units import unit_argument
+from ninedof.support.units import unit_argument, unit_entry
 
 
 class Design(NamedTuple):
-    """A geometry, a configuration and the characteristic length to judge them by."""
+    """A geometry, a configuration and the characteristic length to judge them by: what a design file holds."""
 
     geometry: Geometry
     configuration: Configuration
-    characteristic_length: float | str
+    """The neutral one."""
+    characteristic_length: float | str = 1.0
+    """A number, or a kind of `ninedof.characteristic_length`."""
     unit: str = ""
     """Name of the length unit; "" without one."""
 
@@ -43,13 +43,12 @@ def hexagonal_design(values: Mapping[str, float], length: float | str = 1.0) -> 
 
 
 def load_design(path: str | os.PathLike[str]) -> Design:
-    """Read a design.
+    """Read a design file.
 
-    A TOML file has `characteristic_length` (a number or a kind, 1.0 by default), `unit` (the name of the length unit,
-    none by default) and two tables: [geometry] with a1 a2 b1 b2, or with four lists of three joints base_external,
+    It has `characteristic_length` (a number or a kind, 1.0 by default), `unit` (the name of the length unit, none by
+    default) and two tables: [geometry] with a1 a2 b1 b2, or with four lists of three joints base_external,
     base_internal, platform_external, platform_internal; [configuration] with zp, zs and theta_z_deg (or theta_z in
-    radians), or with position, internal_point and, optionally, rotation (three rows). A run folder or its record.json
-    gives the best design of that run.
+    radians), or with position, internal_point and, optionally, rotation (three rows).
 
     Raises
     ------
@@ -59,31 +58,22 @@ def load_design(path: str | os.PathLike[str]) -> Design:
     """
     file = Path(path)
     try:
-        if file.is_dir() or file.suffix == ".json":
-            return _from_record(file)
         return _from_tables(read_toml(file))
     except ValueError as error:
         text = str(error)
         raise ValueError(text if text.startswith(str(file)) else f"{file}: {text}") from None
 
 
-def study_of(path: str | os.PathLike[str]) -> Study | None:
-    """Return the study of the run that a design comes from, None for a design file."""
-    file = Path(path)
-    return load_record(file).study if file.is_dir() or file.suffix == ".json" else None
-
-
-def _from_record(file: Path) -> Design:
-    record = load_record(file)
-    try:
-        candidates = record.results["optimization"]["candidates"]
-        variables = candidates[0]["variables"] if candidates else None
-    except (KeyError, TypeError, IndexError):
-        raise ValueError("the record holds no optimization") from None
-    if variables is None:
-        raise ValueError("the record holds no design: the run found none")
-    point = record.study.evaluate(variables)
-    return Design(point.geometry, point.configuration, point.characteristic_length, record.study.unit)
+def save_design(design: Design, path: str | os.PathLike[str]) -> Path:
+    """Write a design file, its joints and its configuration as coordinates; return its path."""
+    tables = {
+        **unit_entry(design.unit),
+        "characteristic_length": design.characteristic_length,
+        "geometry": {name: points.tolist() for name, points in triples(design.geometry).items()},
+        "configuration": {name: values.tolist() for name, values in arrays_of(design.configuration).items()},
+    }
+    write_toml(path, tables)
+    return Path(path)
 
 
 def _from_tables(data: Mapping[str, Any]) -> Design:

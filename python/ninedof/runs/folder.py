@@ -109,7 +109,7 @@ def _record_of(run: Run, asked: Mapping[str, Any], results: Mapping[str, Any]) -
 
 
 def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepResult:
-    """Read what a run folder holds.
+    """Read what a run folder holds, of every kind but a motion: `ninedof.load` reads those too.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The run folder of a motion along a trajectory: record, legs.csv in the order of controllers, poses.csv.
+"""The run folder of a motion: record, motion.npz, legs.csv in the order of controllers, poses.csv.
 
 Where the motion names its length unit, the names of columns have it in brackets: "l1 (mm)", "l1_rate (mm/s)".
 """
@@ -20,7 +20,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit
 
-LEGS_FILE, POSES_FILE = "legs.csv", "poses.csv"
+LEGS_FILE, POSES_FILE, ARRAYS_FILE = "legs.csv", "poses.csv", "motion.npz"
 LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z", "leg_margin")  # columns of poses.csv
 RATE, ACCELERATION, FORCE = "_rate", "_acceleration", "_force"
 
@@ -46,11 +46,19 @@ def write_motion(
     folder = Path(directory)
     write_whole(folder / LEGS_FILE, _csv(*_legs(found)))
     write_whole(folder / POSES_FILE, _csv(*_poses(found)))
-    record = Record("motion", asked or {}, {"motion": found.to_dict()}, files=(LEGS_FILE, POSES_FILE))
+    found.save(folder / ARRAYS_FILE)
+    files = (LEGS_FILE, POSES_FILE, ARRAYS_FILE)
+    record = Record("motion", asked or {}, {"motion": found.to_dict()}, files=files)
     path = write_record(record, folder)
     if draw is not None:
         write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
     return path
+
+
+def load_motion(path: str | os.PathLike[str]) -> Followed:
+    """Read a motion from its run folder or the record there."""
+    place = Path(path)
+    return Followed.load((place if place.is_dir() else place.parent) / ARRAYS_FILE)
 
 
 def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:

@@ -204,7 +204,8 @@ def sweep_designs(
         {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
     )  # raises for missing variables
     units = {name: "rad" if name in study.angles else "length" for name in known}
-    indices = indices_of(index)
+    indices = indices_of(index, of_designs=True)
+    variants.check(indices)
     fast = all(variants.has_closed_form(i, swept) for i in indices)
     work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
     return work.result(units, named, executor=executor, out=out, progress=progress)

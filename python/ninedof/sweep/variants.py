@@ -10,7 +10,9 @@ import numpy as np
 
 from ninedof.chunks import Arrays
 from ninedof.conditioning.hexagonal import HEXAGONAL, hexagonal_condition_number
+from ninedof.design.design_point import infinite_if_singular
 from ninedof.design.indices import INDICES, Index
+from ninedof.design.objective import Objective
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
@@ -27,6 +29,18 @@ class Variants:
     def study(self) -> Study:
         """Return a study of the family; the swept variables are free in it."""
         return Study(self.family, variables=self.design)
+
+    def check(self, indices: Iterable[Index]) -> None:
+        """Raise for an index that the core alone has and not for this family or kind of length."""
+        for index in indices:
+            if index.function is None:
+                if self.length == "optimal":
+                    raise ValueError(f"characteristic_length: got 'optimal', expected a number for {index.name}")
+                self._objective(index)
+
+    def _objective(self, index: Index) -> Study:
+        """Return a study that has an index as its objective."""
+        return Study(self.family, self.design, objective=Objective(index.name), characteristic_length=self.length)
 
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
@@ -67,11 +81,15 @@ class Variants:
     def _fill(self, out: dict[str, Floats], at: dict[str, Floats], indices: list[Index]) -> None:
         study = self.study()
         problem = study.problem()
+        by_core = {index: self._objective(index).problem() for index in indices if index.function is None}
+        own = [index for index in indices if index.function is not None]
         x = study.vector({name: float(column[0]) for name, column in at.items()})
         places = [problem.names.index(name) for name in at]
         for k, point in enumerate(np.stack(list(at.values()), axis=-1).tolist()):
             for place, value in zip(places, point, strict=True):
                 x[place] = value
+            for index in by_core:
+                out[index.name][k] = infinite_if_singular(by_core[index].evaluate(x)["objective"])
             geometry, neutral = problem.geometry(x), Configuration._of(*problem.configurations(x))[:1]
-            for index in indices:
+            for index in own:
                 out[index.name][k] = np.asarray(index.values(geometry, neutral, self.length, 1))[0]

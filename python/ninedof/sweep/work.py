@@ -13,6 +13,7 @@ from ninedof.design.index_argument import identity
 from ninedof.design.indices import Index
 from ninedof.support.angles import DEG
 from ninedof.support.arrays import Floats
+from ninedof.support.json import plain
 from ninedof.support.units import unit_entry
 from ninedof.support.versions import versions
 from ninedof.sweep.axis import Grid
@@ -89,5 +90,8 @@ class GridWork:
             dims={i.name: (*swept, i.dimension) if i.dimension else swept for i in self.indices},
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: (unit or "length") if of == "length" else of for name, of in labelled.items()},
-            attributes={**unit_entry(unit), **self._points(), "index": [i.name for i in self.indices], **versions()},
+            attributes=plain(
+                {**unit_entry(unit), **self._points(), "index": [i.name for i in self.indices], **versions()},
+                words=False,
+            ),
         )

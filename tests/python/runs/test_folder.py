@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ninedof as nd
+from ninedof.cli.chosen_design import named_design
 from ninedof.paper.comparison import compare
-from ninedof.runs.design_file import load_design
 from ninedof.runs.folder import Record, load, load_record, write_record, write_run
 from ninedof.support.json import decode, encode
 
@@ -131,15 +131,16 @@ def test_missing_record_is_named(tmp_path):
 
 def test_design_of_a_record(tmp_path):
     write_record(record(), tmp_path)
-    design = load_design(tmp_path)
+    design = named_design(str(tmp_path))
     assert nd.condition_number(design.geometry, design.configuration) == pytest.approx(3.749827, abs=5e-7)
 
 
 def test_record_without_a_design(tmp_path):
     study = nd.Study(constraints={"leg_ratio": (None, 0.5)})
     write_run(nd.optimize(study), tmp_path)
+    assert load(tmp_path).best is None
     with pytest.raises(ValueError, match="holds no design"):
-        load_design(tmp_path)
+        named_design(str(tmp_path))
 
 
 @pytest.mark.parametrize("family", ["hexagonal", "symmetric", "symmetric_nonplanar", "general"])
@@ -148,8 +149,14 @@ def test_design_of_a_record_of_any_family(tmp_path, family):
     study = nd.Study(family=family, characteristic_length="optimal", objective=objective, starts=4)
     x = study.problem().starts(1, 0)[0].tolist()
     variables = dict(zip(study.problem().names, x, strict=True))
-    write_record(Record("optimization", study, {"optimization": {"candidates": [{"variables": variables}]}}), tmp_path)
-    point, design = study.evaluate(variables), load_design(tmp_path)
+    point = study.evaluate(variables)
+    numbers = {name: getattr(point, name) for name in ("objective", "condition_number", "characteristic_length")}
+    lists = {"conditions": list(point.conditions), "active": [], "prices": {}}
+    candidate = {"variables": variables, **numbers, **lists, "optimality_residual": 0.0, "constraint_violation": 0.0}
+    found = {"status": "optimal", "reason": "", "causes": [], "evaluations": 1, "starts_done": 1, "seconds": 0.0}
+    found["candidates"] = [candidate | {"reached": 1}]
+    write_record(Record("optimization", study, {"optimization": found}), tmp_path)
+    design = named_design(str(tmp_path)).design
     assert design[:3] == (point.geometry, point.configuration, point.characteristic_length)
     assert load_record(tmp_path).study == study
 
@@ -169,4 +176,4 @@ BAD_CANDIDATES = {
 def test_a_record_changed_by_hand_is_refused_by_name(tmp_path, candidates):
     write_record(Record("optimization", nd.Study(), {"optimization": {"candidates": candidates}}), tmp_path)
     with pytest.raises(ValueError, match=str(tmp_path)):
-        load_design(tmp_path)
+        nd.load(tmp_path)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
@@ -11,7 +10,7 @@ import typer
 from rich.table import Table
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import chosen_design, design_or_result, is_run, with_length
+from ninedof.cli.chosen_design import chosen_design, with_length
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import limits_table, poses_table
 from ninedof.design.indices import computed
@@ -26,13 +25,13 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof evaluate design.toml --lc optimal
 
-  ninedof evaluate runs/20260101-120000    the best design of a run"""
+  ninedof evaluate runs/20260101-120000    the best design of a run
+
+  ninedof evaluate runs/20260101-120000#7    the design of point 7 of a front"""
 
 
 def evaluate(
-    design: Annotated[
-        Path | None, typer.Argument(help="A design file (TOML), a run folder or its record.json.")
-    ] = None,
+    design: Annotated[str | None, typer.Argument(help=f"{options.DESIGN[0].upper()}{options.DESIGN[1:]}.")] = None,
     a1: options.BaseSide1 = None,
     a2: options.BaseSide2 = None,
     b1: options.PlatformSide1 = None,
@@ -40,19 +39,14 @@ def evaluate(
     zp: options.Height = None,
     zs: options.InternalHeight = None,
     theta_z_deg: options.TwistDeg = None,
-    lc: Annotated[
-        str | None,
-        typer.Option(
-            help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; 1 by default."
-        ),
-    ] = None,
+    lc: options.Lc = None,
     json: options.Json = False,
 ) -> None:
     """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
     screen = Screen(json)
     sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
     given = with_length(chosen_design(design, sides, theta_z_deg), lc)
-    values = unit_entry(given.unit) | indices(given)
+    values = unit_entry(given.unit) | indices(given.design)
     table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
     table.add_column()
     table.add_column(justify="right")
@@ -76,8 +70,8 @@ def evaluate(
     p, o = given.configuration.position[2], given.configuration.internal_point[2]
     if not 0.0 < o < p:
         screen.print("O is not between base and platform: studies require 0 < zs < zp.")
-    if design is not None and is_run(design):
-        found = sheet(design_or_result(design), characteristic_length=given.characteristic_length)
+    if given.result is not None:
+        found = sheet(given.result, characteristic_length=given.characteristic_length)
         if len(found.configurations) > 1:
             screen.print(poses_table(found))
         if found.limits:

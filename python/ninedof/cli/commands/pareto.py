@@ -85,12 +85,13 @@ def front_table(front: Front) -> Table:
     title = f"{front.study.words} against {front.limit_name.replace('_', ' ')}"
     table = Table(title=title, title_justify="left", title_style="bold")
     limit = f"{front.limit_name}\n{with_unit('at most', 'deg' if front.unit == 'rad' else front.unit)}"
-    for title in (limit, "objective", "neutral\ncondition number", "price\n% for 1 %"):
+    for title in ("no.", limit, "objective", "neutral\ncondition number", "price\n% for 1 %"):
         table.add_column(title, justify="right")
     table.add_column("limits reached, or why there is no design", overflow="fold")
-    for row in front.table():
+    for number, row in enumerate(front.table(), start=1):  # RUN#1 names the first
         if row["objective"] is None:
-            table.add_row(_limit(front, row["limit"]), "-", "-", "-", f"{row['status']}: {row['reason']}")
+            limit = _limit(front, row["limit"])
+            table.add_row(str(number), limit, "-", "-", "-", f"{row['status']}: {row['reason']}")
             continue
         reached = ", ".join(row["active"]) or "nothing"
         if row["status"] != "optimal":
@@ -100,9 +101,8 @@ def front_table(front: Front) -> Table:
         elif row["price"] == 0.0:
             reached += f" ({front.limit_name} without effect)"
         price = "-" if row["price"] is None else f"{row['price']:.3f}"
-        table.add_row(
-            _limit(front, row["limit"]), f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price, reached
-        )
+        numbers = f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price
+        table.add_row(str(number), _limit(front, row["limit"]), *numbers, reached)
     return table
 
 

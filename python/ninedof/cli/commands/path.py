@@ -8,20 +8,16 @@ from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli.chosen_design import with_length
+from ninedof.cli.chosen_design import named_design, with_length
 from ninedof.cli.motion_summary import draw, legs_table, sentences
-from ninedof.cli.options import Figures, Json, Out
+from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.design.leg_limits import leg_limits_of, other_limits_of
-from ninedof.design.study import Study
 from ninedof.motion import Trajectory, follow
 from ninedof.motion.internal_point import RULES
-from ninedof.paper.published import published_variables
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.design_file import hexagonal_design, load_design
 from ninedof.runs.directory import run_directory
-from ninedof.runs.folder import load_record
 from ninedof.runs.motion_folder import LEGS_FILE, POSES_FILE, write_motion
 from ninedof.support.units import unit_entry
 
@@ -39,9 +35,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 def path(
-    design: Annotated[
-        Path | None, typer.Argument(help="A design file (TOML) or a run folder; the published design if none is given.")
-    ] = None,
+    design: DesignOrPublished = None,
     file: Annotated[
         Path | None,
         typer.Argument(
@@ -70,21 +64,20 @@ def path(
     ] = None,
     force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None,
     moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None,
-    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
+    lc: Lc = None,
     out: Out = None,
     figures: Figures = True,
     json: Json = False,
 ) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break."""
     screen = Screen(json)
-    if file is None and design is not None and design.suffix == ".csv":
-        design, file = None, design
-    given = hexagonal_design(published_variables()) if design is None else load_design(design)
-    given = with_length(given, lc)
+    if file is None and design is not None and design.endswith(".csv"):
+        file, design = Path(design), None
+    given = with_length(named_design(design), lc)
     g, home, length = given.geometry, given.configuration, given.characteristic_length
     shape = {"circle": circle, "line": line, "spiral": spiral}
     trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
-    study = _study(design)
+    study = given.study
     limits: Any = legs if legs is not None or study is None else leg_limits_of(study, float(home.position[2]))
     asked = {"internal_point": _rule(internal_point), "limits": limits, "force": force, "moment": moment}
     with run_directory(out) as directory:
@@ -125,14 +118,6 @@ def _trajectory(
     make = getattr(Trajectory, name)
     made: Trajectory = make(home, *(value if name == "spiral" else (value,)), **options)
     return made
-
-
-def _study(design: Path | None) -> Study | None:
-    """Return the study of a run folder, if it has one."""
-    if design is None or not (design.is_dir() or design.suffix == ".json"):
-        return None
-    asked = load_record(design).asked
-    return asked if isinstance(asked, Study) else None
 
 
 def _rule(text: str) -> str | float:

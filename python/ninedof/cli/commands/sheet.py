@@ -9,7 +9,8 @@ from typing import Annotated
 import typer
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import design_or_result
+from ninedof.cli.chosen_design import named_design
+from ninedof.cli.posed import load_option
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import sheet_tables
 from ninedof.sheet.sheet import sheet as sheet_of
@@ -27,7 +28,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 def sheet(
-    design: Annotated[Path, typer.Argument(help="A run folder or its record.json, or a design file (TOML).")],
+    design: options.Design,
     speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0,
     turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0,
     internal: Annotated[
@@ -45,12 +46,13 @@ def sheet(
 ) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
     screen = Screen(json)
+    chosen = named_design(design)
     found = sheet_of(
-        design_or_result(design),
+        chosen.result or chosen.design,
         linear_speed=speed,
         angular_speed=math.radians(finite("--turn-deg", turn_deg, 0.0)),
         internal=internal,
-        loads=[_load(text) for text in load] if load else None,
+        loads=[load_option(text) for text in load] if load else None,
         leg_errors=leg_error,
         joint_errors=joint_error,
         leg_stiffness=leg_stiffness,
@@ -60,13 +62,3 @@ def sheet(
     if csv is not None:
         write_whole(csv, found.to_csv().encode())
     screen.data(found.to_dict())
-
-
-def _load(text: str) -> list[float]:
-    try:
-        numbers = [float(word) for word in text.replace(",", " ").split()]
-    except ValueError:
-        numbers = []
-    if len(numbers) != 6:
-        raise ValueError(f'--load: got {text!r}, expected six numbers "mx my mz fx fy fz"')
-    return numbers

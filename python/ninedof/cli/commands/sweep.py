@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -12,16 +11,14 @@ import numpy as np
 import typer
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import chosen_design, length_option, with_length
+from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.long_run import compute, run_folder, write
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
-from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.design.indices import computed
-from ninedof.paper.published import published_variables
-from ninedof.runs.design_file import Design, hexagonal_design
+from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
+from ninedof.design.indices import INDICES
 from ninedof.support.angles import DEG, plain_name
-from ninedof.support.arguments import choice, shown
+from ninedof.support.arguments import choice
 from ninedof.support.arrays import thread_argument
 from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
 from ninedof.sweep import sweep as sweep_poses
@@ -39,28 +36,31 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof sweep design.toml --over z_s=-1:1:401 --index singular_values --index leg_lengths
 
-  ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations"""
+  ninedof sweep --over a1=0:3:31 --over b2=0:3:31      designs in place of configurations
+
+  ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
 def sweep(
     what: Annotated[
         str | None,
         typer.Argument(
-            help="figure-6, figure-7, or a design: a file (TOML), a run folder or its record.json. By default the "
-            "published design at its best zs."
+            help=f"figure-6, figure-7, or {options.DESIGN}. By default the published design at its best zs."
         ),
     ] = None,
     over: Annotated[
         list[str] | None,
         typer.Option(
             help="NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,..., up to three times. Names: x_p y_p z_p theta_x theta_y "
-            "theta_z x_s y_s z_s, or a1 a2 b1 b2 zp zs of designs. Angles in radians, or in degrees with _deg behind "
-            "the name."
+            "theta_z x_s y_s z_s, or variables of the design's family, as a1 a2 b1 b2 zp zs. Angles in radians, or in "
+            "degrees with _deg behind the name."
         ),
     ] = None,
     index: Annotated[
         list[str] | None,
-        typer.Option(help=f"The index, condition_number by default; may be repeated. One of {', '.join(computed())}."),
+        typer.Option(
+            help=f"The index, condition_number by default; may be repeated. One of {', '.join(INDICES)} (of designs)."
+        ),
     ] = None,
     absolute: Annotated[
         bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
@@ -75,7 +75,7 @@ def sweep(
     zp: options.Height = None,
     zs: options.InternalHeight = None,
     theta_z_deg: options.TwistDeg = None,
-    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number or a kind.")] = None,
+    lc: options.Lc = None,
     points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None,
     chunk: Annotated[int | None, typer.Option(help="Points per chunk. The result does not depend on it.")] = None,
     out: options.Out = None,
@@ -115,9 +115,9 @@ def sweep(
             )
         else:
             _expect_none("in a sweep over designs", of_poses)
-            held = _variables(what, sides, theta_z_deg, grid)
-            length = 1.0 if lc is None else length_option(lc)
-            asked = partial(sweep_designs, held, grid, indices, characteristic_length=length, chunk=chunk)
+            family, held, length, unit = swept_design(what, sides, theta_z_deg, grid, lc)
+            of_family = partial(sweep_designs, family=family, characteristic_length=length, unit=unit)
+            asked = partial(of_family, held, grid, indices, chunk=chunk)
     with run_folder(out, resume) as directory:
         result = compute(asked, title, directory, scheduler, screen)
     if result is None:
@@ -137,8 +137,11 @@ def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str
     _expect_none("with --over", {"points": points})
     grid = dict(parse_over(text) for text in over)
     for name in grid:
-        choice("--over", name, (*COORDINATES, *ANGLES_DEG, *HEXAGONAL))
-    if set(grid) & set(HEXAGONAL) and set(grid) - {*HEXAGONAL, "theta_z", "theta_z_deg"}:  # theta_z is both
+        if plain_name(name) not in VARIABLES:
+            hexagonal = (n for n in FAMILIES["hexagonal"] if n not in COORDINATES)
+            choice("--over", name, (*COORDINATES, *ANGLES_DEG, *hexagonal))
+    plain = {plain_name(name) for name in grid}
+    if not plain <= set(COORDINATES) and not plain <= VARIABLES:  # theta_z is both
         got = ", ".join(grid)
         raise ValueError(f"--over: got {got}, expected coordinates of the configuration or variables of the design")
     if len(grid) < len(over):
@@ -170,27 +173,11 @@ def parse_over(text: str) -> tuple[str, Values]:
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
 
 
-def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Design:
+def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:
     """Return the given design, or the published one at its best zs."""
     if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
-        return hexagonal_design(published_variables())
-    return chosen_design(None if what is None else Path(what), sides, theta_z_deg)
-
-
-def _variables(
-    what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None, over: Mapping[str, Values]
-) -> dict[str, float]:
-    """Return the fixed variables of a sweep over designs, those of the published design by default."""
-    if what is not None:
-        raise ValueError(f"sweep: got {shown(what)} and --over {', '.join(over)}, expected a design by --a1 ... --zs")
-    given = {name: value for name, value in sides.items() if value is not None}
-    over = {plain_name(name): axis for name, axis in over.items()}
-    if both := sorted(set(given) & set(over)):
-        raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
-    values = given or published_variables()
-    if theta_z_deg is not None:
-        values["theta_z"] = math.radians(theta_z_deg)
-    return {name: value for name, value in values.items() if name not in over}
+        return named_design(None)
+    return chosen_design(what, sides, theta_z_deg)
 
 
 def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]:

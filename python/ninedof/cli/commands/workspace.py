@@ -5,23 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import partial
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
 
-from ninedof.cli.chosen_design import with_length
-from ninedof.cli.options import Figures, Json, Out, Threads
+from ninedof.cli.chosen_design import named_design, with_length
+from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_limits import asked_lines, criteria_asked, rule_asked
 from ninedof.cli.workspace_summary import draw, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.indices import computed
-from ninedof.paper.published import published_variables
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.design_file import hexagonal_design, load_design, study_of
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arguments import finite
@@ -44,12 +41,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 def workspace(
-    design: Annotated[
-        Path | None,
-        typer.Argument(
-            help="A design file (TOML), a run folder or its record.json; the published design if none is given."
-        ),
-    ] = None,
+    design: DesignOrPublished = None,
     archetype: Annotated[
         str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
     ] = "constant_orientation",
@@ -102,7 +94,7 @@ def workspace(
             help="Position of O: best, held (as at home), or a fraction between the plates; by default the design's."
         ),
     ] = None,
-    lc: Annotated[str | None, typer.Option(help="Characteristic length: a number, or a kind taken at home.")] = None,
+    lc: Lc = None,
     method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree",
     tolerance: Annotated[float, typer.Option(help="Wanted error, as a share of the volume.")] = 1e-3,
     resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None,
@@ -123,8 +115,7 @@ def workspace(
     """
     screen = Screen(json)
     thread_argument(threads)
-    given = hexagonal_design(published_variables()) if design is None else load_design(design)
-    given = with_length(given, lc)
+    given = with_length(named_design(design), lc)
     options = {
         "leg_length": legs,
         "external_length": external,
@@ -138,7 +129,7 @@ def workspace(
         "leg_clearance": clearance,
         "singularity_free": singularity_free,
     }
-    study = study_of(design) if design is not None and study_limits else None
+    study = given.study if study_limits else None
     home = given.configuration
     criteria, own, left = criteria_asked(study, float(home.position[2]), options)
     if not criteria:

@@ -1,0 +1,78 @@
+"""The variables of a design family that make a given robot."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
+
+SAME = 1e-12  # of the largest coordinate
+
+
+def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dict[str, float] | None:
+    """Return the variables of a family whose design is a given robot at its neutral pose; None if there are none.
+
+    Parameters
+    ----------
+    family : str
+        As in `Study`.
+    geometry : Geometry
+    neutral : Configuration
+        A single one; of a family's designs p and O are on the z axis, and the platform turns about it alone.
+
+    """
+    known = [name for name, *_ in _core.family_variables(family)]
+    found = _heights(neutral) | _hexagon(geometry) | _polar(geometry) | _coordinates(geometry)
+    values = {name: found[name] for name in known}
+    try:
+        point = Study(family, variables=values).evaluate(values)
+    except ValueError:  # a side below 0, zs above zp
+        return None
+    made = triples(point.geometry) | arrays_of(point.configuration)
+    given = triples(geometry) | arrays_of(neutral)
+    unit = max(float(np.abs(array).max()) for array in given.values())
+    same = all(np.abs(made[name] - array).max() <= SAME * unit for name, array in given.items())
+    return values if same else None
+
+
+def _heights(neutral: Configuration) -> dict[str, float]:
+    q = neutral.rotation
+    heights = {"zp": float(neutral.position[2]), "zs": float(neutral.internal_point[2])}
+    return heights | {"theta_z": math.atan2(float(q[1, 0]), float(q[0, 0]))}
+
+
+def _hexagon(geometry: Geometry) -> dict[str, float]:
+    """Return the sides: the joints of eqs. (37)-(38) are linear in them."""
+    units = [triples(Geometry.hexagonal(x, y, x, y)) for x, y in ((1.0, 0.0), (0.0, 1.0))]
+    found: dict[str, float] = {}
+    for body, sides in (("base", ("a1", "a2")), ("platform", ("b1", "b2"))):
+        names = [name for name in TRIPLES if name.startswith(body)]
+        columns = [np.concatenate([unit[name].ravel() for name in names]) for unit in units]
+        joints = np.concatenate([getattr(geometry, name).ravel() for name in names])
+        solved = np.linalg.lstsq(np.stack(columns, axis=1), joints, rcond=None)[0]
+        rounding = SAME * float(np.abs(solved).max())
+        found |= {side: 0.0 if abs(x) <= rounding else float(x) for side, x in zip(sides, solved, strict=True)}
+    return found
+
+
+def _polar(geometry: Geometry) -> dict[str, float]:
+    """Return radius, angle and height of the first joint of each triple."""
+    found: dict[str, float] = {}
+    for name, points in triples(geometry).items():
+        x, y, z = points[0].tolist()
+        found |= {f"{name}_radius": math.hypot(x, y), f"{name}_angle": math.atan2(y, x), f"{name}_height": z}
+    return found
+
+
+def _coordinates(geometry: Geometry) -> dict[str, float]:
+    return {
+        f"{name}_{i + 1}_{axis}": float(value)
+        for name, points in triples(geometry).items()
+        for i, point in enumerate(points)
+        for axis, value in zip("xyz", point, strict=True)
+    }

@@ -1,0 +1,126 @@
+"""Runs and designs as objects: `load` returns what a path names, `save` writes it there."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+from ninedof.motion import Followed
+from ninedof.optimize.result import Result
+from ninedof.pareto import Front
+from ninedof.runs import folder
+from ninedof.runs.design_file import Design, load_design, save_design
+from ninedof.runs.directory import new_directory
+from ninedof.runs.motion_folder import load_motion, write_motion
+from ninedof.support.arguments import shown
+from ninedof.sweep import SweepResult
+from ninedof.workspace import WorkspaceMap
+
+POINT = "#"
+
+Kept = Result | Front | WorkspaceMap | SweepResult | Followed | Design
+
+
+def load(path: str | os.PathLike[str]) -> Kept:
+    """Read what a path names: a run folder, one point of it, or a design file.
+
+    Parameters
+    ----------
+    path : path
+        A run folder or its record.json; a design file (TOML); or "RUN#7", point 7 of the front in the folder RUN,
+        counted from 1 as its table numbers them. Of an optimization "RUN#2" is the second-best optimum.
+
+    Returns
+    -------
+    Result, Front, WorkspaceMap, SweepResult, Followed or Design
+        An atlas is a SweepResult; a point of a front is a Result, whose study has the limit of that point; a design
+        file is a Design. Robots are made anew from their variables; all other numbers are those written.
+
+    Raises
+    ------
+    ValueError
+        If there is no such record, file or point, or it is not whole; the message names it.
+
+    See Also
+    --------
+    save : the reverse.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> found = nd.sweep(g, nd.Configuration.neutral(3.9828, 2.4432), {"x_p": (-1.0, 1.0, 5)})
+    >>> with tempfile.TemporaryDirectory() as empty:
+    ...     path = nd.save(found, empty)
+    ...     nd.load(empty)
+    <SweepResult condition_number(x_p: 5)>
+
+    """
+    place, point = split(os.fspath(path))
+    if place.suffix == ".toml":
+        if point:
+            raise ValueError(f"{os.fspath(path)}: got a point of a design file, expected one of a run")
+        return load_design(place)
+    found = _run(place)
+    return _point(found, point, os.fspath(path)) if point else found
+
+
+def save(kept: Kept, path: str | os.PathLike[str]) -> Path:
+    """Write what a run or a design is, so that `load` gives it back.
+
+    Parameters
+    ----------
+    kept : Result, Front, WorkspaceMap, SweepResult, Followed or Design
+    path : path
+        The run folder, new or empty: a run never overwrites another. A Design is written as a TOML file.
+
+    Returns
+    -------
+    pathlib.Path
+        Of the record in the folder, or of the design file.
+
+    Raises
+    ------
+    ValueError
+        If the folder exists and is not empty, or it is no run.
+
+    See Also
+    --------
+    load : the reverse, with an example.
+
+    """
+    if isinstance(kept, Design):
+        return save_design(kept, path)
+    if not isinstance(kept, Result | Front | WorkspaceMap | SweepResult | Followed):
+        raise ValueError(f"kept: got {shown(kept)}, expected a run or a design")
+    directory = new_directory(Path(path))
+    return write_motion(kept, directory) if isinstance(kept, Followed) else folder.write_run(kept, directory)
+
+
+def split(name: str) -> tuple[Path, str]:
+    """Return the path and the point of "RUN#7"; no point where there is none, or a file has this name."""
+    before, mark, point = name.rpartition(POINT)
+    return (Path(before), point) if mark and before and not Path(name).exists() else (Path(name), "")
+
+
+def _run(place: Path) -> Result | Front | WorkspaceMap | SweepResult | Followed:
+    return load_motion(place) if folder.load_record(place).kind == "motion" else folder.load(place)
+
+
+def _point(found: Kept, point: str, name: str) -> Result:
+    """Return one point of a run, counted from 1."""
+    if isinstance(found, Front):
+        count, what = len(found.results), "front"
+    elif isinstance(found, Result):
+        count, what = len(found.candidates), "optimization"
+    else:
+        raise ValueError(f"{name}: got a point of a run that has none, expected a front or an optimization")
+    number = int(point) if point.isdecimal() else 0
+    if not 1 <= number <= count:
+        expected = f"a number from 1 to {count}" if count else "no number: it has no design"
+        raise ValueError(f"{name}: got {point} of an {what}, expected {expected}".replace("an front", "a front"))
+    if isinstance(found, Front):
+        return found.results[number - 1]
+    return replace(found, candidates=found.candidates[number - 1 :])
