@@ -1,4 +1,11 @@
-"""Kinematic design of the nine-degree-of-freedom redundant parallel manipulator of Zanganeh and Angeles."""
+"""Kinematic design of the nine-degree-of-freedom redundant parallel manipulator of Zanganeh and Angeles.
+
+Figures are in `ninedof.plot`, which is loaded, with matplotlib, when it is first used.
+"""
+
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING
+from typing import Any as _Any
 
 try:
     from ninedof import _core
@@ -64,6 +71,9 @@ from ninedof.workspace import (
     spread_rotations,
     workspace,
 )
+
+if TYPE_CHECKING:
+    from ninedof import plot as plot
 
 __version__: str = _core.version
 
@@ -158,3 +168,15 @@ __all__ = [
     "velocity_matrices",
     "workspace",
 ]
+
+
+def __getattr__(name: str) -> _Any:
+    """Load the figures when they are first used."""
+    if name == "plot":
+        return _import_module("ninedof.plot")
+    raise AttributeError(f"module 'ninedof' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the names, those of the figures too."""
+    return sorted({*globals(), "plot"})

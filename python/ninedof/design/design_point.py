@@ -11,6 +11,7 @@ import numpy as np
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.short import short_repr
 
 if TYPE_CHECKING:
     from ninedof import _core
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 LARGEST = 1e200  # of an objective; beyond, the core has replaced a vanishing singular value by 1e-300
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class DesignPoint:
     """One design of a study, with exact gradients."""

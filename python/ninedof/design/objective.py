@@ -13,6 +13,7 @@ from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
 from ninedof.design.region import Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
+from ninedof.support.short import short_repr
 
 Made = TypeVar("Made")
 
@@ -27,6 +28,7 @@ SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": po
 SET_KEYS = {name: list(signature(make).parameters) for name, make in SETS.items()}  # the first of each is required
 
 
+@short_repr
 @dataclass(frozen=True)
 class Objective:
     """The number that an optimization minimizes. By default the condition number at the neutral pose.

@@ -8,6 +8,7 @@ from typing import Any
 
 from ninedof.support.angles import rotation_entry, vector_argument
 from ninedof.support.arguments import Vector, choice, finite, known_keys, shown, vector
+from ninedof.support.short import short_repr
 from ninedof.support.units import scale_argument
 
 ZERO: Vector = (0.0, 0.0, 0.0)
@@ -16,6 +17,7 @@ DEFAULT_INTERNAL_POINT = "carried"
 POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit", "weight")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Pose:
     """A pose of the platform and of O, relative to the neutral pose of a design.

@@ -9,12 +9,14 @@ from typing import Any
 
 from ninedof.support.angles import exact_degrees
 from ninedof.support.arguments import Vector, choice, finite, items, known_keys, pair, vector
+from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
 INTERNAL_POINTS = ("carried", "held")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Region:
     """Every tilt and yaw at every position of a box, ball, cylinder or path: the poses a machine is built for.

@@ -19,6 +19,7 @@ from ninedof.design.study_file import read_toml, study_arguments, study_tables, 
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import DEG, degrees_of, in_radians
 from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
+from ninedof.support.short import short_repr
 from ninedof.support.units import unit_argument
 
 Bound = float | tuple[float, float]
@@ -27,6 +28,7 @@ Bound = float | tuple[float, float]
 LENGTH = "characteristic_length"
 
 
+@short_repr
 @dataclass(frozen=True)
 class Study:
     """A design problem: minimize an objective over the free variables of a family, subject to limits.

@@ -12,8 +12,10 @@ from ninedof.conditioning.characteristic_length import operands_and_length
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, filled, thread_argument
+from ninedof.support.short import short_repr
 
 
+@short_repr
 class VelocityMatrices(NamedTuple):
     """The matrices of eqs. (30)-(35); leading dimensions are those of the configuration."""
 

@@ -15,6 +15,7 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
+from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
 
 LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
@@ -22,6 +23,7 @@ ROUNDING = 1e-9  # of a limit: a length that passes it by less keeps it
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
+@short_repr
 class LimitBreak(NamedTuple):
     """A stretch of time in which a limit is not kept."""
 

@@ -16,6 +16,7 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.short import short_repr
 
 HEXAGONAL_LIMIT = 2.5358420229115416
 """Infimum over the plates of eqs. (37)-(38) with 0 < zs < zp and no twist: the base grows without end."""
@@ -29,6 +30,7 @@ LEAST_RHO = 0.51
 singular values do better than its sub-family."""
 
 
+@short_repr
 @dataclass(frozen=True)
 class LowerBound:
     """A lower bound of the condition number at the neutral pose."""

@@ -13,6 +13,7 @@ from ninedof.optimize.result import Candidate, Result, candidate_from, result_fr
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.short import short_repr
 
 
 def optimize(
@@ -79,6 +80,7 @@ def optimize(
     return solve(study, study.starts, warm)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Trace:
     """One run from one start."""

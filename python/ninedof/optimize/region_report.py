@@ -8,10 +8,12 @@ from typing import Any
 
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
+from ninedof.support.short import short_repr
 
 PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
 
 
+@short_repr
 @dataclass(frozen=True)
 class RegionMean:
     """The harmonic mean of an index over a region."""

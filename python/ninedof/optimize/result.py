@@ -13,10 +13,12 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
+from ninedof.optimize.result_html import result_html
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.support.short import short_repr
 
 if TYPE_CHECKING:
     from ninedof import _core
@@ -43,6 +45,7 @@ class Status(StrEnum):
 DERIVED = {"derived": True}  # fields that follow from others
 
 
+@short_repr
 @dataclass(frozen=True)
 class Candidate:
     """A local optimum that passed the checks."""
@@ -171,6 +174,16 @@ class Result:
             best.geometry, poses.position, poses.rotation, characteristic_length=best.characteristic_length
         )
         return f"{said}: this design would have {placed.value.max():.6f} at worst, limits aside"
+
+    def __repr__(self) -> str:
+        """Show the status, and the objective and active limits of the best candidate."""
+        if self.best is None:
+            return f"<Result: {self.status}, causes: {', '.join(self.causes) or 'none found'}>"
+        value = f"{self.study.objective.words} {self.best.objective:.6f}"
+        return f"<Result: {self.status}, {value}, limits reached: {', '.join(self.best.active) or 'nothing'}>"
+
+    def _repr_html_(self) -> str:
+        return result_html(self)
 
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""

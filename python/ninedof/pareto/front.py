@@ -10,6 +10,7 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.limited import unit_of, without_degrees
+from ninedof.support.html import html_table
 from ninedof.support.units import unit_entry
 
 SAME = 1e-9  # relative: smaller differences of objectives do not count
@@ -38,6 +39,30 @@ class Front:
     def __iter__(self) -> Iterator[Result]:
         """Iterate over the results, from the tightest limit to the loosest."""
         return iter(self.results)
+
+    def __repr__(self) -> str:
+        """Show the ends of the limit and of the objective."""
+        found = [value for value in self.objectives if not math.isnan(value)]
+        ends = f"{self.limits[0]:.6g} to {self.limits[-1]:.6g}" if self.limits else "none"
+        reached = f"{max(found):.6f} to {min(found):.6f}" if found else "no design"
+        count = f"{len(self)} limits of {self.against}, {ends}"
+        return f"<Front: {count}: {self.study.objective.words} {reached}{', interrupted' * self.interrupted}>"
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for number, row in enumerate(self.table(), start=1):
+            reached = ", ".join(row["active"] or ()) or "nothing"
+            words = f"{row['status']}: {row['reason']}" if row["objective"] is None else reached
+            rows.append((number, *(row[key] for key in ("limit", "objective", "condition_number", "price")), words))
+        head = (
+            "no.",
+            f"{self.against} at most",
+            "objective",
+            "neutral condition number",
+            "price, % for 1 %",
+            "limits reached",
+        )
+        return html_table(f"{self.study.objective.words} against {self.against}", rows, head)
 
     @property
     def objectives(self) -> tuple[float, ...]:

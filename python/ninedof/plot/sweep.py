@@ -151,6 +151,11 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
     unit : str
         Of lengths.
 
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> figure = nd.plot.figure_6(nd.sweep_figure("6", points=11))
+
     """
     names, x, rows = (result[key] for key in ("coordinate", "displacement", "condition_number"))
     ends = [x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]]
@@ -190,6 +195,11 @@ def figure_7(result: SweepResult) -> Figure:
     ----------
     result : SweepResult
         The result of `ninedof.sweep_figure("7")`.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> figure = nd.plot.figure_7(nd.sweep_figure("7", points=3))
 
     """
     names, x, rows = (result[key] for key in ("sides", "ratio", "condition_number"))

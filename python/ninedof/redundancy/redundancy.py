@@ -14,6 +14,7 @@ from ninedof.redundancy.search_arguments import poses_of, problem_of, starts_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_floats, as_number, thread_argument
+from ninedof.support.short import short_repr
 
 
 class InternalPointStatus(StrEnum):
@@ -43,6 +44,7 @@ MEETING = 1e-6  # distance of the two ends of a round, over the largest coordina
 STATUSES = np.array([InternalPointStatus(word) for word in _core.internal_point_statuses], dtype=object)
 
 
+@short_repr
 @dataclass(frozen=True)
 class InternalPoint:
     """Internal points, one for each pose."""

@@ -14,8 +14,10 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.short import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class MapAudit:
     """How often continuation missed a better point, from searches of poses drawn at random."""
@@ -29,6 +31,7 @@ class MapAudit:
     one. For "leg_centring" the difference of the sums of squares."""
 
 
+@short_repr
 @dataclass(frozen=True)
 class InternalPointMap(InternalPoint):
     """Internal points of a grid of poses, with the audit of the map."""

@@ -18,9 +18,11 @@ from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
 from ninedof.support.arguments import is_number, known_keys, number, table
+from ninedof.support.short import short_repr
 from ninedof.support.units import unit_argument, unit_entry
 
 
+@short_repr
 class Design(NamedTuple):
     """A geometry, a configuration and the characteristic length to judge them by: what a design file holds."""
 

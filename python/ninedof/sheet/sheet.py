@@ -23,6 +23,7 @@ from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import error_bounds
 from ninedof.statics.statics import stiffness
 from ninedof.support.arrays import Floats
+from ninedof.support.html import html_table
 from ninedof.support.units import per, unit_argument, with_unit
 
 
@@ -127,6 +128,12 @@ class Sheet:
         return (
             f"<Sheet over {len(self.configurations)} poses: worst condition number {self.condition_number.value:.6g}>"
         )
+
+    def _repr_html_(self) -> str:
+        keys = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "speed")
+        rows = [(leg.name, *(getattr(leg, key) for key in keys)) for leg in self.legs]
+        others = "; ".join(sheet_words(self)[1 + len(rows) :])
+        return html_table(f"{repr(self)[1:-1]}; {others}", rows, ("leg", *(key.replace("_", " ") for key in keys)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses".

@@ -11,6 +11,7 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, as_number, checked_out, thread_argument
+from ninedof.support.short import short_repr
 
 
 class Mechanism(StrEnum):
@@ -26,6 +27,7 @@ class Mechanism(StrEnum):
     """O is in the plane of the upper internal joints; the platform can move while O is at rest."""
 
 
+@short_repr
 class SingularityMargins(NamedTuple):
     """Signed determinants, each in [-1, 1]: zero at a singularity, the same in any length unit."""
 
@@ -37,6 +39,7 @@ class SingularityMargins(NamedTuple):
     """Of the unit vectors of the upper internal legs, platform joint to O; shape (...)."""
 
 
+@short_repr
 class Singularity(NamedTuple):
     """The weakest mechanism of a configuration; leading dimensions are those of the configuration."""
 

@@ -11,8 +11,10 @@ from ninedof.robot.configuration import Configuration, operands_with
 from ninedof.robot.geometry import Geometry
 from ninedof.singularity.singularity import mechanisms_of
 from ninedof.support.arrays import Floats, as_number, thread_argument
+from ninedof.support.short import short_repr
 
 
+@short_repr
 class SingularityDistance(NamedTuple):
     """The first singular configuration on a path; leading dimensions broadcast."""
 

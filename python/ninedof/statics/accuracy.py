@@ -12,10 +12,12 @@ from ninedof.robot.configuration import Configuration, Operands, operands, opera
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
+from ninedof.support.short import short_repr
 
 CHUNK = 20_000  # samples per call of the core, some hundredths of a second: Ctrl-C is checked between chunks
 
 
+@short_repr
 class ErrorBounds(NamedTuple):
     """First-order effect of errors; leading dimensions are those of the configuration and the tolerances."""
 

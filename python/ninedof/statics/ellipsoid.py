@@ -14,6 +14,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
 
 _VELOCITY = {
     "translation": _core.velocity_ellipsoid_translation,
@@ -27,6 +28,7 @@ _FORCE = {
 }
 
 
+@short_repr
 class Ellipsoid(NamedTuple):
     """Ellipsoids around 0 in n = 3 or 6 dimensions; leading dimensions are those of the configuration."""
 

@@ -11,8 +11,10 @@ from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats, one_or_each
+from ninedof.support.short import short_repr
 
 
+@short_repr
 class LegForces(NamedTuple):
     """Leg forces for a load; leading dimensions are those of the configuration and the load."""
 

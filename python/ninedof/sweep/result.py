@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from ninedof.design.indices import size_of
 from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, Saved
+from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
+from ninedof.support.short import short
 
 HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
 
@@ -55,6 +57,23 @@ class SweepResult(Saved):
         """Show names and shapes."""
         shown = (f"{n}({', '.join(f'{d}: {len(self.coords[d])}' for d in self.dims[n])})" for n in self.arrays)
         return f"<SweepResult {', '.join(shown)}>"
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for name, array in self.arrays.items():
+            over = " x ".join(f"{len(self.coords[d])} {d}" for d in self.dims[name])
+            missing = array.dtype.kind != "f" or bool(np.isnan(array).all())
+            value, where = (None, {}) if missing else self.least(name)
+            rows.append(
+                (
+                    name,
+                    self.units.get(name, "1"),
+                    over,
+                    value,
+                    ", ".join(f"{d} = {x if isinstance(x, str) else short(x)}" for d, x in where.items()),
+                )
+            )
+        return html_table("SweepResult", rows, ("index", "unit", "over", "least", "at"))
 
     def at(self, name: str, position: tuple[Any, ...]) -> dict[str, Any]:
         """Return the values of the coordinates at a position of an array, by dimension.

@@ -66,6 +66,11 @@ class Check:
                 return finding
         raise KeyError(f"{name!r}; there are {', '.join(finding.name for finding in self.findings)}")
 
+    def __repr__(self) -> str:
+        """Show the verdict and the tests that failed."""
+        failed = [finding.name for finding in self.findings if not finding.passed]
+        return f"<Check: {len(self.findings)} tests, {'failed ' + ', '.join(failed) if failed else 'all passed'}>"
+
     def report(self) -> str:
         """Return the tests and their outcomes as text, one line per test."""
         failed = sum(not finding.passed for finding in self.findings)

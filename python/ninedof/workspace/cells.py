@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 
 from ninedof import _core
 from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
 
 LIMITS: tuple[str, ...] = tuple(_core.workspace_limits)
 GROUPS = ("base_cone", "platform_cone", "leg_clearance")
 
 
+@short_repr
 class WorkspaceCells(NamedTuple):
     """The cells of a map, those outside included; the points of a sample. All arrays have n rows."""
 
@@ -34,6 +36,7 @@ class WorkspaceCells(NamedTuple):
     """The connected piece, as numbered in `WorkspaceMap.pieces`; -1 outside."""
 
 
+@short_repr
 class WorkspaceSlice(NamedTuple):
     """A plane section of a map, on a square raster. Arrays have the shape (len(vertical), len(horizontal))."""
 

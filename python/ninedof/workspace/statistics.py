@@ -12,9 +12,11 @@ from ninedof.design.indices import Index, size_of
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
 from ninedof.workspace.cells import WorkspaceCells
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class IndexStatistics:
     """An index over a workspace; lists have one entry for each component of an index of several numbers.

@@ -153,6 +153,7 @@ def tell(name, value):
     print(name, repr(value), sep="=", flush=True)
 import ninedof as nd
 tell("imported", loaded())
+tell("listed", "plot" in dir(nd))
 before = {name: getattr(nd, name) for name in nd.__all__}
 tell("callable", all(callable(thing) for thing in before.values()))
 
@@ -162,8 +163,7 @@ tell("main job", nd.optimize(nd.Study.paper()).status.value)
 for name in optional:
     del sys.modules[name]
 
-from ninedof import plot
-tell("with figures", loaded())
+tell("with figures", (nd.plot.__name__, callable(nd.plot.front), loaded()))
 
 import importlib
 for module in MODULES:
@@ -199,8 +199,17 @@ def test_import_is_light(told):
 
 
 def test_figures_need_no_pyplot(told):
-    assert "matplotlib.figure" in told["with figures"]
-    assert "matplotlib.pyplot" not in told["with figures"]
+    name, drawn, loaded = told["with figures"]
+    assert (name, drawn) == ("ninedof.plot", True)
+    assert "matplotlib.figure" in loaded
+    assert "matplotlib.pyplot" not in loaded
+
+
+def test_figures_are_an_attribute_that_is_loaded_late(told):
+    assert told["listed"]
+    assert "ninedof.plot" not in told["imported"]
+    with pytest.raises(AttributeError, match="no attribute 'plott'"):
+        _ = nd.plott
 
 
 def test_the_main_job_without_optional_packages(told):

@@ -1,5 +1,6 @@
 """Links of the documents lead somewhere; the README runs as written. test_equations.py checks the tables."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -46,6 +47,25 @@ def test_the_python_of_the_readme_runs_as_written(capsys):
     assert "optimal" in shown
     assert round(known["found"].volume, 1) == 7.8
     assert round(known["result"].condition_number, 6) == 3.749827
+
+
+def test_the_page_of_figures_runs_as_written_and_leaves_out_none(tmp_path, monkeypatch):
+    from matplotlib.figure import Figure
+
+    from ninedof import plot
+
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
+    code = "\n".join(re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL))
+    drawn, known = [], {}
+    for statement in ast.parse(code).body:
+        exec(compile(ast.Module([statement], []), "figures.md", "exec"), known)
+        if ast.unparse(statement).startswith("figure = "):
+            drawn.append(known["figure"])
+    assert len(drawn) == code.count("figure = nd.plot.") == 12
+    assert all(isinstance(figure, Figure) for figure in drawn)
+    assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == ["mechanisms.png", "mechanisms.svg"]
+    assert [name for name in plot.__all__ if f"nd.plot.{name}(" not in code] == []
 
 
 def test_the_citation_is_complete_and_of_this_version():

@@ -1,0 +1,31 @@
+"""A result as a small table for notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ninedof.support.html import html_table
+
+SHOWN = 4  # candidates, side by side
+
+
+def result_html(result: Any) -> str:
+    """Return a table with a column for each of the best candidates; takes a Result."""
+    shown = result.candidates[:SHOWN]
+    head = ["", *("best" if k == 0 else f"no. {k + 1}" for k in range(len(shown)))]
+    return html_table(f"{result.status}: {result.reason}", _rows(result, shown), head if shown else ())
+
+
+def _rows(result: Any, shown: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
+    if not shown:
+        yield "causes", ", ".join(result.causes) or "none found"
+        return
+    yield result.study.objective.words, *(f"{c.objective:.6f}" for c in shown)
+    yield "condition number, neutral pose", *(f"{c.condition_number:.6f}" for c in shown)
+    for name, bound in result.study.variables.items():
+        if isinstance(bound, tuple):
+            yield name, *(c.variables[name] for c in shown)
+    yield "characteristic length", *(c.characteristic_length for c in shown)
+    yield "limits reached", *(", ".join(c.active) or "nothing" for c in shown)
+    yield "starts that ended here", *(f"{c.reached} of {result.starts_done}" for c in shown)

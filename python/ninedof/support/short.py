@@ -1,0 +1,88 @@
+"""Short text of objects: whole where it is a few numbers, shape and range where it is many."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, fields, is_dataclass
+from enum import Enum
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+FEW = 9  # entries of an array that are printed
+FEW_ITEMS = 4  # of anything else
+LONGEST = 300  # characters of the text of one value
+PLAIN = (bool, int, float, str, tuple, type(None))
+
+Kind = TypeVar("Kind", bound=type)
+
+
+def short_repr(kind: Kind) -> Kind:
+    """Give a dataclass or a named tuple a short repr: a constructor call without fields that have their default."""
+    kind.__repr__ = _call  # type: ignore[method-assign, assignment]
+    return kind
+
+
+def short(value: Any) -> str:
+    """Return the text of one value."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return _array(value)
+    if isinstance(value, np.ndarray | np.generic):
+        return short(value.item())
+    if isinstance(value, Enum):
+        return repr(str(value.value))
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, Mapping):
+        listed = [f"{key}: {short(one)}" for key, one in list(value.items())[:FEW]]
+        return "{" + ", ".join([*listed, *_more(len(value), FEW)]) + "}"
+    if isinstance(value, list | tuple) and not hasattr(value, "_fields"):
+        return _sequence(value)
+    text = repr(value)
+    return text if len(text) <= LONGEST else f"<{type(value).__name__}>"
+
+
+def _call(thing: Any) -> str:
+    return f"{type(thing).__name__}({', '.join(f'{name}={short(value)}' for name, value in _fields(thing))})"
+
+
+def _fields(thing: Any) -> list[tuple[str, Any]]:
+    if not is_dataclass(thing):
+        return [(name, getattr(thing, name)) for name in thing._fields]
+    found = []
+    for one in fields(thing):
+        value = getattr(thing, one.name)
+        default = one.default_factory() if one.default_factory is not MISSING else one.default
+        plain = isinstance(value, PLAIN) and not isinstance(value, Enum)
+        if one.repr and not (plain and type(default) is type(value) and default == value):
+            found.append((one.name, value))
+    return found
+
+
+def _array(values: NDArray[Any]) -> str:
+    if values.size <= FEW:
+        return short(values.tolist())
+    what = f"array {'x'.join(map(str, values.shape))}"
+    if values.dtype.kind not in "iuf":
+        return f"<{what}>"
+    known = values[~np.isnan(values)] if values.dtype.kind == "f" else values
+    missing = f", {values.size - known.size} NaN" if known.size < values.size else ""
+    if not known.size:
+        return f"<{what}, all NaN>"
+    return f"<{what}, {short(known.min())} to {short(known.max())}{missing}>"
+
+
+def _sequence(values: list[Any] | tuple[Any, ...]) -> str:
+    left, right = ("(", ")") if isinstance(values, tuple) else ("[", "]")
+    numbers = all(isinstance(one, int | float | str | np.generic) for one in values)
+    most = FEW if numbers else FEW_ITEMS
+    if not numbers and len(values) > most and len({type(one) for one in values}) == 1:
+        return f"<{len(values)} x {type(values[0]).__name__}>"
+    listed = [*(short(one) for one in values[:most]), *_more(len(values), most)]
+    comma = "," if isinstance(values, tuple) and len(values) == 1 else ""
+    return left + ", ".join(listed) + comma + right
+
+
+def _more(count: int, most: int) -> list[str]:
+    return [f"... {count - most} more"] if count > most else []
