@@ -49,6 +49,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
 from ninedof.runs.objects import load, save
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.singularity.nearest_singularity import NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import (
     Mechanism,
     Singularity,
@@ -96,6 +97,7 @@ __all__ = [
     "LowerBound",
     "MapAudit",
     "Mechanism",
+    "NearestSingularity",
     "Objective",
     "Pose",
     "PositionStatus",
@@ -146,6 +148,7 @@ __all__ = [
     "leg_lengths",
     "load",
     "manipulability",
+    "nearest_singularity",
     "null_motion",
     "optimize",
     "pareto",

@@ -157,8 +157,11 @@ def test_all_poses_of_a_study(capsys):
     assert "4 poses of the study" in out
     best = data_of(capsys, "best run --all-poses")
     assert all(a <= b * (1 + 1e-9) for a, b in zip(best["value"], best["now"], strict=True))
-    nearest = data_of(capsys, "singularity run --all-poses")["distance"]["p"]["nearest"]
-    assert nearest <= min(data_of(capsys, "singularity run")["distance"]["p"]["backward"]) * (1 + 1e-9)
+    nearest = data_of(capsys, "singularity run --all-poses")["distance"]["position"]["nearest"]
+    expected = nd.nearest_singularity(result.geometry, stack, "position")
+    assert nearest["distance"] == pytest.approx(expected.distance, rel=1e-9)
+    assert (nearest["pose"], nearest["kind"]) == (expected.pose, str(expected.mechanism))
+    assert nearest["distance"] <= min(data_of(capsys, "singularity run")["distance"]["position"]["backward"])
 
 
 def test_a_singular_design_has_words_for_infinity(capsys, folder):
@@ -167,7 +170,7 @@ def test_a_singular_design_has_words_for_infinity(capsys, folder):
     status, out, _ = run(capsys, "forces flat.toml --load '0 0 0 1 2 3'")
     assert status == 0
     assert "singular: at some pose no leg forces balance all of load 1" in out
-    assert data_of(capsys, "singularity flat.toml")["distance"]["O"]["nearest"] == 0.0
+    assert data_of(capsys, "singularity flat.toml")["distance"]["internal_point"]["nearest"]["distance"] == 0.0
     data_of(capsys, "stiffness flat.toml --leg-stiffness 1")
     data_of(capsys, "best flat.toml", expected=3)
 

@@ -15,7 +15,8 @@ from ninedof.cli.pose_words import pose_words
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import MECHANISMS
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.singularity.nearest_singularity import PARTS, NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import singularity as singularity_of
 from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
 from ninedof.support.arrays import Floats
@@ -29,8 +30,12 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof singularity runs/20260101-120000#7 --direction "0 0 0 1 0 0 1 0 0" --most 500 --json | jq .distance"""
 
-GROUPS = {"turning about": (0, "°"), "p along": (3, ""), "O along": (6, "")}
-AROUND = 1000  # directions of each group, besides the axes
+# Of each part: its name, the unit shown, what radians or lengths are multiplied by.
+GROUPS = {
+    "rotation": ("turning about", "°", math.degrees(1.0)),
+    "position": ("p along", "", 1.0),
+    "internal_point": ("O along", "", 1.0),
+}
 
 
 def singularity(
@@ -82,32 +87,35 @@ def _along(chosen: Chosen, c: Configuration, motion: Floats, most: float, screen
 
 
 def _coordinates(chosen: Chosen, c: Configuration, screen: Screen) -> dict[str, Any]:
-    """Print the distances along the coordinates and in many directions, and the nearest singularities."""
-    reach = 2.0 * float(leg_lengths(chosen.geometry, c).max())
+    """Print the distances along the coordinates, and the nearest singularities in any direction."""
     table = Table(title="Distance to the first singularity", title_justify="left", title_style="bold")
     for k, head in enumerate(("", "backward", "kind", "forward", "kind")):
         table.add_column(head, justify="right" if k % 2 else "left")
+    reach = 2.0 * float(leg_lengths(chosen.geometry, c).max())
     nearest, out = [], {}
-    for name, (first, unit) in GROUPS.items():
+    for part, (name, unit, factor) in GROUPS.items():
         far = math.pi if unit else reach
-        motions = np.zeros((6 + AROUND, 9))
-        motions[:, first : first + 3] = far * np.concatenate([-np.eye(3), np.eye(3), _sphere(AROUND)])
+        motions = np.zeros((6, 9))
+        motions[:, PARTS[part] : PARTS[part] + 3] = far * np.concatenate([-np.eye(3), np.eye(3)])
         found = distance_to_singularity(chosen.geometry, c[:, None], motions)
-        distance = np.degrees(far * found.distance) if unit else far * found.distance
-        at, axes = np.argmin(distance, axis=0), np.arange(6)
-        least, kinds = distance[at[:6], axes], found.mechanism[at[:6], axes]
+        at, axes = np.argmin(found.distance, axis=0), np.arange(6)
+        least, kinds = factor * far * found.distance[at, axes], found.mechanism[at, axes]
         cells = [(f"{x:.4g}{unit}" if math.isfinite(x) else "-", str(k)) for x, k in zip(least, kinds, strict=True)]
         for k, axis in enumerate("xyz"):
             table.add_row(f"{name} {axis}", *cells[k], *cells[k + 3], end_section=k == 2)
-        pose, number = np.unravel_index(int(np.argmin(distance)), distance.shape)
-        nearest.append(_nearest(name, unit, chosen, c[int(pose)], found, (int(pose), int(number)), distance, motions))
-        out[name.split()[0] + ("_deg" if unit else "")] = {
+        one = nearest_singularity(chosen.geometry, c, part, far)
+        nearest.append(_nearest(name, f"{factor * one.distance:.5g}{unit}", one, len(c), chosen))
+        out[part + ("_deg" if unit else "")] = {
             "backward": least[:3],
             "forward": least[3:],
             "kinds": kinds,
-            "nearest": distance[pose, number],
-            "nearest_kind": found.mechanism[pose, number],
-            "nearest_direction": motions[number, first : first + 3] / far,
+            "nearest": {
+                "distance": factor * one.distance,
+                "kind": one.mechanism,
+                "direction": one.direction,
+                "pose": one.pose,
+                "there": arrays_of(one.configuration),
+            },
         }
     screen.print(table)
     for name, words in MECHANISMS.items():
@@ -117,31 +125,14 @@ def _coordinates(chosen: Chosen, c: Configuration, screen: Screen) -> dict[str, 
     return {"distance": out}
 
 
-def _nearest(
-    name: str,
-    unit: str,
-    chosen: Chosen,
-    pose: Configuration,
-    found: SingularityDistance,
-    at: tuple[int, int],
-    distance: Floats,
-    motions: Floats,
-) -> str:
-    """Return the nearest singularity of a group in words."""
-    what = name.split()[0]
-    if not math.isfinite(distance[at]):
-        return f"{what}: no singularity in {len(motions)} directions"
-    where = pose_words(pose.moved(found.distance[at] * motions[at[1]]), chosen.configuration.rotation)
-    nearest = f"{distance[at]:.4g}{unit}, kind {found.mechanism[at]}"
-    return f"{what}: nearest of {len(motions)} directions {nearest}, where {where}"
+def _nearest(name: str, distance: str, one: NearestSingularity, count: int, chosen: Chosen) -> str:
+    """Return the nearest singularity of a part in words."""
+    if not math.isfinite(one.distance):
+        return f"{name} any axis: no singularity found"
+    pose = f" from pose {one.pose}" if count > 1 else ""
+    where = pose_words(one.configuration, chosen.configuration.rotation)
+    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {where}"
 
 
 def _kind(found: SingularityDistance, k: int) -> str:
     return MECHANISMS[f"det_{found.mechanism[k]}"]
-
-
-def _sphere(count: int) -> Floats:
-    """Return directions spread evenly: a spiral of golden angles."""
-    k = np.arange(count)
-    z, around = 1.0 - (2.0 * k + 1.0) / count, k * math.pi * (3.0 - math.sqrt(5.0))
-    return np.stack([np.sqrt(1.0 - z * z) * np.cos(around), np.sqrt(1.0 - z * z) * np.sin(around), z], axis=1)

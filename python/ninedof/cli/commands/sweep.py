@@ -16,7 +16,7 @@ from ninedof.cli.long_run import compute, run_folder, write
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
-from ninedof.design.indices import INDICES
+from ninedof.design.indices import computed
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import thread_argument
@@ -59,7 +59,8 @@ def sweep(
     index: Annotated[
         list[str] | None,
         typer.Option(
-            help=f"The index, condition_number by default; may be repeated. One of {', '.join(INDICES)} (of designs)."
+            help=f"The index, condition_number by default; may be repeated. One of "
+            f"{', '.join(computed())}; over designs also six_legged."
         ),
     ] = None,
     absolute: Annotated[

@@ -1,0 +1,138 @@
+"""The nearest singularity in any direction: of positions, of turns, or of O."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration, operands
+from ninedof.robot.geometry import Geometry
+from ninedof.singularity.singularity import Mechanism
+from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
+from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
+
+PARTS = {"rotation": 0, "position": 3, "internal_point": 6}  # place in a tangent of `Configuration.moved`
+ROUNDS, NEARER = 12, 0.35  # of the search about the best direction, and how much closer each of them looks
+AROUND = 60  # directions of a round
+
+
+@short_repr
+class NearestSingularity(NamedTuple):
+    """The nearest singularity found about a configuration, or about any of a stack."""
+
+    distance: float
+    """Length, or angle in radians; infinite where none was found."""
+    mechanism: Any
+    """The `Mechanism` lost there, `NONE` where none was found."""
+    direction: Floats
+    """Unit vector of the motion, or axis of the turn, base axes, shape (3,)."""
+    pose: int
+    """Number of the configuration in the stack; 0 for a single one."""
+    configuration: Configuration
+    """The singular configuration; the given one where none was found."""
+
+
+def nearest_singularity(
+    geometry: Geometry,
+    configuration: Configuration,
+    part: str = "position",
+    most: float | None = None,
+    directions: int = 1000,
+    threads: int | None = None,
+) -> NearestSingularity:
+    """Return the nearest singularity in any direction of one part of the motion, the rest held still.
+
+    The distance along a direction is that of `distance_to_singularity`: no singularity on the way is missed. The
+    directions are searched: evenly spread ones and the axes, then closer and closer about the best of them. A narrow
+    valley between the first ones may be missed.
+
+    Parameters
+    ----------
+    geometry : Geometry
+    configuration : Configuration
+        A single one or a stack of shape (n,); of a stack the nearest of all is returned.
+    part : {"position", "rotation", "internal_point"}
+        "position": the platform moves without turning, O at rest. "rotation": it turns about an axis through p, O at
+        rest. "internal_point": O moves, the platform at rest.
+    most : float, optional
+        How far is looked; by default twice the longest leg, and half a turn.
+    directions : int
+        Number of directions at first, 1000 by default.
+    threads : int, optional
+        Number of threads; one per processor by default. The result does not depend on it.
+
+    Returns
+    -------
+    NearestSingularity
+
+    Raises
+    ------
+    ValueError
+        If an argument does not fit.
+
+    Examples
+    --------
+    O reaches the plane of the upper internal joints:
+
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> found = nd.nearest_singularity(g, nd.Configuration.neutral(3.9828, 2.4432), "internal_point")
+    >>> round(found.distance, 6), found.mechanism
+    (1.5396, <Mechanism.C: 'c'>)
+
+    """
+    first = PARTS[choice("part", part, PARTS)]
+    operands(geometry, configuration)
+    if len(configuration.shape) > 1 or configuration.shape == (0,):
+        raise ValueError(f"configuration: got shape {configuration.shape}, expected a single one or a stack (n,)")
+    count = whole("directions", directions, 0, 10**6)
+    if most is None:
+        most = math.pi if part == "rotation" else 2.0 * float(np.nanmax(leg_lengths(geometry, configuration)))
+    reach = finite("most", most, 0.0)
+    stack = configuration
+    if not stack.shape:
+        stack = Configuration(stack.position[None], stack.rotation[None], stack.internal_point[None])
+
+    def measured(of: Configuration, units: Floats) -> SingularityDistance:
+        motions = np.zeros((len(units), 9))
+        motions[:, first : first + 3] = reach * units
+        return distance_to_singularity(geometry, of[:, None], motions, threads=threads)
+
+    units = np.concatenate([-np.eye(3), np.eye(3), _sphere(count)])
+    found = measured(stack, units)
+    least = int(np.argmin(np.nan_to_num(found.distance, nan=math.inf)))
+    pose, k = divmod(least, len(units))
+    best, at, here = units[k], (0, k), stack[pose : pose + 1]
+    found = measured(here, units)
+    radius = math.sqrt(4.0 * math.pi / (count + 6))
+    for _ in range(ROUNDS if math.isfinite(found.distance[at]) else 0):
+        units = _around(best, radius)
+        found = measured(here, units)
+        at = (0, int(np.argmin(found.distance[0])))
+        best, radius = units[at[1]], NEARER * radius
+    share = float(found.distance[at])
+    motion = np.zeros(9)
+    motion[first : first + 3] = (share if math.isfinite(share) else 0.0) * reach * best
+    there = here[0].moved(motion)
+    return NearestSingularity(share * reach, Mechanism(str(found.mechanism[at])), best, pose, there)
+
+
+def _sphere(count: int) -> Floats:
+    """Return directions spread evenly: a spiral of golden angles."""
+    k = np.arange(count)
+    z, around = 1.0 - (2.0 * k + 1.0) / max(count, 1), k * math.pi * (3.0 - math.sqrt(5.0))
+    return np.stack([np.sqrt(1.0 - z * z) * np.cos(around), np.sqrt(1.0 - z * z) * np.sin(around), z], axis=1)
+
+
+def _around(direction: Floats, radius: float) -> Floats:
+    """Return a direction and others evenly about it, up to an angle of about `radius`."""
+    k = np.arange(AROUND)
+    far, angle = radius * np.sqrt(k / (AROUND - 1)), k * math.pi * (3.0 - math.sqrt(5.0))
+    _, _, basis = np.linalg.svd(direction[None])
+    found = direction + far[:, None] * (np.cos(angle)[:, None] * basis[1] + np.sin(angle)[:, None] * basis[2])
+    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))

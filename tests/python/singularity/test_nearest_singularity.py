@@ -1,0 +1,82 @@
+"""The nearest singularity: planes whose distance is known, dense directions, stacks."""
+
+import numpy as np
+import pytest
+from sizes import size
+
+import ninedof as nd
+from ninedof.singularity.nearest_singularity import nearest_singularity
+
+
+def robot(rng):
+    """A robot of no symmetry, its plates tilted."""
+    base = rng.normal(size=(6, 3)) * [2.0, 2.0, 0.4]
+    platform = rng.normal(size=(6, 3)) * [1.0, 1.0, 0.2]
+    return nd.Geometry(base[:3], base[3:], platform[:3], platform[3:])
+
+
+def test_distance_to_the_plane_of_the_lower_joints():
+    """O close to that plane, far from the others: the distance is that to the plane, along its normal."""
+    rng, planes = np.random.default_rng(5), 0
+    for _ in range(size(10, 300)):
+        g = robot(rng)
+        lower = g.base_internal
+        normal = np.cross(lower[1] - lower[0], lower[2] - lower[0])
+        normal /= np.linalg.norm(normal)
+        height = 10.0 ** rng.uniform(-3, -1)
+        o = lower.mean(axis=0) + height * normal
+        c = nd.Configuration([0.0, 0.0, 30.0], internal_point=o)
+        found = nearest_singularity(g, c, "internal_point", most=1.0, directions=300)
+        if found.mechanism != "b":  # a line through O met the turning axis of the platform first
+            assert found.distance < height
+            continue
+        planes += 1
+        assert found.distance == pytest.approx(height, rel=1e-9)
+        assert abs(found.direction @ normal) == pytest.approx(1.0, abs=1e-6)
+        assert abs(nd.singularity_margins(g, found.configuration).det_b) < 1e-9
+    assert planes > size(5, 150)
+
+
+@pytest.mark.parametrize("part", ["position", "rotation", "internal_point"])
+def test_no_random_direction_is_nearer_and_the_pose_is_singular(published, part):
+    rng = np.random.default_rng(7)
+    first = {"rotation": 0, "position": 3, "internal_point": 6}[part]
+    for g in (published, robot(rng), robot(rng)):
+        c = nd.Configuration(rng.normal([0, 0, 4.0], 0.2), internal_point=rng.normal([0, 0, 2.0], 0.2))
+        found = nearest_singularity(g, c, part)
+        motions = np.zeros((size(3000, 100_000), 9))
+        motions[:, first : first + 3] = rng.normal(size=(len(motions), 3))
+        motions /= np.linalg.norm(motions, axis=1, keepdims=True)
+        others = nd.distance_to_singularity(g, c, motions, most=2.0 * found.distance).distance
+        assert others.min() >= found.distance * (1.0 - 1e-9)
+        margins = nd.singularity_margins(g, found.configuration)
+        assert abs(getattr(margins, f"det_{found.mechanism}")) < 1e-7
+        moved = np.zeros(9)
+        moved[first : first + 3] = found.distance * found.direction
+        assert found.configuration == c.moved(moved)
+
+
+def test_the_nearest_of_a_stack(published, stack):
+    found = nearest_singularity(published, stack)
+    each = [nearest_singularity(published, stack[k]) for k in range(len(stack))]
+    k = int(np.argmin([one.distance for one in each]))
+    assert (found.pose, found.distance) == (k, each[k].distance)
+    assert found.configuration == each[k].configuration
+    one = nearest_singularity(published, stack, threads=1)
+    assert (one.distance, one.direction.tolist()) == (found.distance, found.direction.tolist())
+
+
+def test_singular_free_and_bad(published, neutral):
+    flat = nearest_singularity(published, nd.Configuration.neutral(3.9828, 0.0), "internal_point")
+    assert (flat.distance, flat.mechanism) == (0.0, nd.Mechanism.B)
+    free = nearest_singularity(published, neutral, most=0.1)
+    assert (free.distance, free.mechanism, free.configuration) == (np.inf, nd.Mechanism.NONE, neutral)
+    for arguments, words in (
+        ({"part": "twist"}, "part: got 'twist'"),
+        ({"most": -1.0}, "most: got -1"),
+        ({"directions": 1.5}, "directions: got 1.5"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            nearest_singularity(published, neutral, **arguments)
+    with pytest.raises(ValueError, match="configuration: got shape"):
+        nearest_singularity(published, nd.Configuration.neutral(4.0, [[2.0]]))
