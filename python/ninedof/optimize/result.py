@@ -179,7 +179,7 @@ class Result:
         """Show the status, and the objective and active limits of the best candidate."""
         if self.best is None:
             return f"<Result: {self.status}, causes: {', '.join(self.causes) or 'none found'}>"
-        value = f"{self.study.objective.words} {self.best.objective:.6f}"
+        value = f"{self.study.objective.words} = {self.best.objective:.6f}"
         return f"<Result: {self.status}, {value}, limits reached: {', '.join(self.best.active) or 'nothing'}>"
 
     def _repr_html_(self) -> str:

@@ -44,9 +44,9 @@ class Front:
         """Show the ends of the limit and of the objective."""
         found = [value for value in self.objectives if not math.isnan(value)]
         ends = f"{self.limits[0]:.6g} to {self.limits[-1]:.6g}" if self.limits else "none"
-        reached = f"{max(found):.6f} to {min(found):.6f}" if found else "no design"
+        words = f"{self.study.objective.words} = {max(found):.6f} to {min(found):.6f}" if found else "no design"
         count = f"{len(self)} limits of {self.against}, {ends}"
-        return f"<Front: {count}: {self.study.objective.words} {reached}{', interrupted' * self.interrupted}>"
+        return f"<Front: {count}; {words}{', interrupted' * self.interrupted}>"
 
     def _repr_html_(self) -> str:
         rows = []

@@ -71,8 +71,10 @@ def test_everything_prints_short(shown):
 
 
 def test_what_matters_is_said(shown):
-    assert repr(shown["Result"]) == "<Result: optimal, condition number 3.762659, limits reached: a1, b2, radius_ratio>"
-    front = "<Front: 2 limits of radius_ratio, 1.5 to 2: condition number 3.941177 to 3.762659>"
+    assert (
+        repr(shown["Result"]) == "<Result: optimal, condition number = 3.762659, limits reached: a1, b2, radius_ratio>"
+    )
+    front = "<Front: 2 limits of radius_ratio, 1.5 to 2; condition number = 3.941177 to 3.762659>"
     assert repr(shown["Front"]) == front
     assert "volume 3.36" in repr(shown["WorkspaceMap"])
     assert repr(shown["Pose"]) == "Pose()"

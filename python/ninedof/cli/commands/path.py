@@ -18,7 +18,7 @@ from ninedof.motion.internal_point import RULES
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
-from ninedof.runs.motion_folder import LEGS_FILE, POSES_FILE, write_motion
+from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE, write_motion
 from ninedof.support.units import unit_entry
 
 Three = tuple[float, float, float]
@@ -95,7 +95,7 @@ def path(
     }
     record = write_motion(found, directory, partial(draw, found, screen) if figures else None, question)
     figure = ", figure motion (PNG and SVG)" if figures else ""
-    screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}{figure}")
+    screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")
     screen.data({"motion": found.to_dict(), "record": str(record)})
     raise typer.Exit(DONE if found.tracked and not found.breaks else NO_RESULT)
 
