@@ -14,6 +14,7 @@ from ninedof.cli.pose_words import pose_words
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 
 Three = tuple[float, float, float]
@@ -46,8 +47,8 @@ def chosen_poses(
         if chosen.result is None or chosen.result.best is None:
             raise ValueError("--all-poses: got a design without a study, expected a run")
         return chosen.result.best.configurations
-    p = home.position if position is None else np.asarray(position)
-    turn = np.radians((0.0, 0.0, 0.0) if rotation_deg is None else rotation_deg)
+    p = home.position if position is None else np.array(vector("--position", position))
+    turn = np.radians((0.0, 0.0, 0.0) if rotation_deg is None else vector("--rotation-deg", rotation_deg))
     q = home.moved(np.concatenate([turn, np.zeros(6)])).rotation if turn.any() else home.rotation
     s = home.internal_point if not named else _internal_point(chosen, p, q, internal_point or "carried")
     return Configuration(p[None], q[None], s[None])
@@ -70,7 +71,7 @@ def mentioned(c: Configuration, poses: Iterable[int]) -> Iterator[str]:
 def pose_lines(c: Configuration, chosen: Chosen) -> Iterator[str]:
     """Yield where a command looks."""
     if len(c) > 1:
-        yield f"{len(c)} poses of the study, the neutral one first"
+        yield f"{len(c)} poses of the study; pose 0 is the neutral one"
     else:
         yield f"at {pose_words(c[0], chosen.configuration.rotation)}"
 
