@@ -138,5 +138,5 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
         coords={"radius_ratio": ratio_edges(), "condition_number": condition_edges(), "variable": np.array(HEXAGONAL)},
         units=dict.fromkeys(("histogram", "best", "number", "radius_ratio", "condition_number"), "1")
         | {"design": "l_c"},
-        attributes=plain({**work.question(), **versions()}, words=False),
+        attributes=plain({**work.question(), **versions()}),
     )

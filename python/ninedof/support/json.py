@@ -12,15 +12,15 @@ import numpy as np
 NON_FINITE = ("inf", "-inf", "nan")
 
 
-def plain(value: Any, words: bool = True) -> Any:
-    """Return plain JSON values: arrays and tuples become lists, and where wanted non-finite numbers words."""
+def plain(value: Any) -> Any:
+    """Return plain JSON values: arrays and tuples become lists, non-finite numbers words."""
     if isinstance(value, Mapping):
-        return {str(key): plain(v, words) for key, v in value.items()}
+        return {str(key): plain(v) for key, v in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(v, words) for v in value]
+        return [plain(v) for v in value]
     if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist(), words)
-    if words and isinstance(value, float) and not math.isfinite(value):
+        return plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
         return repr(float(value))
     return value
 

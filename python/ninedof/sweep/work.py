@@ -91,7 +91,6 @@ class GridWork:
             coords={axis.name: axis.values() for axis in self.grid.axes} | labels,
             units={name: (unit or "length") if of == "length" else of for name, of in labelled.items()},
             attributes=plain(
-                {**unit_entry(unit), **self._points(), "index": [i.name for i in self.indices], **versions()},
-                words=False,
+                {**unit_entry(unit), **self._points(), "index": [i.name for i in self.indices], **versions()}
             ),
         )
