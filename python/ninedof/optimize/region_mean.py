@@ -45,12 +45,12 @@ def region_mean(study: Study, nodes: tuple[Pose, ...], variables: Mapping[str, f
 
 
 def _even(u: Floats) -> Floats:
-    return 2.0 * u - 1.0
+    return np.asarray(2.0 * u - 1.0)
 
 
 def _disc(u: Floats) -> Floats:
     angle = 2.0 * math.pi * u[:, 0]
-    return np.sqrt(u[:, 1])[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    return np.asarray(np.sqrt(u[:, 1])[:, None] * np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
 def _positions(region: Region, u: Floats) -> Floats:

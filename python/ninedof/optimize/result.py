@@ -162,7 +162,7 @@ class Result:
         if best is None or len(self.solved.objective.poses) < 2:
             return ""
         region = self.study.objective.region
-        where = rule_words(self.study.objective.poses, region and region.internal_point)
+        where = rule_words(self.study.objective.poses, None if region is None else region.internal_point)
         idle = idle_words(leg_lengths(best.geometry, best.configurations))
         if not idle:
             return where

@@ -30,8 +30,11 @@ class ObjectiveRule:
     def of(cls, study: Study) -> ObjectiveRule:
         """Return the objective of a study."""
         o = study.objective
-        limits = (math.inf if limit is None else limit for limit in (o.condition_limit, o.neutral_condition_limit))
-        return cls(o.index, o.aggregate, o.weight, *limits, tuple(p.weight for p in o.poses) or (1.0,))
+        at_poses, at_neutral = (
+            math.inf if limit is None else limit for limit in (o.condition_limit, o.neutral_condition_limit)
+        )
+        weights = tuple(pose.weight for pose in o.poses) or (1.0,)
+        return cls(o.index, o.aggregate, o.weight, at_poses, at_neutral, weights)
 
     def values(self, robot: Robot) -> Floats:
         """Return the index at every pose of the objective, shape (n,), by the general path."""
