@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ninedof/math/error.hpp"
+#include "optimize/conflict.hpp"
 
 namespace ninedof {
 namespace {
@@ -20,6 +21,18 @@ constexpr double still_improving = 1e-7, rounding = 1e-8;
 std::string join(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
+  return out;
+}
+
+/// The few ends that violate the limits least.
+std::vector<Eigen::VectorXd> nearest_ends(const SearchRound& round) {
+  constexpr std::size_t few = 4;
+  std::vector<const Candidate*> ends;
+  for (const auto& run : round.runs)
+    if (run) ends.push_back(&run->end);
+  std::ranges::stable_sort(ends, {}, [](const Candidate* c) { return c->constraint_violation; });
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t k = 0; k < std::min(few, ends.size()); ++k) out.push_back(ends[k]->variables);
   return out;
 }
 
@@ -123,16 +136,26 @@ void detect_unbounded(const Problem& problem, std::vector<RoundBest> rounds, Res
 
 bool detect_impossible_heights(const Problem& problem, Result& result) {
   const auto& info = design_family(problem.family).variables();
-  for (std::size_t k = 0; k < info.size(); ++k) {
-    if ((info[k].name != "zp" && info[k].name != "zs") || problem.variables[k].high > 0.0) continue;
-    result.causes = {info[k].name, "zp > zs"};
-    result.reason = "0 < zs < zp (eq. 9b) leaves no design: " + info[k].name + " is 0";
+  const std::string order = "zp > zs";
+  const auto bounds = [&](const char* name) {
+    return problem.variables[at_index(design_family(problem.family).index(name))];
+  };
+  const Bounds zp = bounds("zp"), zs = bounds("zs");
+  const std::string none = "0 < zs < zp (eq. 9b) leaves no design: ";
+  for (const VariableInfo& variable : info) {
+    if ((variable.name != "zp" && variable.name != "zs") || bounds(variable.name.c_str()).high > 0.0) continue;
+    result.causes = {variable.name, order};
+    result.reason = none + variable.name + " is 0";
+  }
+  if (result.causes.empty() && zp.high <= zs.low) {
+    result.causes = {"zp", "zs", order};
+    result.reason = none + "zp is at most " + format_number(zp.high) + ", zs at least " + format_number(zs.low) +
+                    ", against zp > zs";
   }
   for (const Limit& limit : problem.limits) {
     if (limit.name != "zs_fraction" || limit.low < 1.0) continue;
-    result.causes = {limit.label(), "zp > zs"};
-    result.reason = "0 < zs < zp (eq. 9b) leaves no design: " + limit.label() + " must be at least " +
-                    format_number(limit.low) + " against zp > zs";
+    result.causes = {limit.label(), order};
+    result.reason = none + limit.label() + " must be at least " + format_number(limit.low) + " against zp > zs";
   }
   if (!result.causes.empty()) result.status = Status::infeasible;
   return !result.causes.empty();
@@ -146,26 +169,26 @@ void explain_failure(const PreparedProblem& p, const SearchRound& round, const S
         "no start passed the checks of optimality, so this is no optimum: raise starts, or try another seed";
     return;
   }
-  std::optional<LeastViolation> least;
-  const int count = std::min(start_count(p, s), 8);
-  for (int k = 0; k < count && !control.stop.stop_requested(); ++k) {
-    LeastViolation v = least_violation(p, p.coordinates.start(k, s.seed), s.max_evaluations, control.stop);
-    result.evaluations += v.evaluations;
-    if (!least || v.end.constraint_violation < least->end.constraint_violation) least = std::move(v);
-    if (least->end.feasible()) break;
-  }
-  if (!least || control.stop.stop_requested()) return;
-  result.status = Status::infeasible;
-  if (least->end.feasible()) {
-    result.reason = "all designs reached within the limits are singular: none has a finite condition number";
-    if (p.problem.objective.index == Index::speed && std::isinf(p.problem.objective.condition_limit))
-      result.reason += "; the index speed needs a limit on it (condition_limit)";
+  Conflict conflict = find_conflict(p.problem, nearest_ends(round), s, control);
+  result.evaluations += conflict.evaluations;
+  if (control.stop.stop_requested()) return;
+  if (conflict.allowed.size() == 0) {
+    result.status = Status::infeasible;
+    result.causes = std::move(conflict.causes);
+    result.reason = std::move(conflict.reason);
     return;
   }
-  result.causes = least->causes;
-  const double amount = std::round(least->end.constraint_violation * 1e4) / 1e4;
-  result.reason = "no design found satisfies all limits; at the least violation, " + format_number(amount) +
-                  " in the logarithm of a ratio, these are in conflict: " + join(least->causes);
+  Candidate allowed = candidate_at(p, p.coordinates.coordinates(conflict.allowed));
+  if (allowed.regular() && allowed.feasible()) {
+    allowed.reached = 0;
+    result.candidates.push_back(std::move(allowed));
+    result.reason = "no start ended within the limits, though designs are: this one is no optimum; raise starts";
+    return;
+  }
+  result.status = Status::infeasible;
+  result.reason = "all designs reached within the limits are singular: none has a finite condition number";
+  if (p.problem.objective.index == Index::speed && std::isinf(p.problem.objective.condition_limit))
+    result.reason += "; the index speed needs a limit on it (condition_limit)";
 }
 
 }  // namespace ninedof

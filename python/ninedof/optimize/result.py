@@ -37,7 +37,7 @@ class Status(StrEnum):
     UNBOUNDED = "unbounded"
     """No least value: the objective keeps falling as the variables in `causes` grow."""
     INFEASIBLE = "infeasible"
-    """No design satisfies all limits; those in `causes` are in conflict."""
+    """No design found satisfies all limits: those in `causes` exclude each other, and fewer of them do not."""
     STOPPED = "stopped"
     """Interrupted, or no design passed the checks. The best design found is returned, but it is not an optimum."""
 
@@ -98,9 +98,9 @@ class Result:
 
     status: Status
     reason: str
-    """One sentence."""
+    """One sentence. Of an infeasible study: how far each limit alone would have to give; angles in degrees."""
     causes: tuple[str, ...]
-    """Variables or constraints behind "unbounded" or "infeasible"."""
+    """Variables or constraints behind "unbounded" or "infeasible"; a variable stands for its bounds."""
     candidates: tuple[Candidate, ...]
     """Distinct local optima, best first; of many with the same objective, four. Mirror images count as one design, and
     so do designs that differ in size where only the shape matters, or in a variable without effect."""

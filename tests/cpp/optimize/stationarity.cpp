@@ -213,22 +213,6 @@ TEST_SUITE("stationarity") {
     CHECK_FALSE(ambiguous(smooth, general_variables(optimum().variables)));
   }
 
-  TEST_CASE("conflict: active bounds without weight are not named") {
-    Problem p = symmetric_study();
-    p.limits = {{.name = "height", .low = 5.0}};
-    p.variables[7] = {1.0, 4.0};
-    const PreparedProblem prepared(p, 1e4);
-    Eigen::VectorXd x{{4, 4, 1, 2, 2, 2, 3, 4, 2}};
-    x[0] = p.variables[0].high;
-    const Eigen::VectorXd y = prepared.coordinates.coordinates(x);
-    DesignEvaluation design;
-    evaluate_design(prepared, y, design);
-    const std::vector<std::string> names = conflict(prepared, design, y);
-    CHECK(contains(names, "height"));
-    CHECK(contains(names, "zp"));
-    CHECK_FALSE(contains(names, "base_external_radius"));
-  }
-
   TEST_CASE("nonnegative least squares: optimality conditions hold") {
     Random random(255);
     for (int n = 0; n < 200; ++n) {

@@ -115,6 +115,13 @@ TEST_SUITE("verdict") {
     check_infeasible(p, {"zs_fraction"});
   }
 
+  TEST_CASE("infeasible: the limit and the bound, and no other variable") {
+    Problem p = paper_study();
+    p.limits = {{.name = "height", .low = 5.0}};
+    p.variables[4] = {1.0, 4.0};
+    CHECK(optimize(p, {.starts = 4}).causes == std::vector<std::string>{"height", "zp"});
+  }
+
   TEST_CASE("all variables fixed: the design itself") {
     Problem p = fixed_study({0.0, 6.0, 3.0, 0.0, 5.0, 3.0, 0.0});
     const Result r = optimize(p);

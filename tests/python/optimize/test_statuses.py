@@ -4,7 +4,10 @@ Oracles: the theory notes for the unbounded study; for the others the truth is p
 """
 
 import math
+import re
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from sizes import size
 
@@ -132,13 +135,13 @@ CONFLICTS = {
     "base too large": (
         dict.fromkeys(("a1", "a2"), (5.0, 6.0)) | dict.fromkeys(("b1", "b2"), (0.0, 0.1)),
         TWICE,
-        {"a1", "a2", "b1", "b2", "radius_ratio"},
+        {"b1", "b2", "radius_ratio"},
     ),
     "fixed design over its limit": (PUBLISHED | {"b1": 1.9062}, TWICE, {"radius_ratio"}),
     "two constraints": (
         {"zp": 4.0, "a1": 0.0, "a2": (0.0, 1.0)},
         {"leg_ratio": (None, 1.2), "zs_fraction": (0.9, 0.95)},
-        {"leg_ratio", "zs_fraction"},
+        {"leg_ratio", "a2"},  # whatever O's height
     ),
 }
 
@@ -161,7 +164,8 @@ def test_causes_name_only_what_is_in_conflict():
     assert solve({}, {"leg_ratio": (None, 0.5)}).causes == ("leg_ratio",)
     variables, constraints, causes = CONFLICTS["base too large"]
     pinned = {"zp": (3.0, 3.0 + 1e-9), "zs": (1.0, 1.0 + 1e-9)}  # on their bounds wherever they go, and innocent
-    assert set(solve(variables | pinned, constraints).causes) == causes
+    named = set(solve(variables | pinned, constraints).causes)
+    assert named in (causes | {"a1"}, causes | {"a2"})  # either side alone makes the base too large
 
 
 def test_internal_point_in_the_base_breaks_9b():
@@ -238,9 +242,85 @@ def test_zs_fraction_of_one_is_infeasible():
     assert set(result.causes) == {"zs_fraction", "zp > zs"}
 
 
-def test_conflict_is_reported_as_a_ratio():
-    """zp at most 1 and zs at least 2: off by a factor of two, ln 2 = 0.6931."""
-    assert "0.6931" in solve({"zp": (0.1, 1.0), "zs": (2.0, 3.0)}).reason
+def test_limits_of_the_box_that_named_nothing():
+    """Only a far higher platform has legs that change so little; once a violation shared by two rows hid all limits."""
+    study = nd.Study(
+        family="symmetric",
+        variables={"zp": (1, 4)},
+        constraints={"stroke_ratio": (None, 1.05)},
+        objective={"box": {"half": [1, 1, 1]}},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    assert result.status == "infeasible"
+    assert result.causes[0] == "stroke_ratio"
+    assert "zp" in result.causes
+    assert "stroke_ratio <= 1.05" in result.reason
+    assert "in these poses" in result.reason
+    least = float(result.reason.split("nearest found have stroke_ratio <= ")[1].split()[0])
+    assert 1.2 < least < 1.31
+
+
+def test_heights_are_not_blamed_on_the_order_of_the_plates():
+    result = solve({}, {"height": (None, 1), "leg_length": (3, None), "footprint": (None, 1)})
+    assert set(result.causes) == {"height", "leg_length", "footprint"}
+    # A leg from the rim of the base to O below the platform: sqrt(1 + 1), or 3 = sqrt(1 + 8).
+    for words in ("leg_length >= 1.414", "height <= 2.829", "footprint <= 2.829"):
+        assert words in result.reason
+
+
+def test_angles_in_degrees():
+    """The legs of a base cannot all point one way."""
+    result = solve({}, {"base_cone": {"max_deg": 20, "axis": [1, 0, 0]}}, starts=4)
+    assert result.causes == ("base_cone",)
+    assert re.search(r"base_cone <= 20 deg; the nearest found has base_cone <= \d+(\.\d+)? deg$", result.reason)
+
+
+def scaled(family, rng):
+    """Return lengths of a random design of a family, and its angles."""
+    study = nd.Study(family=family)
+    lengths = {name: float(rng.uniform(0.5, 3.0)) for name in study.variables if name not in study.angles}
+    lengths["zp"] = float(rng.uniform(2.0, 4.0))
+    lengths["zs"] = float(rng.uniform(0.2, 0.8)) * lengths["zp"]
+    return lengths, {name: float(rng.uniform(-1.0, 1.0)) for name in study.angles}
+
+
+def largest(study, name, variables):
+    """Return the least limit `name <= max` that allows a design."""
+    return 1e6 * math.exp(-replace(study, constraints={name: (None, 1e6)}).evaluate(variables).margins[name])
+
+
+@pytest.mark.parametrize("seed", range(size(12, 300)))
+def test_two_limits_in_conflict_are_named_and_nothing_else(seed):
+    """By construction: a large and a small design meet all limits but one each, and no design can meet these two."""
+    rng = np.random.default_rng(seed)
+    family = ("hexagonal", "symmetric")[seed % 2]
+    lengths, angles = scaled(family, rng)
+    large, small = ({n: c * x for n, x in lengths.items()} | angles for c in (30.0, 0.02))
+    study = nd.Study(family=family, variables=dict.fromkeys(lengths, (0.01, 1000.0)) | angles, starts=4)
+    height = 0.9 * large["zp"]
+    legs = (
+        0.9
+        * 1e-9
+        * math.exp(replace(study, constraints={"leg_length": (1e-9, None)}).evaluate(large).margins["leg_length"])
+    )
+    constraints, bound = (
+        ({"leg_length": (legs, None), "external_length": (None, 0.8 * legs)}, {}),
+        ({"height": (height, None), "external_length": (None, 0.9 * height)}, {}),  # planar plates, level
+        ({"height": (height, None)}, {"zp": (0.01, 0.8 * height)}),
+    )[seed % 3]
+    culprits = {*constraints, *bound}
+    for name in ("radius_ratio", "leg_ratio", "footprint", "upper_length", "lower_length"):
+        if rng.random() < 0.6:
+            constraints[name] = (None, 1.2 * max(largest(study, name, x) for x in (large, small)))
+    result = nd.optimize(replace(study, variables=study.variables | bound, constraints=constraints))
+    assert result.status == "infeasible"
+    assert set(result.causes) == culprits
+
+
+def test_conflicts_have_the_same_words_for_any_number_of_threads():
+    study = nd.Study(constraints={"height": (None, 1), "leg_length": (3, None), "footprint": (None, 1)}, starts=8)
+    assert nd.optimize(study, threads=1).reason == nd.optimize(study, threads=3).reason
 
 
 def test_an_optimum_far_out_is_not_unbounded():

@@ -13,7 +13,7 @@ namespace ninedof {
 enum class Status {
   optimal,     ///< feasible and stationary by independent checks of the point
   unbounded,   ///< the objective keeps falling as the named variables grow; there is no optimum
-  infeasible,  ///< no design satisfies the named constraints
+  infeasible,  ///< no design found satisfies the named limits and bounds together
   stopped,     ///< interrupted, or no start passed the checks; the best point found is returned as such
 };
 

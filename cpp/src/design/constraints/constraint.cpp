@@ -34,6 +34,16 @@ double Constraint::item_margin(const DesignState& v, Side side, int item) const 
   return 0.0;
 }
 
+double Constraint::value_at(Side side, double margin) const {
+  const double away = side == Side::high ? -margin : margin;
+  switch (form()) {
+    case Form::logarithm: return bound(side) * std::exp(away);
+    case Form::linear: return bound(side) * (1.0 + away);
+    case Form::plain: return bound(side) + margin;
+  }
+  return 0.0;
+}
+
 void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
   const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {

@@ -22,6 +22,9 @@ class Constraint {
   int rows() const { return (has_high() ? items(Side::high) : 0) + (has_low() ? items(Side::low) : 0); }
   double margin(const DesignState& v, int row) const;
   void add_gradient(const DesignState& v, int row, Row out) const;
+  Side side_of(int row) const { return item_of(row).first; }
+  /// The limited value of a design whose margin on that side is given.
+  double value_at(Side side, double margin) const;
 
   /// Whether margins that agree at a few unrelated designs are the same function; false for piecewise functions.
   virtual bool analytic() const { return true; }

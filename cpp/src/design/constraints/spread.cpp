@@ -43,6 +43,7 @@ class Spread : public Constraint {
   }
 
  private:
+  Form form() const override { return measure_ == Measure::ratio ? Form::logarithm : Form::linear; }
   enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;
 

@@ -150,16 +150,4 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
   return run;
 }
 
-LeastViolation least_violation(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
-                               const std::stop_token& stop) {
-  LeastViolation out;
-  const Eigen::VectorXd y =
-      p.with_auxiliary(least_violation_point(p, p.with_auxiliary(start), max_evaluations, stop, out.evaluations));
-  out.end = candidate_at(p, y);
-  DesignEvaluation design;
-  evaluate_design(p, y, design);
-  out.causes = conflict(p, design, y);
-  return out;
-}
-
 }  // namespace ninedof

@@ -24,13 +24,4 @@ struct RunSettings {
 LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, Formulation formulation,
                         const RunSettings& run_settings, const std::stop_token& stop, const Observer& observer = {});
 
-/// The least violation reachable from a start, and the variables and constraints in conflict there.
-struct LeastViolation {
-  Candidate end;
-  std::vector<std::string> causes;
-  long evaluations = 0;
-};
-LeastViolation least_violation(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
-                               const std::stop_token& stop);
-
 }  // namespace ninedof

@@ -172,28 +172,4 @@ Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, int piece, double
   return y;
 }
 
-Eigen::VectorXd least_violation_point(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
-                                      const std::stop_token& stop, long& evaluations) {
-  const int n = p.coordinates.size();
-  const std::vector<int> margins = all_of(p.margins.size());
-  DesignEvaluation design;
-  evaluate_design(p, start, design);
-  Eigen::VectorXd full(n + 1);
-  full << start, violation(p, design, start);
-  Nlp nlp = bounded_nlp(p, 1, margins.size() + 1);
-  nlp.low[n] = 0.0;
-  nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& values) {
-    evaluate_design(p, at.head(n), design);
-    ++evaluations;
-    values.f = at[n];
-    values.f_gradient.setZero();
-    values.f_gradient[n] = 1.0;
-    write_constraints(p, design, margins, at, 0, values);
-    values.c.array() -= at[n];
-    values.c_gradient.col(n).setConstant(-1.0);
-    return !stop.stop_requested();
-  };
-  return n > 0 ? Eigen::VectorXd(slsqp(nlp, full, {.max_evaluations = max_evaluations}).head(n)) : start;
-}
-
 }  // namespace ninedof

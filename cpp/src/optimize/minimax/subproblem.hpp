@@ -59,8 +59,4 @@ class Subproblem {
   long evaluations_ = 0;
 };
 
-/// Minimizes t >= 0 subject to every margin >= -t, zs < zp included: the point of least violation near a start.
-Eigen::VectorXd least_violation_point(const PreparedProblem& p, const Eigen::VectorXd& start, int max_evaluations,
-                                      const std::stop_token& stop, long& evaluations);
-
 }  // namespace ninedof

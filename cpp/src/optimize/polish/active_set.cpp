@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "math/linear/least_squares.hpp"
-
 namespace ninedof {
 namespace {
 
@@ -47,38 +45,6 @@ std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a) {
   for (const int k : a.margins)
     if (!p.margin_name(k).empty()) add_once(out, p.margin_name(k));
   if (a.order) add_once(out, "zp > zs");
-  return out;
-}
-
-std::vector<std::string> conflict(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y) {
-  const Eigen::Index n = p.coordinates.size();
-  const double worst = violation(p, design, y);
-  std::vector<Eigen::VectorXd> columns;
-  std::vector<std::string> labels;
-  for (Eigen::Index k = 0; k < design.margins.size(); ++k) {
-    if (design.margins[k] > -worst + limit_contact) continue;
-    columns.emplace_back(design.margin_gradient.row(k));
-    labels.push_back(p.margin_name(static_cast<int>(k)));
-  }
-  const double out_of_order = order_violation(p, design, y);
-  if (out_of_order > 0.0 && out_of_order >= worst - limit_contact) {
-    columns.emplace_back(p.coordinates.order().gradient);
-    labels.emplace_back("zp > zs");
-  }
-  const std::size_t violated = labels.size();
-  for (int k = 0; k < n; ++k) {
-    const bool low = y[k] - p.coordinates.low()[k] <= 1e-5, high = p.coordinates.high()[k] - y[k] <= 1e-5;
-    if (low) columns.emplace_back(Eigen::VectorXd::Unit(n, k));
-    if (high) columns.emplace_back(-Eigen::VectorXd::Unit(n, k));
-    for (int side = 0; side < low + high; ++side) labels.push_back(p.coordinates.info(k).name);
-  }
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 1, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) system.col(static_cast<Eigen::Index>(k)).head(n) = columns[k];
-  system.row(n).head(static_cast<Eigen::Index>(violated)).setOnes();
-  const Eigen::VectorXd weights = nonnegative_least_squares(system, Eigen::VectorXd::Unit(n + 1, n));
-  std::vector<std::string> out;
-  for (std::size_t k = 0; k < labels.size(); ++k)
-    if (weights[static_cast<Eigen::Index>(k)] > 1e-4) add_once(out, labels[k]);
   return out;
 }
 

@@ -42,8 +42,4 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
 /// it. Singular values about as close as `smoothing`, that of the problem `y` solves, are held equal.
 Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& y, double smoothing = 0.0);
 
-/// Names of what is in conflict at a point of least violation: the constraints violated most and the bounds that
-/// balance their gradients with positive weight.
-std::vector<std::string> conflict(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
-
 }  // namespace ninedof
