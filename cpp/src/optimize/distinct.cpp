@@ -79,6 +79,10 @@ bool acceptable(const PreparedProblem& p, const Candidate& c) {
          !near_internal_bound(p.coordinates, c.variables, 1e-6, counts);
 }
 
+bool same_value(double a, double b) {
+  return std::abs(a - b) <= same_objective * b;
+}
+
 }  // namespace
 
 std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round) {
@@ -91,7 +95,6 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
   }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
-  const auto same = [](double a, double b) { return std::abs(a - b) <= same_objective * b; };
   std::vector<Candidate> out;
   std::vector<Eigen::VectorXd> signatures;
   int alike = 0;
@@ -103,14 +106,22 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
       if (represents(end, out[k])) out[k] = std::move(end);
       continue;
     }
-    alike = !out.empty() && same(end.objective, out.back().objective) ? alike + 1 : 0;
+    alike = !out.empty() && same_value(end.objective, out.back().objective) ? alike + 1 : 0;
     if (alike >= most_alike) continue;
     out.push_back(std::move(end));
     signatures.push_back(mark);
   }
   for (Candidate& c : out)
-    c.reached = static_cast<int>(std::ranges::count_if(from_starts, [&](double f) { return same(f, c.objective); }));
+    c.reached =
+        static_cast<int>(std::ranges::count_if(from_starts, [&](double f) { return same_value(f, c.objective); }));
   return out;
+}
+
+void discount_warm(const PreparedProblem& p, const SearchRound& round, std::vector<Candidate>& candidates) {
+  for (std::size_t k = 0; k < std::min(at_index(round.warm), round.runs.size()); ++k) {
+    if (!round.runs[k] || !acceptable(p, round.runs[k]->end)) continue;
+    for (Candidate& c : candidates) c.reached -= same_value(round.runs[k]->end.objective, c.objective);
+  }
 }
 
 std::optional<Candidate> best_feasible(const SearchRound& round) {

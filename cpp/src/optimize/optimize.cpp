@@ -68,8 +68,9 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
       const bool better =
           result.candidates.empty() || candidates.front().objective <= result.candidates.front().objective;
       if (better) {
+        discount_warm(p, round, candidates);
         result.candidates = std::move(candidates);
-        result.runs_completed = round.done - round.runs_abandoned;
+        result.runs_completed = std::max(0, round.done - round.runs_abandoned - round.warm);
       }
       // A larger size limit must not give a worse result by chance: the best design starts there too, also stretched.
       further = {round_bests.back().best.variables};

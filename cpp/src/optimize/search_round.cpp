@@ -177,6 +177,7 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
                const Settings& s, const Control& control, Progress& progress, SearchRound& round) {
   const RunSettings full_run{s.max_evaluations};
   const Batch batch{p, s, round.batches++};
+  round.warm += p.coordinates.size() > 0 ? batch.warm() : 0;
   const std::size_t before = round.runs.size();
   // Starts are expensive with many poses, or if the index has kinks that are smoothed.
   if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {

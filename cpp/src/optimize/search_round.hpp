@@ -20,6 +20,7 @@ struct SearchRound {
   int recombined = 0;  ///< runs from recombined end points
   long evaluations = 0;
   int done = 0;            ///< starts tried
+  int warm = 0;            ///< of those, warm ones: the first runs
   int runs_abandoned = 0;  ///< of those, given up after a short run
 };
 
@@ -75,6 +76,9 @@ constexpr double noticeable_gain = 1e-6;
 
 /// Distinct acceptable end points, best first: feasible, stationary, regular, and on no internal bound.
 std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const SearchRound& round);
+
+/// Takes the warm starts from Candidate::reached: one that ends where it began is no evidence.
+void discount_warm(const PreparedProblem& p, const SearchRound& round, std::vector<Candidate>& candidates);
 
 /// The best end point that is feasible and regular, stationary or not.
 std::optional<Candidate> best_feasible(const SearchRound& round);

@@ -45,16 +45,13 @@ def result_table(result: Result) -> Table:
 
 
 def price_text(result: Result) -> list[str]:
-    """Return the shadow prices of the best candidate, and the share of starts that reached it."""
+    """Return the shadow prices of the best candidate, and what the starts show."""
     if result.best is None:
         return []
-    which = "starts followed to their end" if result.runs_abandoned else "starts"
-    sure = f"{100.0 * result.confidence:.0f} % of the {which} reached the best"
-    if result.runs_abandoned:
-        sure += f"; {result.runs_abandoned} of {result.starts_done} were abandoned early"
     region = [] if result.region is None else [result.region.words]
     points = [result.internal_points] if result.internal_points else []
-    return ["\n".join([*region, *points, *price_words(result.study, result.best.variables, result.best.prices), sure])]
+    prices = price_words(result.study, result.best.variables, result.best.prices)
+    return ["\n".join([*region, *points, *prices, result.agreement])]
 
 
 def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> None:

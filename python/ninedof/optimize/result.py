@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from ninedof.design.internal_points import idle_words, rule_words
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.agreement import agreement_words
 from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result_html import result_html
@@ -74,7 +75,7 @@ class Candidate:
     constraint_violation: float
     """Largest negative margin; 0 if none."""
     reached: int
-    """How many starts ended here."""
+    """How many starts ended at this objective; warm starts are not counted."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
@@ -116,7 +117,8 @@ class Result:
     region: RegionReport | None = field(default=None, kw_only=True)
     """Of a region study: what was looked at, and the worst that was found."""
     runs_completed: int | None = field(default=None, kw_only=True)
-    """Starts run to their end in the round that found the best design, where that is known."""
+    """Starts followed to their end in the round that found the best design, where that is known; warm starts, which are
+    no evidence, are not counted."""
 
     @property
     def solved(self) -> Study:
@@ -130,9 +132,22 @@ class Result:
 
     @property
     def confidence(self) -> float:
-        """Fraction of the starts run to their end that reached the best candidate, from 0 to 1; 0 without one."""
-        completed = self.starts_done - self.runs_abandoned if self.runs_completed is None else self.runs_completed
-        return min(1.0, self.best.reached / completed) if self.best and completed > 0 else 0.0
+        """Fraction of the starts followed to their end that reached the best candidate, from 0 to 1; 0 without one.
+
+        It is no probability that the best candidate is the best of all, and starts given up after a short run have no
+        part in it: see `agreement`.
+        """
+        return min(1.0, self.best.reached / self._completed) if self.best and self._completed > 0 else 0.0
+
+    @property
+    def agreement(self) -> str:
+        """How many starts arrived, were followed and were given up, and what may have been missed: a sentence."""
+        arrived = min(self.best.reached, self._completed) if self.best else 0
+        return agreement_words(self._completed, arrived, self.runs_abandoned, self.status == Status.OPTIMAL)
+
+    @property
+    def _completed(self) -> int:
+        return self.starts_done - self.runs_abandoned if self.runs_completed is None else self.runs_completed
 
     objective = _OfBest(lambda c: c.objective, "Objective of the best candidate.")
     condition_number = _OfBest(lambda c: c.condition_number, "Condition number of the best candidate, neutral pose.")
@@ -190,7 +205,7 @@ class Result:
         return sheet(self, poses, **options)
 
     def summary(self) -> str:
-        """Return a few lines: status, objective, active limits and their prices, how many starts agree."""
+        """Return a few lines: status, objective, active limits and their prices, what the starts show."""
         lines = [f"{self.status}: {self.reason}"]
         best = self.best
         if best is None:
@@ -208,10 +223,9 @@ class Result:
         if self.internal_points:
             lines.append(self.internal_points)
         lines.extend(price_words(self.study, best.variables, best.prices))
-        found = f"{best.reached} of {self.starts_done} starts ended here ({100.0 * self.confidence:.0f} %)"
         if len(self.candidates) > 1:
-            found += f"; the next best optimum has {self.candidates[1].objective:.6f}"
-        lines.append(found)
+            lines.append(f"the next best optimum has {self.candidates[1].objective:.6f}")
+        lines.extend(self.agreement.split(". "))
         return "\n".join(lines)
 
 

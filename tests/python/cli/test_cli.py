@@ -119,7 +119,7 @@ def test_study_over_poses_shows_prices_and_poses(capsys):
         "worst over the poses",
         "best over the poses",
         "more radius_ratio buys",
-        "% of the",
+        "were followed to the end",
     ):
         assert part in text
     best = json.loads(Path("run/record.json").read_text())["results"]["optimization"]["candidates"][0]

@@ -5,11 +5,13 @@ import dataclasses
 import math
 import pickle
 
+import numpy as np
 import pytest
 
 import ninedof as nd
 from ninedof import poses
 from ninedof.design.internal_points import rule_words
+from ninedof.optimize.agreement import least_share
 from ninedof.optimize.prices import price_words
 from ninedof.support.json import encode
 
@@ -32,6 +34,45 @@ def test_properties_of_a_result_are_those_of_the_best_candidate(result):
     assert best.condition_number == pytest.approx(nd.condition_number(best.geometry, best.configuration))
     assert best.conditions == pytest.approx(nd.condition_number(best.geometry, best.configurations)[1:])
     assert result.confidence == min(1.0, best.reached / result.starts_done)
+
+
+@pytest.mark.parametrize(
+    ("counts", "words"),
+    [
+        ((8, 8, 56), "8 starts were followed to the end, all of them to this optimum; 56 others were given up"),
+        ((10, 3, 0), "10 starts were followed to the end, 3 of them to this optimum. A better optimum to which 26 %"),
+        ((8, 0, 1), "8 starts were followed to the end, none of them to this optimum; 1 other was given up"),
+        ((1, 1, 0), "1 start was followed to the end, to this optimum. A better optimum to which 95 % of starts lead"),
+        ((0, 0, 3), "no start was followed to its end"),
+    ],
+)
+def test_agreement_says_what_the_starts_show(result, counts, words):
+    completed, reached, abandoned = counts
+    best = dataclasses.replace(result.best, reached=reached)
+    asked = dataclasses.replace(
+        result, candidates=(best,), runs_completed=completed, runs_abandoned=abandoned, status=nd.Status.OPTIMAL
+    )
+    assert asked.agreement.startswith(words)
+    assert all(line in asked.summary() for line in asked.agreement.split(". "))
+    stopped = dataclasses.replace(asked, status=nd.Status.STOPPED)
+    assert "optimum" not in stopped.agreement
+
+
+def test_starts_with_a_share_are_met_as_often_as_agreement_says():
+    """Draws of n starts, each of which reaches a better optimum with the stated share: about 5 % miss it."""
+    rng = np.random.default_rng(3)
+    for n in (1, 8, 64):
+        missed = (rng.random((20_000, n)) >= least_share(n)).all(axis=1).mean()
+        assert missed == pytest.approx(0.05, abs=0.006)
+
+
+def test_warm_starts_are_no_evidence():
+    study = nd.Study.paper()
+    best = nd.optimize(study, starts=4)
+    again = nd.optimize(study, starts=2, seed=3, warm=[best.best] * 3)
+    assert again.runs_completed <= again.starts_done - 3
+    assert again.best.reached <= again.runs_completed
+    assert 0.0 <= again.confidence <= 1.0
 
 
 def test_results_can_be_pickled_and_copied(result):

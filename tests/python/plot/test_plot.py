@@ -249,8 +249,8 @@ def test_axes_show_the_low_part_of_the_curves():
 def test_convergence_marks_runs_that_do_not_converge():
     share, minimax, plain = plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0).axes
     assert (minimax.get_title(loc="left"), plain.get_title(loc="left")) == (
-        "minimax SQP: 2 of 2 converge",
-        "plain SQP: 1 of 2 converge",
+        "minimax SQP: 2 of 2 starts arrive",
+        "plain SQP: 1 of 2 starts arrive",
     )
     there, stuck, median = (c for c in plain.collections if isinstance(c, LineCollection))
     assert [len(c.get_segments()) for c in (there, stuck, median)] == [1, 1, 1]

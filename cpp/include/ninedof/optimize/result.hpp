@@ -34,7 +34,7 @@ struct Candidate {
   /// cent. Only of what is active; a bound at zero has none.
   std::map<std::string, double> prices;
   bool singular = true;  ///< at some evaluated pose
-  int reached = 0;  ///< starts that ended at this objective
+  int reached = 0;  ///< starts, warm ones aside, that ended at this objective
 
   bool feasible() const { return constraint_violation <= 1e-8; }
   bool regular() const { return !singular; }
@@ -49,7 +49,7 @@ struct Result {
   long evaluations = 0;  ///< designs evaluated by SLSQP, over all starts and rounds
   int starts_done = 0;
   int runs_abandoned = 0;  ///< starts given up after a short run that promised little
-  int runs_completed = 0;  ///< starts run to their end in the round that found the best design
+  int runs_completed = 0;  ///< starts, warm ones aside, run to their end in the round that found the best design
   bool interrupted = false;  ///< by Control::stop
 };
 
