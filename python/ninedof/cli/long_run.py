@@ -1,4 +1,4 @@
-"""Run folders of sweeps and atlases: finished chunks, the result and its figure, messages."""
+"""Run folders of sweeps, atlases and fronts: finished chunks, the result and its figure, messages."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any
@@ -54,7 +55,18 @@ class Screen:
     def progress(self, title: str) -> AbstractContextManager[Bar]:
         """Show a bar of starts with the best objective so far."""
         columns = (BarColumn(bar_width=24), MofNCompleteColumn(), "{task.fields[value]}", TimeElapsedColumn())
-        return self._bar(title, columns, lambda best: "no design" if best is None else f"best {best:.6f}", at_once=True)
+        return self._bar(title, columns, _best_words, at_once=True)
+
+    def limits(self, title: str) -> AbstractContextManager[Bar]:
+        """Show a bar of solved limits with the last objective and the remaining time, as far as the work is known."""
+        columns = (
+            BarColumn(bar_width=12),
+            MofNCompleteColumn(),
+            "{task.fields[value]}",
+            TimeRemainingColumn(),
+            "to go",
+        )
+        return self._bar(title, columns, lambda last: "no design" if last is None else f"{last:.6f}", at_once=True)
 
     def points(self, title: str) -> AbstractContextManager[Bar]:
         """Show a bar of points with the remaining time."""
@@ -85,6 +97,10 @@ class Screen:
         finally:
             if shown.live.is_started:
                 shown.stop()
+
+
+def _best_words(best: float | None) -> str:
+    return f"best {best:.6f}" if best is not None and math.isfinite(best) else "no design yet"
 
 
 class Bar:

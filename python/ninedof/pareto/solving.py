@@ -6,14 +6,20 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
+from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
-from ninedof.optimize.result import Result, Status
+from ninedof.optimize.result import Result, Status, result_from
 from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limited import limited, unit_of
 from ninedof.support.angles import degrees_of
+from ninedof.support.json import decode, encode
 from ninedof.support.progress import Progress
 from ninedof.support.units import amount
+
+KEPT = "result"  # name of a result in the store: the bytes of its JSON
 
 
 class Interrupted(Exception):  # ends the computation, not an error
@@ -21,14 +27,21 @@ class Interrupted(Exception):  # ends the computation, not an error
 
 
 class Sweep:
-    """The limits solved so far and the best result for each."""
+    """The limits solved so far and the best result for each.
 
-    def __init__(self, study: Study, against: str, threads: int | None, progress: Progress | None) -> None:
-        """Begin without results."""
+    Every optimization follows from those before it, so an interrupted run is continued by doing everything again with
+    the results that were kept: the same front, bit for bit.
+    """
+
+    def __init__(
+        self, study: Study, against: str, threads: int | None, progress: Progress | None, store: Store | None = None
+    ) -> None:
+        """Begin without results, or with those of a store."""
         self.study, self.against = study, against
         self.results: dict[float, Result] = {}
         self.open_ended: Result | None = None
         self._threads, self._progress = threads, progress
+        self._store, self._optimized = store, 0
         self._solved, self.planned = 0, 0
 
     def solve(self, limit: float | None, warm: Iterable[Result | None] = (), again: bool = False) -> Result:
@@ -47,11 +60,9 @@ class Sweep:
         if again:
             study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
         known = [result for result in warm if result is not None and result.candidates]
-        result = optimize(study, threads=self._threads, warm=known or None)
-        if result.interrupted:
-            raise Interrupted
+        result, anew = self._result(study, known)
         self._solved += 1
-        if self._progress is not None:
+        if self._progress is not None and anew:
             value = objective_of(result)
             self._progress(self._solved, max(self.planned, self._solved), None if math.isnan(value) else value)
         if limit is None:
@@ -61,6 +72,24 @@ class Sweep:
         if old is None or _rank(result) < _rank(old, better_by=1e-12):
             self.results[limit] = result
         return self.results[limit]
+
+    def optimum(self, study: Study) -> Result:
+        """Solve a study that is none of the limits."""
+        return self._result(study, [])[0]
+
+    def _result(self, study: Study, warm: list[Result]) -> tuple[Result, bool]:
+        """Return the next result, and whether it was computed and not found in the store."""
+        number = self._optimized
+        self._optimized += 1
+        if self._store is not None and (kept := self._store.read(number)) is not None:
+            return result_from(study, decode(kept[KEPT].tobytes().decode())), False
+        result = optimize(study, threads=self._threads, warm=warm or None)
+        if result.interrupted:
+            raise Interrupted
+        if self._store is not None:
+            data = encode(result.to_dict(), indent=None).encode()
+            self._store.write(number, {KEPT: np.frombuffer(data, dtype=np.uint8)})
+        return result, True
 
     def both_ways(self, limits: Sequence[float]) -> None:
         """Solve from the loosest limit to the tightest and back; limits in increasing order.

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.front import objective_of
 from ninedof.pareto.limited import CONDITION_LIMIT, floor_of, own_value, value_at
-from ninedof.pareto.solving import Interrupted, Sweep
+from ninedof.pareto.solving import Sweep
 
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
@@ -58,9 +57,7 @@ def _between_indices(sweep: Sweep) -> tuple[float, float] | None:
     """
     study = sweep.study
     plain = replace(study.objective, index="condition_number", aggregate="worst", condition_limit=None)
-    least = optimize(replace(study, objective=plain))
-    if least.interrupted:
-        raise Interrupted
+    least = sweep.optimum(replace(study, objective=plain))
     if least.status != Status.OPTIMAL or least.best is None:
         sweep.open_ended = least
         return None

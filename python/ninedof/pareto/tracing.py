@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
+from contextlib import nullcontext
 from time import perf_counter
 
 import numpy as np
 
+from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
@@ -31,6 +34,7 @@ def pareto(
     starts: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    out: str | os.PathLike[str] | None = None,
 ) -> Front:
     """Return the best objective for each value of a limit: a trade-off.
 
@@ -59,7 +63,11 @@ def pareto(
     threads : int, optional
         One per processor by default. The result does not depend on it.
     progress : callable, optional
-        Called as progress(solved so far, to be solved as far as known, last objective, None without a design).
+        Called as progress(solved so far, to be solved as far as known, last objective, None without a design), not for
+        what is found in `out`.
+    out : path, optional
+        Folder in which every solved limit is kept, made if it is missing. The same call with the same folder continues
+        there, however the last one ended, and gives the same front.
 
     Returns
     -------
@@ -68,7 +76,8 @@ def pareto(
     Raises
     ------
     ValueError
-        If an argument does not fit, or if the study is unbounded without a limit, so that none can be derived.
+        If an argument does not fit, if `out` holds something else, or if the study is unbounded without a limit, so
+        that none can be derived.
 
     Examples
     --------
@@ -87,16 +96,20 @@ def pareto(
     plain, degrees = without_degrees(against)
     posed, limit = resolve(study.with_solver(starts), plain)
     given = None if values is None else _values(values, limit, degrees)
-    sweep = Sweep(posed, limit, threads, progress)
+    if out is not None and not isinstance(out, str | os.PathLike):
+        raise ValueError(f"out: got {shown(out)}, expected a path")
     begin, interrupted = perf_counter(), False
     wanted: list[float] | None = given
-    try:
-        wanted = _trace(sweep, count) if given is None else given
-        if given is not None:
-            sweep.both_ways(given)
-        sweep.repair()
-    except (Interrupted, KeyboardInterrupt):
-        interrupted = True
+    question = {"study": posed.to_dict(), "against": limit, "values": given, "points": count}
+    with nullcontext() if out is None else Store(out, question, 1) as store:
+        sweep = Sweep(posed, limit, threads, progress, store)
+        try:
+            wanted = _trace(sweep, count) if given is None else given
+            if given is not None:
+                sweep.both_ways(given)
+            sweep.repair()
+        except (Interrupted, KeyboardInterrupt):
+            interrupted = True
     shown_limits = sorted(sweep.results if wanted is None else set(wanted) & set(sweep.results))
     results = tuple(sweep.results[value] for value in shown_limits)
     limits = tuple(degrees_of(value) if degrees else value for value in shown_limits)

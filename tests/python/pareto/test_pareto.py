@@ -320,6 +320,50 @@ def test_ctrl_c(monkeypatch):
     assert [result.objective for result in found] == [solved[1].objective, solved[0].objective]
 
 
+@pytest.mark.parametrize(
+    ("values", "solved"), [([1.5, 2.0, 3.0], 1), ([1.5, 2.0, 3.0], 5), (None, 3)], ids=["first", "back", "derived"]
+)
+def test_an_interrupted_front_continues_in_its_folder(tmp_path, monkeypatch, solved, values):
+    """The same front as in one go, and nothing is solved twice."""
+    options = {"against": "radius_ratio", "values": values, "points": 3, "starts": 8}
+    calls = []
+
+    def counted(study, **given):
+        calls.append(study)
+        return nd.optimize(study, **given)
+
+    def stop(done, total, value):
+        if done == solved:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(sweeping, "optimize", counted)
+    whole = pareto(PAPER, **options)
+    needed = len(calls)
+    calls.clear()
+    assert pareto(PAPER, **options, out=tmp_path / "kept", progress=stop).interrupted
+    assert len(calls) == solved
+    again = pareto(PAPER, **options, out=tmp_path / "kept")
+    assert len(calls) == needed
+    assert not again.interrupted
+    assert again.table() == whole.table()
+    assert [dict(r.to_dict(), seconds=0) for r in again] == [dict(r.to_dict(), seconds=0) for r in whole]
+    assert pareto(PAPER, **options, out=tmp_path / "kept").table() == whole.table()
+    assert len(calls) == needed
+    with pytest.raises(ValueError, match=r"^out: .* another question"):
+        pareto(PAPER, "leg_ratio", values=[2.0], out=tmp_path / "kept")
+
+
+@pytest.mark.skipif(size(True, False), reason="two seconds")
+def test_a_front_over_a_region_continues(tmp_path):
+    def stop(done, total, value):
+        raise KeyboardInterrupt
+
+    study = replace(PAPER, objective={"region": {"box": [0.2, 0.0, 0.0]}}, starts=1)
+    options = {"against": "radius_ratio", "values": [2.0]}
+    assert pareto(study, **options, out=tmp_path / "kept", progress=stop).interrupted
+    assert pareto(study, **options, out=tmp_path / "kept").table() == pareto(study, **options).table()
+
+
 def test_same_front_for_any_number_of_threads():
     one, two = (pareto(PAPER, "leg_ratio", values=[1.5, 2.0], threads=n) for n in (1, 2))
     assert one.table() == two.table()

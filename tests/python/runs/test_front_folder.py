@@ -8,7 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.pareto import Front, pareto
+from ninedof.pareto import Front, pareto, solving
 from ninedof.runs.folder import Record, load, write_record, write_run
 from ninedof.verify import check
 
@@ -80,7 +80,7 @@ def test_the_command_prints_and_records(tmp_path, capsys):
     for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
         assert words in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    assert names == {"record.json", "front.png", "front.svg"}
+    assert names == {"record.json", "front.png", "front.svg", "chunks"}
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
@@ -89,12 +89,34 @@ def test_the_command_prints_json(tmp_path, capsys):
     data = json.loads(capsys.readouterr().out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
     assert data["record"].endswith("record.json")
-    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json"}
+    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "chunks"}
 
 
 def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
     assert command(tmp_path, "--against leg_ratio --value 0.5 --starts 16") == 3
     assert "infeasible" in capsys.readouterr().out
+
+
+def test_the_command_continues_after_an_interruption(tmp_path, monkeypatch, capsys):
+    """The first time the second limit is cut short: what is solved is printed, drawn and kept."""
+    calls = []
+
+    def cut(study, **options):
+        calls.append(study)
+        return replace(nd.optimize(study, **options), interrupted=len(calls) == 2)
+
+    monkeypatch.setattr(solving, "optimize", cut)
+    line = "--value 1.5 --value 2"
+    assert command(tmp_path, line) == 130
+    words = " ".join(capsys.readouterr().out.split())
+    assert "interrupted: 1 limit is solved so far and kept in" in words
+    assert "--resume continues the run" in words
+    assert (tmp_path / "run" / "front.png").is_file()
+    assert load(tmp_path / "run").limits == (2.0,)
+    assert command(tmp_path, f"{line} --resume") == 0
+    assert len(calls) == 5  # four, and the one that was cut short
+    assert load(tmp_path / "run").limits == (1.5, 2.0)
+    assert not load(tmp_path / "run").interrupted
 
 
 def test_the_command_keeps_what_an_interruption_leaves(tmp_path, monkeypatch):

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
-from ninedof.cli.options import Figures, Json, Out, Starts, StudyFile, Threads
+from ninedof.cli.long_run import CHUNKS, run_folder
+from ninedof.cli.options import Figures, Json, Out, Resume, Starts, StudyFile, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.limited import with_degrees
-from ninedof.runs.directory import new_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
 from ninedof.support.units import with_unit
@@ -34,7 +34,9 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof pareto study.toml --against stroke --value 0.1 --value 0.2 --value 0.4
 
-  ninedof pareto study.toml --against base_cone_deg --value 30 --value 35"""
+  ninedof pareto study.toml --against base_cone_deg --value 30 --value 35
+
+  ninedof pareto study.toml --against leg_ratio --out front     --resume after an interruption"""
 
 
 def pareto(
@@ -54,6 +56,7 @@ def pareto(
     ] = None,
     points: Annotated[int, typer.Option(help="Number of limits, if the command selects them.")] = 13,
     out: Out = None,
+    resume: Resume = False,
     starts: Starts = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -64,20 +67,29 @@ def pareto(
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
     against = with_degrees(against)  # at the terminal angles are degrees
-    directory = new_directory(out)
     name = "the paper's problem" if study is None else study.name
-    with screen.progress(f"{name}, {against}") as bar:
-        front = trace_front(chosen, against, value or None, points, threads=threads, progress=bar.show)
-    screen.print(front_table(front))
+    with run_folder(out, resume) as directory, screen.limits(f"{name}, {against}") as bar:
+        front = trace_front(
+            chosen, against, value or None, points, threads=threads, progress=bar.show, out=directory / CHUNKS
+        )
+    if front.limits:
+        screen.print(front_table(front))
     if front.interrupted:
-        screen.print("[bold]interrupted[/bold]: the limits solved so far are kept")
-    drawn = figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
+        screen.print(
+            f"[bold]interrupted[/bold]: {_count(front)} solved so far and kept in {directory}; the same "
+            f"command with --out {directory} --resume continues the run"
+        )
+    drawn = figures and any(math.isfinite(limit) for limit in front.limits)
     record = write_run(front, directory, partial(_draw, front, screen) if drawn else None)
     screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if drawn else ""))
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if any(not math.isnan(found) for found in front.objectives) else NO_RESULT)
+
+
+def _count(front: Front) -> str:
+    return "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
 
 
 def front_table(front: Front) -> Table:
