@@ -1,7 +1,9 @@
 /// Declared in optimize/search_round.hpp.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "optimize/search_round.hpp"
 
@@ -61,6 +63,28 @@ Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   return out.cwiseMax(1e-300).cwiseMin(1e300).array().log();
 }
 
+/// Distances of all points of the neutral robot from each other, in mean leg lengths, sorted by what they join: the same
+/// for robots that differ by a rotation, a reflection or a numbering of the joints. External joints keep their partners.
+Eigen::VectorXd shape(const PreparedProblem& p, const Candidate& c) {
+  DesignEvaluation design;
+  evaluate_design(p, p.coordinates.coordinates(c.variables), design);
+  const PoseState& neutral = design.state.pose(0);
+  const auto kind = [](int point) { return point < point_p ? point / 3 : point; };
+  std::map<std::array<int, 3>, std::vector<double>> groups;
+  for (int a = 0; a < point_count; ++a)
+    for (int b = 0; b < a; ++b) {
+      const int partners = a == point_u + b - point_r && b < point_r_hat;
+      const double apart = (neutral.at[at_index(a)] - neutral.at[at_index(b)]).norm();
+      groups[{kind(a), kind(b), partners}].push_back(apart / neutral.legs.length.mean());
+    }
+  std::vector<double> all;
+  for (auto& [points, distances] : groups) {
+    std::ranges::sort(distances);
+    all.insert(all.end(), distances.begin(), distances.end());
+  }
+  return Eigen::VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
 /// Whether `a` represents two end points of the same design: not worse, and first in the order of variables (the choice
 /// between mirror images must not depend on rounding), or the same image and more nearly stationary.
 bool represents(const Candidate& a, const Candidate& b) {
@@ -96,12 +120,17 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
   std::vector<Candidate> out;
-  std::vector<Eigen::VectorXd> signatures;
+  std::vector<Eigen::VectorXd> signatures, shapes;
   int alike = 0;
   for (Candidate& end : ends) {
-    const Eigen::VectorXd mark = signature(p, end);
+    const Eigen::VectorXd mark = signature(p, end), form = shape(p, end);
+    // A mirror image may be worse at poses that do not decide: its condition numbers differ, its objective does not.
+    const auto known = [&](std::size_t k) {
+      return (signatures[k] - mark).cwiseAbs().maxCoeff() < same_design ||
+             ((shapes[k] - form).cwiseAbs().maxCoeff() < same_design && same_value(end.objective, out[k].objective));
+    };
     std::size_t k = 0;
-    while (k < out.size() && !((signatures[k] - mark).cwiseAbs().maxCoeff() < same_design)) ++k;
+    while (k < out.size() && !known(k)) ++k;
     if (k < out.size()) {
       if (represents(end, out[k])) out[k] = std::move(end);
       continue;
@@ -110,6 +139,7 @@ std::vector<Candidate> distinct_candidates(const PreparedProblem& p, const Searc
     if (alike >= most_alike) continue;
     out.push_back(std::move(end));
     signatures.push_back(mark);
+    shapes.push_back(form);
   }
   for (Candidate& c : out)
     c.reached =

@@ -103,8 +103,9 @@ class Result:
     causes: tuple[str, ...]
     """Variables or constraints behind "unbounded" or "infeasible"; a variable stands for its bounds."""
     candidates: tuple[Candidate, ...]
-    """Distinct local optima, best first; of many with the same objective, four. Mirror images count as one design, and
-    so do designs that differ in size where only the shape matters, or in a variable without effect."""
+    """Distinct local optima, best first; of many with the same objective, four. Designs that differ by a reflection, a
+    rotation about z or the numbering of their joints count as one, and so do those that differ in size where only the
+    shape matters, or in a variable without effect. At poses that do not decide, their condition numbers may differ."""
     evaluations: int
     starts_done: int
     """Over all rounds; more than the study's `starts` where few agreed, see `optimize`."""

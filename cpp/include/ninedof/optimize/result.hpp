@@ -45,7 +45,8 @@ struct Result {
   Status status = Status::stopped;
   std::string reason;  ///< one sentence
   std::vector<std::string> causes;  ///< variables or constraints behind `unbounded` or `infeasible`
-  std::vector<Candidate> candidates;  ///< distinct local optima, best first; empty if nothing acceptable was found
+  std::vector<Candidate>
+      candidates;  ///< distinct local optima, up to relabelling, best first; empty if nothing acceptable was found
   long evaluations = 0;  ///< designs evaluated by SLSQP, over all starts and rounds
   int starts_done = 0;
   int runs_abandoned = 0;  ///< starts given up after a short run that promised little
