@@ -85,9 +85,15 @@ void run_all(const PreparedProblem& p, int count, const std::function<Eigen::Vec
 
 /// The same from a list.
 void run_all(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts, bool from_start,
-             const RunSettings& run_settings, const Settings& s, const Control& control, SearchRound& round) {
+             const RunSettings& run_settings, const Settings& s, const Control& control, SearchRound& round,
+             Progress* progress = nullptr) {
   const auto at = [&](int k) { return starts[at_index(k)]; };
-  run_all(p, static_cast<int>(starts.size()), at, from_start, run_settings, s, control, nullptr, round);
+  run_all(p, static_cast<int>(starts.size()), at, from_start, run_settings, s, control, progress, round);
+}
+
+/// How many of `starts` are run to their end after a short run of each.
+int full_run_count(int starts) {
+  return std::min(starts, std::max(least_full_runs, starts / 8));
 }
 
 /// The most promising starts of a batch, by a short run of each.
@@ -108,7 +114,7 @@ std::vector<Eigen::VectorXd> promising_starts(const Batch& batch, double size_li
   std::vector<Eigen::VectorXd> out;
   for (int k = 0; k < warm; ++k) out.push_back(batch.start(k));
   int done = warm;
-  const auto full_runs = std::max<std::size_t>(least_full_runs, short_runs.runs.size() / 8) + out.size();
+  const auto full_runs = at_index(full_run_count(batch.count() - warm) + warm);
   for (const std::size_t k : ranked(short_runs)) {
     round.evaluations += short_runs.runs[k]->evaluations;
     ++done;
@@ -181,8 +187,9 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
   const std::size_t before = round.runs.size();
   // Starts are expensive with many poses, or if the index has kinks that are smoothed.
   if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {
+    progress.expect(full_run_count(batch.count() - batch.warm()));
     const std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round);
-    run_all(p, chosen, true, full_run, s, control, round);
+    run_all(p, chosen, true, full_run, s, control, round, &progress);
   } else {
     run_all(p, batch.count(), [&](int k) { return batch.start(k); }, true, full_run, s, control, &progress, round);
     for (std::size_t k = before; k < round.runs.size(); ++k) round.done += round.runs[k] != nullptr;

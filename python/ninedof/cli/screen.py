@@ -53,9 +53,9 @@ class Screen:
         self.progress_console.print(f"  {doing}", style="dim", highlight=False)
 
     def progress(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of starts with the best objective so far."""
-        columns = (BarColumn(bar_width=24), MofNCompleteColumn(), "{task.fields[value]}", TimeElapsedColumn())
-        return self._bar(title, columns, _best_words, at_once=True)
+        """Show a bar of runs with the best objective so far."""
+        columns = (BarColumn(bar_width=14), MofNCompleteColumn(), "{task.fields[value]}", TimeElapsedColumn())
+        return self._bar(title, columns, best_words, at_once=True)
 
     def limits(self, title: str) -> AbstractContextManager[Bar]:
         """Show a bar of solved limits with the last objective and the remaining time, as far as the work is known."""
@@ -99,19 +99,26 @@ class Screen:
                 shown.stop()
 
 
-def _best_words(best: float | None) -> str:
+def best_words(best: float | None) -> str:
+    """Return the best objective so far in words."""
     return f"best {best:.6f}" if best is not None and math.isfinite(best) else "no design yet"
 
 
 class Bar:
-    """A progress bar, updated by `show`."""
+    """A progress bar, updated by `show` or a call."""
 
     def __init__(self, shown: Progress, title: str, words: Callable[[float | None], str]) -> None:
         """Add a bar without a length; `words` formats the value of a report."""
-        self._shown, self._words = shown, words
+        self._shown, self._title, self._words = shown, title, words
         self._task = shown.add_task(title, total=None, value="")
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
         self._shown.start()
         self._shown.update(self._task, completed=done, total=total, value=self._words(value))
+
+    __call__ = show
+
+    def phase(self, words: str) -> None:
+        """Say behind the title which part of the work is done."""
+        self._shown.update(self._task, description=f"{self._title}: {words}")

@@ -10,6 +10,7 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.optimize.exchange import optimize_region
 from ninedof.optimize.result import Candidate, Result, candidate_from, result_from
+from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
@@ -39,8 +40,10 @@ def optimize(
     threads : int, optional
         One per processor by default. The result is the same, bit for bit, for any number.
     progress : callable, optional
-        Called as progress(starts done, starts in all, best objective so far); infinite before a start has found a
-        feasible design. Starts in all grow where more starts follow.
+        Called as progress(runs done, runs in all, best objective so far); infinite before a start has found a feasible
+        design. A start is one run, or two where it is followed to its end after a short run. Runs in all grow where
+        more starts follow, and, over a region, with every round; they count the last round from the first. If it has a
+        method `phase`, that is called with a few words when a round begins.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
         Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
         are moved inside the bounds.
@@ -69,10 +72,13 @@ def optimize(
     study = study.with_solver(starts, seed)
     count = thread_argument(threads)
 
+    rounds = Rounds(progress, study.starts) if study.objective.region is not None and progress is not None else None
+
     def solve(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
         settings = _core.Settings(starts=starts, seed=study.seed, threads=count, warm=warm_starts(posed, warm))
         begin = perf_counter()
-        found = _core.optimize(posed.problem(), settings, progress)
+        report = progress if rounds is None else rounds.begin(starts, len(posed.objective.poses))
+        found = _core.optimize(posed.problem(), settings, report)
         return result_from(posed, found | {"seconds": perf_counter() - begin})
 
     if study.objective.region is not None:

@@ -12,6 +12,13 @@ Progress = Callable[[int, int, float | None], object]
 or the volume so far; None where there is no such figure."""
 
 
+def phase(progress: Progress, words: str) -> None:
+    """Tell a progress that has a method `phase` which part of the work begins."""
+    say = getattr(progress, "phase", None)
+    if callable(say):
+        say(words)
+
+
 def progress_argument(progress: object) -> Progress | None:
     """Return `progress`; raise unless it is callable or None."""
     if progress is not None and not callable(progress):

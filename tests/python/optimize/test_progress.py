@@ -13,6 +13,7 @@ from interrupts import interrupter
 from sizes import size
 
 import ninedof as nd
+from ninedof.cli.screen import best_words
 
 LEAST = 3.762659078596047
 HUGE = 10**6  # starts: minutes of work
@@ -224,3 +225,52 @@ def test_an_interruption_at_the_very_end_is_reported():
         except KeyboardInterrupt:
             heard = True
         assert heard
+
+
+def test_the_runs_that_place_o_are_counted():
+    """With several poses the best starts are run again with O free: the slow part, during which the bar stood still."""
+    seen = []
+    study = nd.Study(
+        constraints={"radius_ratio": (None, 2.0)},
+        objective={
+            "poses": [{"position": (x, y, 0.2)} for x, y in itertools.product((-0.4, 0.4), repeat=2)],
+            "internal_point": "best",
+        },
+        starts=16,
+    )
+    result = nd.optimize(study, progress=lambda *arguments: seen.append(arguments))
+    assert result.starts_done == 16
+    assert {total for _, total, _ in seen} == {24}  # 16 short runs and 8 to the end
+    assert seen[-1][0] == 24
+    assert seen[-1][2] <= result.objective * (1.0 + 1e-9)
+
+
+def test_rounds_of_a_region_are_one_count_with_an_end():
+    class Bar:
+        seen, phases = [], []
+
+        def __call__(self, *arguments):
+            self.seen.append(arguments)
+
+        def phase(self, words):
+            self.phases.append(words)
+
+    study = nd.Study(
+        constraints={"radius_ratio": (None, 2.0)}, objective={"region": {"box": [0.3, 0.3, 0.0]}}, starts=8
+    )
+    bar = Bar()
+    result = nd.optimize(study, progress=bar)
+    assert result.region.rounds > 1
+    done, total, _ = zip(*bar.seen, strict=True)
+    assert all(a <= b for a, b in itertools.pairwise(done))
+    assert all(a <= b for a, b in zip(done, total, strict=True))
+    assert done[-1] == total[-1]
+    assert all(d < t for d, t in zip(done[:-1], total[:-1], strict=True))
+    assert bar.phases[0].startswith("round 1, ")
+    assert bar.phases[-1].startswith(f"round {result.region.rounds}, ")
+
+
+@pytest.mark.parametrize("value", [None, math.inf, math.nan])
+def test_the_screen_has_words_for_no_design(value):
+    assert best_words(value) == "no design yet"
+    assert best_words(3.0) == "best 3.000000"

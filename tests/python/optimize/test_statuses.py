@@ -3,6 +3,7 @@
 Oracles: the theory notes for the unbounded study; for the others the truth is plain from how the study is made.
 """
 
+import itertools
 import math
 import re
 from dataclasses import replace
@@ -244,11 +245,12 @@ def test_zs_fraction_of_one_is_infeasible():
 
 def test_limits_of_the_box_that_named_nothing():
     """Only a far higher platform has legs that change so little; once a violation shared by two rows hid all limits."""
+    ten = [{}, {"position": (0, 0, 1)}, *({"position": p} for p in itertools.product((-1, 1), repeat=3))]
     study = nd.Study(
         family="symmetric",
         variables={"zp": (1, 4)},
         constraints={"stroke_ratio": (None, 1.05)},
-        objective={"box": {"half": [1, 1, 1]}},
+        objective=size({"poses": ten}, {"box": {"half": [1, 1, 1]}}),
         starts=2,
     )
     result = nd.optimize(study)

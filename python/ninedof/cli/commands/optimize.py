@@ -81,7 +81,7 @@ def _solve_study(study: Study, name: str, threads: int | None, screen: Screen) -
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
-        result = solve(study, threads=threads, progress=bar.show)
+        result = solve(study, threads=threads, progress=bar)
     screen.print(f"[bold]{result.status}[/bold]: {result.reason}")
     if result.candidates:
         screen.print(result_table(result))
