@@ -89,6 +89,21 @@ py::tuple region_pose(const py::dict& region, const std::array<double, 6>& at) {
   return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal));
 }
 
+/// For rows of coordinates: those of the nearest poses of the region, then shift of p, rotation vector and shift of s.
+Array region_poses(const py::dict& region, const py::object& at) {
+  const Region r = region_from(region);
+  const py::ssize_t count = py::len(at);
+  const Array given = array_of_shape("at", at, {count, 6});
+  Array out({count, py::ssize_t{15}});
+  for (py::ssize_t n = 0; n < count; ++n) {
+    const Vec6 near = r.nearest(Vec6::Map(given.data(n, 0)));
+    const Pose pose = r.pose(near);
+    Eigen::Map<Eigen::Matrix<double, 15, 1>>(out.mutable_data(n, 0)) << near, pose.position, pose.rotation,
+        pose.internal;
+  }
+  return out;
+}
+
 /// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates where each
 /// leg is longest and shortest.
 py::dict worst_of_region(const Problem& problem, const py::dict& region, const std::vector<double>& x, long samples,
@@ -136,6 +151,7 @@ void bind_optimize(py::module_& m) {
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
            py::arg("warm") = py::none());
   m.def("region_pose", &region_pose);
+  m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+import numpy as np
 from rich.table import Table
 
 from ninedof.cli.pose_words import pose_words, vector_words
@@ -13,19 +14,30 @@ from ninedof.sheet.limit_rows import LimitRow
 from ninedof.sheet.sheet import Extreme, Sheet
 from ninedof.support.units import amount, heading, per, times, with_unit
 
+ROUNDING = 1e-11  # of the largest number of a column
 MECHANISMS = {
     "det_b": "O in the plane of the lower internal joints",
     "det_c": "O in the plane of the upper internal joints",
     "det_n": "the platform turns about a line through O",
 }
-INTERNAL = {"least": "O moves for the least leg rates", "rest": "O at rest", "carried": "O carried with the platform"}
+INTERNAL = {
+    "least": "O moves for the least leg rates",
+    "rest": "O at rest",
+    "shifted": "O shifted with the platform's origin",
+    "carried": "O carried with the platform",
+}
+MOTIONS = {"shift": "shift of the platform", "turn": "turn about its origin", "internal": "O alone"}
 
 
 def sheet_tables(found: Sheet) -> Iterator[Table | str]:
     """Return the tables and lines of a sheet in the order of printing."""
     yield _joints(found)
-    yield _legs(found)
+    yield from region_words(found)
+    yield _lengths(found)
+    yield _motions(found)
     yield from _words(found)
+    if found.motion.twist is not None:
+        yield _twist(found)
     if len(found.loads):
         yield _forces(found)
     yield _worst(found)
@@ -35,7 +47,7 @@ def sheet_tables(found: Sheet) -> Iterator[Table | str]:
 
 def poses_table(found: Sheet) -> Table:
     """Return the condition numbers and the legs over the poses, in short."""
-    table = _table(f"Over {len(found.configurations)} poses, the neutral one included", "", "")
+    table = _table(_over(found).capitalize() + ", the neutral pose included", "", "")
     table.show_header = False
     worst = found.condition_number
     table.add_row("worst condition number", f"{worst.value:.6f}")
@@ -69,46 +81,98 @@ def _joints(found: Sheet) -> Table:
     return table
 
 
-def _legs(found: Sheet) -> Table:
-    several = len(found.configurations) > 1
-    title = f"Legs over {len(found.configurations)} poses" if several else "Legs at the neutral pose"
+def region_words(found: Sheet) -> Iterator[str]:
+    """Yield a sentence on how the region was looked over, if there is one."""
+    if (look := found.region) is not None:
+        yield f"Region: {look.region}. Poses looked at: {look.looked_at}, a sample and descents from the worst of it."
+
+
+def _over(found: Sheet) -> str:
+    if found.region is not None:
+        return "over the region"
+    count = len(found.configurations)
+    return f"over {count} poses" if count > 1 else "at the neutral pose"
+
+
+def _lengths(found: Sheet) -> Table:
     lengths = (heading(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke"))
-    columns = (*lengths, "ratio", heading("speed", per(found.unit, "s")), "base cone", "platform cone")
-    table = _table(title, "leg", *columns)
+    table = _table(f"Legs {_over(found)}: lengths", "leg", *lengths, "ratio")
     for k, leg in enumerate(found.legs):
-        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
-        cones = ("-" if a is None else f"{math.degrees(a):.2f}°" for a in (leg.base_cone, leg.platform_cone))
-        table.add_row(leg.name, *(short(x) for x in numbers), *cones, end_section=k % 3 == 2)
+        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio)
+        table.add_row(leg.name, *(short(x) for x in numbers), end_section=k % 3 == 2)
     return table
+
+
+def _motions(found: Sheet) -> Table:
+    speeds = heading("speed", per(found.unit, "s")), heading("acceleration", per(found.unit, "s²"))
+    columns = (*speeds, "base cone", "platform cone")
+    table = _table(f"Legs {_over(found)}: speeds and cones", "leg", *columns)
+    for k, leg in enumerate(found.legs):
+        cones = ("-" if a is None else f"{math.degrees(a):.2f}°" for a in (leg.base_cone, leg.platform_cone))
+        table.add_row(leg.name, f"{leg.speed:.5g}", f"{leg.acceleration:.5g}", *cones, end_section=k % 3 == 2)
+    return table
+
+
+def _twist(found: Sheet) -> Table:
+    """Return the rates and accelerations for the given twist."""
+    heads = heading("speed", per(found.unit, "s")), heading("acceleration", per(found.unit, "s²"))
+    table = _table(f"Legs {_over(found)}: least to largest for the twist", "leg", *heads)
+    columns = [[getattr(leg, name) for leg in found.legs] for name in ("twist_speed", "twist_acceleration")]
+    for k, leg in enumerate(found.legs):
+        table.add_row(leg.name, *(_ends(column[k], column) for column in columns), end_section=k % 3 == 2)
+    twist, rate = (np.array(x) for x in (found.motion.twist, found.motion.twist_rate))
+    table.caption = "\n".join(
+        f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}"
+        for words, x in (("", twist), ("rate: ", rate))
+    )
+    return table
+
+
+def _ends(ends: tuple[float, float], column: Sequence[tuple[float, float]]) -> str:
+    """Return the two ends of a range; 0 where only rounding is left."""
+    largest = max(abs(end) for row in column for end in row)
+    low, high = (f"{0.0 if abs(x) < ROUNDING * largest else x:.4g}" for x in ends)
+    return low if low == high else f"{low} to {high}"
 
 
 def _words(found: Sheet) -> Iterator[str]:
     linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
+    most = "no more than that" if linear * angular else "the largest"
     yield (
         f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
         f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, "
-        f"{INTERNAL[found.motion.internal]}. Cones: from the direction at the neutral pose."
+        f"{INTERNAL[found.motion.internal]}. Acceleration: {most} while both are constant. Cones: from the direction "
+        "at the neutral pose."
     )
     if found.idle:
-        yield f"{', '.join(found.idle)} never move over these poses."
+        yield f"{', '.join(found.idle)} never move {_over(found)}."
 
 
 def _forces(found: Sheet) -> Table:
     count = range(1, len(found.loads) + 1)
     table = _table(
-        "Leg forces, least to largest over the poses, pushing positive", "leg", *(f"load {k}" for k in count)
+        f"Leg forces, least to largest {_over(found)}, pushing positive", "leg", *(f"load {k}" for k in count)
     )
+    columns = [list(column) for column in zip(*(leg.forces for leg in found.legs), strict=True)]
     for k, leg in enumerate(found.legs):
-        table.add_row(leg.name, *(f"{low:.4g} to {high:.4g}" for low, high in leg.forces), end_section=k % 3 == 2)
-    table.caption = "; ".join(
+        table.add_row(
+            leg.name, *(_ends(x, column) for x, column in zip(leg.forces, columns, strict=True)), end_section=k % 3 == 2
+        )
+    table.caption = "\n".join(
         f"load {k}: moment {amount(vector_words(load[:3]), times('force', found.unit))}, force {vector_words(load[3:])}"
         for k, load in zip(count, found.loads, strict=True)
     )
+    if (weight := found.weight) is not None:
+        table.caption += (
+            f"\neach with the weight of a mass of {weight.mass:g}, centre {vector_words(weight.centre)} in the "
+            f"platform, gravity {vector_words(weight.gravity)}"
+        )
     return table
 
 
 def _worst(found: Sheet) -> Table:
-    table = _table("Worst over the poses", "", "value", "pose", "")
+    title = "At the neutral pose" if len(found.configurations) == 1 else f"Worst {_over(found)}"
+    table = _table(title, "", "value", "pose", "")
     used: set[int] = set()
 
     def add(label: str, value: str, pose: int, words: str = "", end: bool = False) -> None:
@@ -116,7 +180,9 @@ def _worst(found: Sheet) -> Table:
         table.add_row(label, value, str(pose) if pose else "neutral", words, end_section=end)
 
     add("condition number", f"{found.condition_number.value:.6f}", found.condition_number.pose)
-    table.add_row("mean condition number", f"{found.mean_condition_number:.6f}", "", "", end_section=True)
+    look = found.region
+    spread = "" if look is None else f"± {look.mean_error:.1g}, even over the region"
+    table.add_row("mean condition number", f"{found.mean_condition_number:.6f}", "", spread, end_section=True)
     add(
         "leg clearance",
         amount(short(found.clearance.value), found.unit),
@@ -127,6 +193,12 @@ def _worst(found: Sheet) -> Table:
         one = found.determinants[name]
         words = MECHANISMS[name] + ", CROSSED between poses" * one.changes_sign
         add(f"|det {name[-1].upper()}|", f"{one.value:.6f}", one.pose, words)
+    table.add_section()
+    for name, near in found.singularities.items():
+        distance = f"{math.degrees(near.distance):.2f}°" if name == "turn" else amount(short(near.distance), found.unit)
+        det = f"det {near.mechanism.upper()} = 0" if near.mechanism else "none"
+        where = f"{det} {'about' if name == 'turn' else 'toward'} {vector_words(np.round(near.direction, 3))}"
+        add(f"nearest singularity: {MOTIONS[name]}", distance, near.pose, where if near.mechanism else det)
     table.add_section()
     if found.accuracy is not None:
         a = found.accuracy
@@ -145,7 +217,8 @@ def _worst(found: Sheet) -> Table:
 
 def limits_table(found: Sheet) -> Table:
     """Return the limits of the study beside the values and margins."""
-    table = _table("Limits of the study, at its poses", "limit", "", "allowed", "here", "margin")
+    where = "at its poses" if found.region is None else "over its region"
+    table = _table(f"Limits of the study, {where}", "limit", "", "allowed", "here", "margin")
     for row in found.limits:
         margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
         allowed, here = (_in_unit(row, value, found.unit) for value in (row.limit, row.value))

@@ -45,13 +45,17 @@ def apart(g: Geometry) -> list[tuple[int, int]]:
 
 def least_clearance(g: Geometry, c: Configuration) -> tuple[float, int, tuple[str, str]]:
     """Return the least distance over a stack of poses, its pose and its pair."""
-    pairs = np.array(apart(g), dtype=np.intp)  # never none: the joints of a triple span a triangle
-    start, end = leg_ends(g, c)
-    first, second = pairs.T
-    found = between(start[:, first], end[:, first], start[:, second], end[:, second])
+    found = clearances(g, c)
     pose, pair = np.unravel_index(int(np.argmin(found)), found.shape)
-    a, b = pairs[pair]
+    a, b = apart(g)[pair]
     return float(found[pose, pair]), int(pose), (LEGS[a], LEGS[b])
+
+
+def clearances(g: Geometry, c: Configuration) -> Floats:
+    """Return the distance of each pair of `apart` over a stack of poses, shape (n, pairs)."""
+    first, second = np.array(apart(g), dtype=np.intp).T  # never none: the joints of a triple span a triangle
+    start, end = leg_ends(g, c)
+    return between(start[:, first], end[:, first], start[:, second], end[:, second])
 
 
 def between(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
@@ -67,16 +71,20 @@ def between(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
     safe = np.where(crossing, area, 1.0)
     s, t = (_dot(u, w) * vv - _dot(v, w) * uv) / safe, (_dot(u, w) * uv - _dot(v, w) * uu) / safe
     inside = crossing & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
-    along = np.linalg.norm(w + t[..., None] * v - s[..., None] * u, axis=-1)
+    along = _size(w + t[..., None] * v - s[..., None] * u)
     return np.asarray(np.where(inside, np.minimum(along, ends), ends))
 
 
 def _dot(x: Floats, y: Floats) -> Floats:
-    return np.asarray(np.sum(x * y, axis=-1))
+    return np.asarray(np.einsum("...k,...k->...", x, y))
 
 
 def _to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
     along = b - a
     square = _dot(along, along)
     share = np.clip(_dot(point - a, along) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(point - a - share[..., None] * along, axis=-1))
+    return _size(point - a - share[..., None] * along)
+
+
+def _size(x: Floats) -> Floats:
+    return np.asarray(np.sqrt(_dot(x, x)))

@@ -3,39 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ninedof.design.indices import LEGS
-from ninedof.design.internal_points import IDLE, idle_legs
+from ninedof.design.internal_points import idle_legs
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.kinematics.velocity import inverse_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.clearance import leg_ends
+from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
+from ninedof.sheet.weight import Weight, wrenches
 from ninedof.statics.statics import leg_forces
-from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats
-
-INTERNAL = ("least", "rest", "carried")
-
-
-class Motion(NamedTuple):
-    """A motion of the platform in any direction."""
-
-    linear_speed: float
-    """Of the platform origin, length/time."""
-    angular_speed: float
-    """rad/time."""
-    internal: str
-    """How O moves: "least" squared leg rates, "rest" or "carried" with the platform."""
-
-    @classmethod
-    def checked(cls, linear_speed: float, angular_speed: float, internal: str) -> Motion:
-        """Return the motion of valid arguments."""
-        speeds = finite("linear_speed", linear_speed, 0.0), finite("angular_speed", angular_speed, 0.0)
-        return cls(*speeds, choice("internal", internal, INTERNAL))
 
 
 @dataclass(frozen=True)
@@ -56,12 +37,18 @@ class LegRow:
     """Whether it has the same length at all poses, of which there are several."""
     speed: float
     """Largest rate over the directions of the motion and the poses."""
+    acceleration: float
+    """Bound of its acceleration over the same while the platform's velocities are constant: `leg_accelerations`."""
     base_cone: float | None
     """Largest angle at its base joint from its direction at the neutral pose, base frame, rad; None without one."""
     platform_cone: float | None
     """The same at its platform joint, platform frame."""
     forces: tuple[tuple[float, float], ...]
     """Least and largest force for each load, positive where the leg pushes."""
+    twist_speed: tuple[float, float] | None = None
+    """Least and largest rate for the given twist; None without one."""
+    twist_acceleration: tuple[float, float] | None = None
+    """Least and largest acceleration for the given twist and its rate."""
 
     def flat(self) -> dict[str, Any]:
         """Return the columns of a table, angles in degrees, "" where a leg has no such joint."""
@@ -70,10 +57,14 @@ class LegRow:
             **{name: getattr(self, name) for name in ("shortest", "longest", "neutral", "stroke", "stroke_ratio")},
             "idle": int(self.idle),
             "speed": self.speed,
+            "acceleration": self.acceleration,
         }
         for name in ("base_cone", "platform_cone"):
             angle = getattr(self, name)
             row[f"{name}_deg"] = "" if angle is None else float(np.degrees(angle))
+        for name in ("twist_speed", "twist_acceleration"):
+            if (ends := getattr(self, name)) is not None:
+                row |= {f"{name}_min": ends[0], f"{name}_max": ends[1]}
         for k, (low, high) in enumerate(self.forces):
             row |= {f"force_{k + 1}_min": low, f"force_{k + 1}_max": high}
         return row
@@ -84,16 +75,17 @@ class LegRow:
         return row | {"idle": self.idle, "forces": [{"min": low, "max": high} for low, high in self.forces]}
 
 
-def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats) -> tuple[LegRow, ...]:
+def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats, weight: Weight | None) -> tuple[LegRow, ...]:
     """Return the nine rows over a stack of poses, the neutral one first; loads (k, 6)."""
     lengths = leg_lengths(g, c)
     low, high = lengths.min(axis=0), lengths.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0
         ratio = high / low
     idle = idle_legs(lengths)
-    speed = leg_speeds(g, c, motion).max(axis=0)
+    speed, acceleration = (of(g, c, motion).max(axis=0) for of in (leg_speeds, leg_accelerations))
     base, platform = cone_angles(g, c)
-    forces = [leg_forces(g, c, load[:3], load[3:]).forces for load in loads]
+    forces = forces_of(g, c, loads, weight)
+    given = [of(g, c, motion) for of in (twist_rates, twist_accelerations)] if motion.twist is not None else []
     return tuple(
         LegRow(
             name=LEGS[k],
@@ -104,49 +96,38 @@ def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats) -> tu
             stroke_ratio=float(ratio[k]),
             idle=bool(idle[k]),
             speed=float(speed[k]),
+            acceleration=float(acceleration[k]),
             base_cone=None if 3 <= k < 6 else float(base[:, k].max()),
             platform_cone=None if k >= 6 else float(platform[:, k].max()),
-            forces=tuple((float(f[:, k].min()), float(f[:, k].max())) for f in forces),
+            forces=tuple(_ends(f[:, k]) for f in forces),
+            **{name: _ends(x[:, k]) for name, x in zip(("twist_speed", "twist_acceleration"), given, strict=False)},
         )
         for k in range(9)
     )
 
 
-def shown_internal(c: Configuration) -> str:
-    """Return the rule that O follows over a stack of poses: "rest", "carried", or "least" where it is neither."""
-    if len(c) < 2:
-        return "least"
-    size = IDLE * np.abs(np.concatenate([c.position, c.internal_point])).max()
-    own = ((c.internal_point - c.position)[:, None] @ c.rotation)[:, 0]  # rows: Q^T (s - p)
-    for rule, places in (("rest", c.internal_point), ("carried", own)):
-        if np.abs(places - places[0]).max() <= size:
-            return rule
-    return "least"
+def forces_of(g: Geometry, c: Configuration, loads: Floats, weight: Weight | None) -> list[Floats]:
+    """Return the leg forces for each load with the weight, each of shape (n, 9)."""
+    return [leg_forces(g, c, load[:, :3], load[:, 3:]).forces for load in wrenches(c, loads, weight)]
 
 
-def leg_speeds(g: Geometry, c: Configuration, motion: Motion) -> Floats:
-    """Return the largest rate of each leg over the directions of velocity and angular velocity, shape (n, 9)."""
-    omega, pdot = np.eye(6)[:, :3], np.eye(6)[:, 3:]
-    each = c[:, None]
-    if motion.internal == "least":
-        sdot = None
-    elif motion.internal == "rest":
-        sdot = np.zeros(3)
-    else:
-        sdot = pdot + np.cross(omega, each.internal_point - each.position)
-    rates = inverse_velocity(g, each, omega, pdot, sdot)  # pose, unit twist, leg
-    turning, shifting = np.linalg.norm(rates[:, :3], axis=1), np.linalg.norm(rates[:, 3:], axis=1)
-    return np.asarray(motion.linear_speed * shifting + motion.angular_speed * turning)
+def _ends(values: Floats) -> tuple[float, float]:
+    return float(values.min()), float(values.max())
 
 
 def cone_angles(g: Geometry, c: Configuration) -> tuple[Floats, Floats]:
     """Return the angles of the legs from their directions at the first pose, in the frames of base and platform."""
+    along, turned = directions(g, c)
+    return angle(along, along[0]), angle(turned, turned[0])
+
+
+def directions(g: Geometry, c: Configuration) -> tuple[Floats, Floats]:
+    """Return the leg vectors in the frames of base and platform, each of shape (n, 9, 3)."""
     start, end = leg_ends(g, c)
-    along = end - start
-    turned = along @ c.rotation  # rows: Q^T v
-    return _angle(along, along[0]), _angle(turned, turned[0])
+    return end - start, (end - start) @ c.rotation  # rows: Q^T v
 
 
-def _angle(x: Floats, y: Floats) -> Floats:
+def angle(x: Floats, y: Floats) -> Floats:
+    """Return the angle of vectors, 0 to pi, accurate for small ones too."""
     across = np.linalg.norm(np.cross(x, y), axis=-1)
     return np.asarray(np.arctan2(across, np.sum(x * y, axis=-1)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,15 +13,22 @@ from numpy.typing import ArrayLike
 
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.region_stack import places_o
+from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.sheet.clearance import least_clearance
-from ninedof.sheet.legs import LegRow, Motion, leg_rows, shown_internal
+from ninedof.sheet.leg_motion import Motion, shown_internal
+from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
+from ninedof.sheet.near_singularity import NearSingularity, near_singularities
+from ninedof.sheet.over_region import SAMPLES, Asked, RegionLook, look_over
+from ninedof.sheet.softest import softest
+from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import error_bounds
-from ninedof.statics.statics import stiffness
+from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats
 from ninedof.support.html import html_table
 from ninedof.support.units import per, unit_argument, with_unit
@@ -78,29 +85,37 @@ class Sheet:
 
     geometry: Geometry
     configurations: Configuration
-    """The neutral pose, then the others: a stack. Poses below are indices into it."""
+    """The neutral pose, then the study's, of a region those that ruled and those found to be worst: a stack. Poses
+    below are indices into it."""
     characteristic_length: float
     motion: Motion
     """The platform speed behind the leg speeds, and how O moves in it."""
     loads: Floats
-    """The loads behind the leg forces, rows (moment about p, force), base axes, shape (k, 6)."""
+    """The loads behind the leg forces, rows (moment about p, force), base axes, shape (k, 6); a row of zeros where the
+    weight is the only one."""
+    weight: Weight | None
+    """The weight that is added to each load at each pose."""
     legs: tuple[LegRow, ...]
     """The nine legs in the order of `leg_lengths`."""
     condition_number: Extreme
     """The worst."""
     mean_condition_number: float
+    """Over the poses; of a region over the region, see `region`."""
     clearance: Clearance
     """Joints that coincide in this design count as one, unlike in the limit of a study that lets them part."""
     determinants: dict[str, Determinant]
     """By name: "det_b", "det_c", "det_n"."""
     nearest_singularity: str
     """The name of the determinant of least modulus."""
+    singularities: dict[str, NearSingularity]
+    """How far they are, by way of moving: "shift", "turn", "internal"."""
     accuracy: Accuracy | None
     stiffness: Stiffness | None
     limits: tuple[LimitRow, ...]
-    """Each limit of the study beside the value at the study's own poses; empty where the input has no study.
-
-    Of a region they are the poses that ruled. Nothing is looked at between them."""
+    """Each limit of the study beside the value at the study's own poses, of a region at its worst poses too; empty
+    where the input has no study."""
+    region: RegionLook | None
+    """How the region of the study was looked over; None without one."""
     unit: str = ""
     """Name of the length unit; "" without one."""
 
@@ -125,9 +140,10 @@ class Sheet:
 
     def __repr__(self) -> str:
         """Show the count of poses and the worst condition number."""
-        return (
-            f"<Sheet over {len(self.configurations)} poses: worst condition number {self.condition_number.value:.6g}>"
-        )
+        where = f"{len(self.configurations)} poses"
+        if self.region is not None:
+            where = f"a region, {self.region.looked_at} poses looked at"
+        return f"<Sheet over {where}: worst condition number {self.condition_number.value:.6g}>"
 
     def _repr_html_(self) -> str:
         keys = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "speed")
@@ -154,7 +170,11 @@ class Sheet:
             "linear_speed": self.motion.linear_speed,
             "angular_speed_deg": float(np.degrees(self.motion.angular_speed)),
             "internal": self.motion.internal,
+            "twist": self.motion.twist,
+            "twist_rate": None if self.motion.twist is None else self.motion.twist_rate,
         }
+        turn = out["singularities"]["turn"]
+        turn["distance_deg"] = float(np.degrees(turn.pop("distance")))
         out["legs"] = [leg.to_dict() for leg in self.legs]
         if self.accuracy is not None:
             out["accuracy"]["rotation_deg"] = _degrees(out["accuracy"].pop("rotation"))
@@ -189,28 +209,39 @@ def sheet(
     joint_errors: ArrayLike | None = None,
     leg_stiffness: ArrayLike | None = None,
     characteristic_length: float | str | None = None,
+    twist: ArrayLike | None = None,
+    twist_rate: ArrayLike | None = None,
+    mass: float | None = None,
+    centre: ArrayLike | None = None,
+    gravity: ArrayLike | None = None,
+    samples: int = SAMPLES,
     unit: str | None = None,
 ) -> Sheet:
     """Return the engineering sheet of a design over its poses.
 
-    Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at.
+    Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
+    result of a region study they are those over the region: a dense sample is looked at, with descents from the worst
+    of it for every number of the sheet.
 
     Parameters
     ----------
     design : Result, Candidate, DesignPoint, a design of a file, or Geometry
         With the poses of its study, the neutral pose first; a design of a file has the neutral pose alone. The limits
-        are shown for a Result, which has the study.
+        are shown for a Result, which has the study, and the region of its study is looked over.
     poses : Configuration, shape (n,), optional
         In place of the study's; the neutral pose of the design stays the first. For a Geometry they are needed, and
-        the first of them is the neutral one.
+        the first of them is the neutral one. No region is looked over then.
     linear_speed, angular_speed : float
         Speed of the platform origin (length/time; 1 by default) and angular speed (rad/time; 0 by default). The speed
         of a leg is the largest over all directions of both: linear_speed |a| + angular_speed |b| where the rate of
-        the leg is a.pdot + b.omega. From rest the same holds for accelerations.
-    internal : {"least", "rest", "carried"}, optional
-        How O moves in it: so that the squared leg rates are least (`internal_velocity`), not at all, or fixed to the
-        platform. By default as the poses show: "rest" where O has one place in all of several poses, "carried" where
-        it has one place in the platform, "least" otherwise.
+        the leg is a.pdot + b.omega. From rest the same holds for accelerations. The acceleration of a leg is the
+        largest over all directions while both velocities are constant; where neither speed is 0, a bound of it: the sum
+        of the 2-norms of the blocks of a quadratic form.
+    internal : {"least", "rest", "shifted", "carried"}, optional
+        How O moves in it: so that the squared leg rates are least (`internal_velocity`), and so are the squared leg
+        accelerations; not at all; with the platform's origin, s - p constant in base axes; or fixed to the platform. By
+        default as the poses show: "rest" where O has one place in all of several poses, "carried" where it has one
+        place in the platform, "shifted" where s - p is constant, "least" otherwise.
     loads : array_like, shape (6,) or (k, 6), optional
         (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`.
     leg_errors, joint_errors : float or array_like, optional
@@ -220,6 +251,15 @@ def sheet(
     characteristic_length : float or str, optional
         For the condition numbers; a kind is taken at the neutral pose, and where it has no value there, at a singular
         one, they are infinite. That of the design by default, 1 for a Geometry.
+    twist, twist_rate : array_like, shape (6,), optional
+        A given motion (omega, pdot), base axes, rad/time and length/time, and its time derivative, 0 by default: the
+        sheet then has the least and largest rate and acceleration of each leg, with all terms of the velocities.
+    mass, centre, gravity : float, array_like of shape (3,), array_like of shape (3,), optional
+        Mass of the platform and its centre in the platform frame, its origin by default. Gravity is force per mass,
+        base axes: (0, 0, -9.81) by default gives newtons for kilograms, in any unit of length. The weight is added to
+        every load, and is a load alone where none is given.
+    samples : int
+        Even poses of the region, and as many toward its boundary; 10000 by default.
     unit : str, optional
         Name of the length unit; that of the study or the design file by default. With one, times are in seconds: the
         speed of a leg is labelled mm/s. The unit of forces is the caller's and has no name.
@@ -248,28 +288,42 @@ def sheet(
     g, c, own_length = _robot(design, poses)
     given = own_length if characteristic_length is None else characteristic_length
     length = float(length_of(g, c[0], given)) if isinstance(given, str) else float(given)
-    wrenches = _loads(loads)
-    motion = Motion.checked(linear_speed, angular_speed, shown_internal(c) if internal is None else internal)
     kind_without_value = isinstance(given, str) and not np.isfinite(length)
+    weight = Weight.checked(mass, centre, gravity)
+    wrenches = _loads(np.zeros((1, 6)) if loads is None and weight is not None else loads)
+    rule = shown_internal(c) if internal is None else internal
+    motion = Motion.checked(linear_speed, angular_speed, rule, twist, twist_rate)
+    bounded = leg_errors is not None or joint_errors is not None
+    errors = (0.0 if leg_errors is None else leg_errors, 0.0 if joint_errors is None else joint_errors)
+    asked = Asked(motion, wrenches, weight, errors if bounded else None, leg_stiffness, length)
+    count = whole("samples", samples, 1)
+    study: Study | None = getattr(design, "solved", None)
+    variables, look = getattr(design, "variables", None), None
+    region = design.study.objective.region if poses is None and study is not None else None
+    if study is not None and region is not None and places_o(region):
+        look, worst, shifts = look_over(design.study, g, c[0], asked, count)
+        c = _joined(c, worst)
+        study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
     kappa = np.full(len(c), np.inf) if kind_without_value else np.asarray(condition_number(g, c, length))
     determinants = _determinants(g, c)
-    bounded = leg_errors is not None or joint_errors is not None
-    study, variables = getattr(design, "solved", None), getattr(design, "variables", None)
     return Sheet(
         geometry=g,
         configurations=c,
         characteristic_length=length,
         motion=motion,
         loads=wrenches,
-        legs=leg_rows(g, c, motion, wrenches),
+        weight=weight,
+        legs=leg_rows(g, c, motion, wrenches, weight),
         condition_number=_worst(kappa),
-        mean_condition_number=float(kappa.mean()),
+        mean_condition_number=float(kappa.mean()) if look is None else look.mean,
         clearance=Clearance(*least_clearance(g, c)),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
-        accuracy=_accuracy(g, c, leg_errors, joint_errors) if bounded else None,
-        stiffness=None if leg_stiffness is None else _stiffness(g, c, leg_stiffness),
+        singularities=near_singularities(g, c, motion.internal),
+        accuracy=None if not bounded else _accuracy(g, c, *errors),
+        stiffness=None if leg_stiffness is None else Stiffness(*(_least(x) for x in softest(g, c, leg_stiffness))),
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
+        region=look,
         unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
     )
 
@@ -321,24 +375,14 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
     return found
 
 
-def _accuracy(g: Geometry, c: Configuration, legs: ArrayLike | None, joints: ArrayLike | None) -> Accuracy:
-    found = error_bounds(g, c, 0.0 if legs is None else legs, 0.0 if joints is None else joints)
+def _accuracy(g: Geometry, c: Configuration, legs: ArrayLike, joints: ArrayLike) -> Accuracy:
+    found = error_bounds(g, c, legs, joints)
     return Accuracy(_worst(found.position), _worst(found.rotation), _worst(found.internal_point))
 
 
-def _stiffness(g: Geometry, c: Configuration, leg_stiffness: ArrayLike) -> Stiffness:
-    k = stiffness(g, c, leg_stiffness)
-    return Stiffness(
-        _least(_least_of_block(k[:, 3:, 3:], k[:, :3, 3:], k[:, :3, :3])),
-        _least(_least_of_block(k[:, :3, :3], k[:, 3:, :3], k[:, 3:, 3:])),
-    )
-
-
-def _least_of_block(kept: Floats, mixed: Floats, freed: Floats) -> Floats:
-    """Return the least stiffness of one block where the other coordinates settle: of the Schur complement."""
-    settled = np.swapaxes(mixed, -1, -2) @ np.linalg.pinv(freed, rcond=1e-13, hermitian=True) @ mixed
-    values = np.linalg.eigvalsh(kept - settled)
-    return np.asarray(np.maximum(values[..., 0], 0.0))
+def _joined(c: Configuration, more: Configuration) -> Configuration:
+    names = ("position", "rotation", "internal_point")
+    return Configuration(*(np.concatenate([getattr(c, name), getattr(more, name)]) for name in names))
 
 
 def _plain(value: Any) -> Any:

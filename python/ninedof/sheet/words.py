@@ -8,8 +8,9 @@ from typing import Any
 from ninedof.sheet.limit_rows import LimitRow
 from ninedof.support.units import amount, per, times
 
-HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "base cone", "platf. cone")
+HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "accel.", "base cone", "platf. cone")
 WIDTH = 12
+MOTIONS = {"shift": "shift", "internal": "O alone"}
 
 
 def sheet_words(found: Any) -> list[str]:
@@ -17,22 +18,31 @@ def sheet_words(found: Any) -> list[str]:
     unit = found.unit
     lines = ["".join(f"{name:>{WIDTH}}" if k else f"{name:<4}" for k, name in enumerate(HEAD))]
     if unit:
-        units = ("", *[f"({unit})"] * 4, "", f"({unit}/s)")
+        units = ("", *[f"({unit})"] * 4, "", f"({unit}/s)", f"({unit}/s²)")
         lines.append("".join(f"{name:>{WIDTH}}" if k else f"{name:<4}" for k, name in enumerate(units)))
     for leg in found.legs:
-        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed)
+        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio, leg.speed, leg.acceleration)
         cones = ("-" if a is None else f"{math.degrees(a):.2f} deg" for a in (leg.base_cone, leg.platform_cone))
         cells = (*(f"{x:.6g}" for x in numbers), *cones)
         lines.append(f"{leg.name:<4}" + "".join(f"{cell:>{WIDTH}}" for cell in cells))
     if found.idle:
-        lines.append(f"{', '.join(found.idle)} never move over these poses")
+        lines.append(
+            f"{', '.join(found.idle)} never move over {'these poses' if found.region is None else 'the region'}"
+        )
     worst, mean, clear = found.condition_number, found.mean_condition_number, found.clearance
     near = found.determinants[found.nearest_singularity]
     lines += [
         f"condition number {worst.value:.6f} at worst ({_pose(worst.pose)}), {mean:.6f} on average",
         f"least clearance {amount(f'{clear.value:.6g}', unit)}, {' and '.join(clear.legs)} ({_pose(clear.pose)})",
-        f"nearest singularity |{_det(found.nearest_singularity)}| = {near.value:.6f} ({_pose(near.pose)})",
+        f"least determinant |{_det(found.nearest_singularity)}| = {near.value:.6f} ({_pose(near.pose)})",
     ]
+    far = found.singularities
+    turn = f"{math.degrees(far['turn'].distance):.2f} deg ({_det(far['turn'].mechanism)})"
+    others = {name: far[key] for key, name in MOTIONS.items()}
+    away = (f"{name} {amount(f'{at.distance:.6g}', unit)} ({_det(at.mechanism)})" for name, at in others.items())
+    lines.append(f"nearest singularity: {', '.join(away)}, turn {turn}")
+    if found.region is not None:
+        lines.insert(0, f"over {found.region.region}; {found.region.looked_at} poses looked at")
     crossed = [_det(name) for name, one in found.determinants.items() if one.changes_sign]
     if crossed:
         lines.append(f"a singularity lies between poses: {', '.join(crossed)} changes sign")
@@ -54,7 +64,7 @@ def sheet_words(found: Any) -> list[str]:
 
 
 def _det(name: str) -> str:
-    return f"det {name[-1].upper()}"
+    return f"det {name[-1].upper()}" if name else "none found"
 
 
 def _pose(k: int) -> str:

@@ -230,7 +230,7 @@ def test_the_sheet_of_a_result_has_the_limits():
     assert found.motion.linear_speed == 2.0
     assert nd.sheet(result.best).limits == ()
     lines = found.summary().splitlines()
-    assert len(lines) == 1 + 9 + 1 + 3 + 2  # legs, those that never move, worst values, limits
+    assert len(lines) == 1 + 9 + 1 + 4 + 2  # legs, those that never move, worst values, limits
     assert f"condition number {found.condition_number.value:.6f}" in lines[11]
     assert lines[-1].startswith("base_cone max 45.00 deg: ")
     assert repr(found).startswith("<Sheet over 28 poses")

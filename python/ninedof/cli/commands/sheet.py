@@ -10,7 +10,7 @@ import typer
 
 from ninedof.cli import options
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.posed import load_option
+from ninedof.cli.posed import load_option, several
 from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import sheet_tables
 from ninedof.sheet.sheet import sheet as sheet_of
@@ -24,6 +24,8 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof sheet runs/20260101-120000 --load "0 0 0 0 0 -100" --leg-error 0.01 --leg-stiffness 2e4
 
+  ninedof sheet runs/20260101-120000 --mass 5 --centre "0 0 20" --twist "0 0 1 200 0 0"
+
   ninedof sheet design.toml --speed 200 --turn-deg 30 --json"""
 
 
@@ -32,11 +34,23 @@ def sheet(
     speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0,
     turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0,
     internal: Annotated[
-        str | None, typer.Option(help="How O moves then: least, rest or carried; as in the poses by default.")
+        str | None, typer.Option(help="How O moves: least, rest, shifted or carried; as in the poses by default.")
     ] = None,
+    twist: Annotated[
+        str | None,
+        typer.Option(help='A motion "wx wy wz vx vy vz": angular velocity (rad/time) and velocity of the platform.'),
+    ] = None,
+    twist_rate: Annotated[str | None, typer.Option(help="Its time derivative, 0 by default.")] = None,
     load: Annotated[
         list[str] | None,
         typer.Option(help='A load "mx my mz fx fy fz" on the platform: moment about p and force. May be repeated.'),
+    ] = None,
+    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to each load.")] = None,
+    centre: Annotated[
+        str | None, typer.Option(help='Its centre "x y z" in the platform frame; the origin by default.')
+    ] = None,
+    gravity: Annotated[
+        str | None, typer.Option(help='Force per mass "x y z", base axes; "0 0 -9.81" by default: newtons for kg.')
     ] = None,
     leg_error: Annotated[float | None, typer.Option(help="Tolerance of the leg lengths.")] = None,
     joint_error: Annotated[float | None, typer.Option(help="Tolerance of the joint centres, a radius.")] = None,
@@ -52,7 +66,12 @@ def sheet(
         linear_speed=speed,
         angular_speed=math.radians(finite("--turn-deg", turn_deg, 0.0)),
         internal=internal,
+        twist=_given("twist", twist, "wx wy wz vx vy vz"),
+        twist_rate=_given("twist-rate", twist_rate, "ax ay az ax ay az"),
         loads=[load_option(text) for text in load] if load else None,
+        mass=mass,
+        centre=_given("centre", centre, "x y z"),
+        gravity=_given("gravity", gravity, "x y z"),
         leg_errors=leg_error,
         joint_errors=joint_error,
         leg_stiffness=leg_stiffness,
@@ -62,3 +81,7 @@ def sheet(
     if csv is not None:
         write_whole(csv, found.to_csv().encode())
     screen.data(found.to_dict())
+
+
+def _given(option: str, text: str | None, expected: str) -> list[float] | None:
+    return None if text is None else several(f"--{option}", text, len(expected.split()), expected)

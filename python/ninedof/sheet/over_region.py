@@ -1,0 +1,127 @@
+"""The poses of a region at which the numbers of a sheet are worst, and the mean of the condition number over it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.limits import each, for_core
+from ninedof.design.pose import Pose
+from ninedof.design.region import Region
+from ninedof.design.region_stack import configurations_at, poses_at, samples
+from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.sheet.clearance import clearances
+from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
+from ninedof.sheet.legs import forces_of
+from ninedof.sheet.pose_limits import CONES, cone_angles
+from ninedof.sheet.region_search import Numbers, extreme_poses
+from ninedof.sheet.softest import softest
+from ninedof.sheet.weight import Weight
+from ninedof.singularity.singularity import singularity_margins
+from ninedof.statics.accuracy import error_bounds
+from ninedof.support.arrays import Floats
+
+SAMPLES = 10_000
+PARTS = 8  # of the even sample, for the error of its mean
+
+
+class RegionLook(NamedTuple):
+    """How a region was looked over."""
+
+    region: str
+    """In words."""
+    looked_at: int
+    """Poses: of the sample and of the descents from the worst of it."""
+    mean: float
+    """Condition number, mean over the even sample: in positions, in the tilt vector and in the yaw."""
+    mean_error: float
+    """Standard error of it, from eight parts of the sample."""
+
+
+class Asked(NamedTuple):
+    """What a sheet is asked for besides lengths, cones, clearance, condition number and determinants."""
+
+    motion: Motion
+    loads: Floats
+    weight: Weight | None
+    errors: tuple[ArrayLike, ArrayLike] | None
+    """Of the legs and of the joints."""
+    leg_stiffness: ArrayLike | None
+    characteristic_length: float
+    """NaN or infinite where it has no value."""
+
+
+def look_over(
+    study: Study, g: Geometry, neutral: Configuration, asked: Asked, count: int
+) -> tuple[RegionLook, Configuration, tuple[Pose, ...]]:
+    """Return how the region of a study was looked over, and its worst poses as configurations and as poses."""
+    region: Region = study.objective.region  # type: ignore[assignment]
+    at = samples(region, count)
+    worst, looked_at = extreme_poses(region, neutral, at, _numbers(study, g, neutral, asked))
+    kappa = np.full(count, np.inf)
+    if np.isfinite(asked.characteristic_length):
+        even = configurations_at(region, neutral, at[:count])[1]
+        kappa = np.asarray(condition_number(g, even, asked.characteristic_length))
+    means = np.array([part.mean() for part in np.array_split(kappa, PARTS) if len(part)])
+    error = float(means.std(ddof=1) / np.sqrt(len(means))) if len(means) > 1 and np.isfinite(means).all() else np.inf
+    look = RegionLook(region.words, looked_at, float(kappa.mean()), error)
+    return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
+
+
+def _numbers(study: Study, g: Geometry, neutral: Configuration, asked: Asked) -> list[Numbers]:
+    """Return the numbers of a sheet, each the worse the lower."""
+    signs = np.sign(singularity_margins(g, neutral))
+    motion, loads = asked.motion, asked.loads
+    found: list[Numbers] = [
+        _both(lambda c: leg_lengths(g, c)),
+        lambda c: clearances(g, c),
+        lambda c: np.stack(singularity_margins(g, c), axis=1) * signs,
+        _largest(lambda c: leg_speeds(g, c, motion)),
+        _largest(lambda c: leg_accelerations(g, c, motion)),
+    ]
+    found += [_largest(_cones(g, neutral, name, ())) for name in CONES]
+    for name, entry in each(study.constraints):
+        if name in CONES and len(axis := for_core(name, entry)["axis"]):
+            found.append(_largest(_cones(g, neutral, name, axis)))
+    if np.isfinite(length := asked.characteristic_length):
+        found.append(_largest(lambda c: np.asarray(condition_number(g, c, length))[:, None]))
+    if motion.twist is not None:
+        found += [_both(lambda c: twist_rates(g, c, motion)), _both(lambda c: twist_accelerations(g, c, motion))]
+    if len(loads):
+        found.append(_both(lambda c: np.concatenate(forces_of(g, c, loads, asked.weight), axis=1)))
+    if (errors := asked.errors) is not None:
+        found.append(_largest(_errors(g, *errors)))
+    if (stiffness := asked.leg_stiffness) is not None:
+        found.append(lambda c: np.stack(softest(g, c, stiffness), axis=1))
+    return found
+
+
+def _cones(g: Geometry, neutral: Configuration, name: str, axis: Any) -> Numbers:
+    return lambda c: cone_angles(g, c, neutral, name, axis)
+
+
+def _errors(g: Geometry, legs: ArrayLike, joints: ArrayLike) -> Numbers:
+    def largest(c: Configuration) -> Floats:
+        found = error_bounds(g, c, legs, joints)
+        return np.stack([found.position, found.rotation, found.internal_point], axis=1)
+
+    return largest
+
+
+def _largest(numbers: Callable[[Configuration], Floats]) -> Numbers:
+    return lambda c: -numbers(c)
+
+
+def _both(numbers: Callable[[Configuration], Floats]) -> Numbers:
+    def ends(c: Configuration) -> Floats:
+        values = numbers(c)
+        return np.concatenate([values, -values], axis=1)
+
+    return ends

@@ -1,0 +1,135 @@
+"""The limits of a study at each pose of a stack: values and margins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.indices import LEGS
+from ninedof.design.leg_limits import LEGS as OF_LENGTHS
+from ninedof.design.limits import ROWS, each, for_core
+from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.sheet.clearance import clearances
+from ninedof.sheet.legs import angle, directions
+from ninedof.sheet.limit_rows import LINEAR
+from ninedof.singularity.singularity import singularity_margins
+from ninedof.support.arrays import Floats
+
+SPREADS = ("leg_ratio", "stroke_ratio", "stroke")
+CONES = {"base_cone": [0, 1, 2, 6, 7, 8], "platform_cone": [0, 1, 2, 3, 4, 5]}
+"""Legs at the joints of a body."""
+
+
+class PoseLimit(NamedTuple):
+    """One side of a limit of a study for one leg, or of one that legs share, at each pose of a stack."""
+
+    name: str
+    """Of the constraint: "base_cone"."""
+    part: str
+    """The leg or the determinant; "" for a limit that has no parts."""
+    side: str
+    """"min" or "max"."""
+    limit: float
+    """Angles in radians, lengths in the unit of the study."""
+    value: Floats
+    """Shape (n,), in the unit of the limit."""
+    margin: Floats
+    """Relative to the limit, negative where it is passed, as in `DesignPoint.margins`; shape (n,)."""
+
+    @property
+    def label(self) -> str:
+        """In words: "base_cone l1"."""
+        return f"{self.name} {self.part}".strip()
+
+
+def pose_limits(
+    study: Study, g: Geometry, c: Configuration, neutral: Configuration, characteristic_length: float
+) -> list[PoseLimit]:
+    """Return every limit that a study has at its poses.
+
+    Limits on the spread of lengths compare poses: at each they are taken over the stack up to it. The ways to the poses
+    that `singularity_free` tests are left out: its determinants are those of the poses. Legs whose joints coincide in
+    this design are exempt from `leg_clearance`.
+
+    Parameters
+    ----------
+    study : Study
+    g : Geometry
+    c : Configuration, shape (n,)
+    neutral : Configuration
+        A single one, for the axes of cones, signs of determinants and units of zp.
+    characteristic_length : float
+        For `condition_limit`.
+
+    """
+    found = list[PoseLimit]()
+    for name, entry in each(study.constraints):
+        given = for_core(name, entry)
+        if given["at"] != "poses":
+            continue
+        unit = float(neutral.position[2]) if given["of"] == "zp" else 1.0
+        for part, values in _values(name, given["axis"], g, c, neutral):
+            for side, limit in (("min", unit * given["low"]), ("max", unit * given["high"])):
+                if side in ROWS[name].sides and math.isfinite(limit) and limit > 0.0:
+                    found.append(PoseLimit(name, part, side, limit, values, _margin(name, side, limit, values)))
+    if (most := study.objective.condition_limit) is not None:
+        kappa = np.asarray(condition_number(g, c, characteristic_length))
+        found.append(PoseLimit("condition_limit", "", "max", most, kappa, _margin("", "max", most, kappa)))
+    return found
+
+
+def _values(
+    name: str, axis: Sequence[float], g: Geometry, c: Configuration, neutral: Configuration
+) -> Iterator[tuple[str, Floats]]:
+    """Yield the numbers that a constraint limits at each pose, by leg or determinant; none for limits of the design."""
+    if name in OF_LENGTHS:
+        lengths = leg_lengths(g, c)
+        yield from ((LEGS[k], lengths[:, k]) for k in OF_LENGTHS[name])
+    elif name in SPREADS:
+        lengths = leg_lengths(g, c)
+        long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
+        if name == "leg_ratio":
+            yield "", long.max(axis=1) / short.min(axis=1)
+        else:
+            spread = long - short if name == "stroke" else long / short
+            yield from zip(LEGS, spread.T, strict=True)
+    elif name == "leg_clearance":
+        yield "", clearances(g, c).min(axis=1)
+    elif name == "singularity_free":
+        home, here = singularity_margins(g, neutral), singularity_margins(g, c)
+        for det in home._fields:
+            yield det, np.asarray(getattr(here, det)) * float(np.sign(getattr(home, det)))
+    elif name in CONES:
+        angles = cone_angles(g, c, neutral, name, axis)
+        yield from ((LEGS[k], angles[:, i]) for i, k in enumerate(CONES[name]))
+
+
+def cone_angles(g: Geometry, c: Configuration, neutral: Configuration, name: str, axis: Sequence[float]) -> Floats:
+    """Return the angles of the six legs at a body, shape (n, 6): from an axis, or their directions at home without."""
+    platform = name == "platform_cone"
+    along, home = (directions(g, x)[int(platform)][:, CONES[name]] for x in (c, _stack_of(neutral)))
+    if not len(axis):
+        return angle(along, home)
+    away = np.where(platform & (np.arange(6) < 3), -1.0, 1.0)[:, None]  # external legs point at the platform
+    return angle(away * along, np.asarray(axis))
+
+
+def _stack_of(c: Configuration) -> Configuration:
+    return Configuration(c.position[None], c.rotation[None], c.internal_point[None])
+
+
+def _margin(name: str, side: str, limit: float, values: Floats) -> Floats:
+    sign = 1.0 if side == "max" else -1.0
+    if name == "singularity_free":
+        return values - limit
+    if name in LINEAR:
+        return np.asarray(sign * (1.0 - values / limit))
+    with np.errstate(divide="ignore"):
+        return np.asarray(sign * (math.log(limit) - np.log(values)))

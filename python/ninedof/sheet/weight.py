@@ -1,0 +1,51 @@
+"""Loads on the platform: those given, and the weight of the platform."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arguments import Vector, finite, vector
+from ninedof.support.arrays import Floats
+
+STANDARD = (0.0, 0.0, -9.81)
+
+
+class Weight(NamedTuple):
+    """The weight of the platform with what it carries."""
+
+    mass: float
+    centre: Vector
+    """Centre of mass in the platform frame."""
+    gravity: Vector
+    """Force per mass, base axes: with 9.81 and kilograms forces are in newtons, in any unit of length."""
+
+    @classmethod
+    def checked(cls, mass: float | None, centre: ArrayLike | None, gravity: ArrayLike | None) -> Weight | None:
+        """Return the weight of valid arguments, None without a mass; at the platform's origin by default."""
+        if mass is None:
+            for name, value in (("centre", centre), ("gravity", gravity)):
+                if value is not None:
+                    raise ValueError(f"{name}: got {value!r} without a mass, expected a mass too")
+            return None
+        at = vector("centre", (0.0, 0.0, 0.0) if centre is None else np.asarray(centre).tolist())
+        return cls(
+            finite("mass", mass, 0.0),
+            at,
+            vector("gravity", STANDARD if gravity is None else np.asarray(gravity).tolist()),
+        )
+
+    def wrench(self, c: Configuration) -> Floats:
+        """Return (moment about p, force) at each pose of a stack, base axes, shape (n, 6)."""
+        force = np.broadcast_to(self.mass * np.asarray(self.gravity), c.position.shape)
+        return np.concatenate([np.cross(c.rotation @ np.asarray(self.centre), force), force], axis=-1)
+
+
+def wrenches(c: Configuration, loads: Floats, weight: Weight | None) -> Floats:
+    """Return each load with the weight at each pose, shape (k, n, 6), for loads (k, 6)."""
+    own = np.zeros((len(c), 6)) if weight is None else weight.wrench(c)
+    found: Floats = loads[:, None] + own
+    return found

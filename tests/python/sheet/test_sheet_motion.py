@@ -1,0 +1,163 @@
+"""Leg speeds, accelerations, weight and nearest singularity of a sheet, against differences and random directions."""
+
+import numpy as np
+import numpy_model as model
+import pytest
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+from ninedof.sheet.leg_motion import Motion, twist_accelerations
+
+
+def robots_at_poses(seed, poses):
+    """A random geometry at poses near a first one, and the generator."""
+    rng = np.random.default_rng(seed)
+    robots = model.random_robots(rng, 8)
+    m = robots.at(int(np.argmin(model.condition_number(robots))))
+    turns = Rotation.from_rotvec(0.1 * rng.normal(size=(poses, 3))).as_matrix()
+    shift = 0.1 * rng.normal(size=(poses, 6))
+    return m.geometry(), nd.Configuration(m.p + shift[:, :3], turns @ m.Q, m.s + shift[:, 3:]), rng
+
+
+def moved(c, internal, twist, rate, t):
+    """The pose at a small time: constant angular acceleration to second order, O by its rule."""
+    turn = Rotation.from_rotvec(twist[:3] * t + 0.5 * rate[:3] * t * t).as_matrix()
+    shift = twist[3:] * t + 0.5 * rate[3:] * t * t
+    arm = c.internal_point - c.position
+    s = {"rest": c.internal_point, "shifted": c.internal_point + shift, "carried": c.position + shift + turn @ arm}
+    return nd.Configuration(c.position + shift, turn @ c.rotation, s[internal])
+
+
+@pytest.mark.parametrize("seed", range(size(3, 50)))
+@pytest.mark.parametrize("internal", ["rest", "shifted", "carried"])
+def test_a_given_twist_against_differences_of_lengths(seed, internal):
+    g, c, rng = robots_at_poses(seed, poses=3)
+    twist, rate = rng.normal(size=(2, 6))
+    found = nd.sheet(g, c, internal=internal, twist=twist, twist_rate=rate)
+    h = 1e-4
+    around = [[nd.leg_lengths(g, moved(c[k], internal, twist, rate, t)) for t in (-h, 0.0, h)] for k in range(3)]
+    before, now, after = np.moveaxis(around, 1, 0)
+    speed, acceleration = (after - before) / (2.0 * h), (after - 2.0 * now + before) / h**2
+    for k, leg in enumerate(found.legs):
+        assert leg.twist_speed == pytest.approx((speed[:, k].min(), speed[:, k].max()), abs=1e-6)
+        assert leg.twist_acceleration == pytest.approx((acceleration[:, k].min(), acceleration[:, k].max()), abs=2e-6)
+    assert found.to_dict()["legs"][0]["twist_speed_max"] == found.legs[0].twist_speed[1]
+
+
+@pytest.mark.parametrize("seed", range(size(3, 50)))
+def test_least_squares_of_accelerations(seed):
+    g, c, rng = robots_at_poses(seed, poses=1)
+    twist, rate = rng.normal(size=(2, 6))
+    found = nd.sheet(g, c, internal="least", twist=twist, twist_rate=rate)
+    got = np.array([leg.twist_acceleration[0] for leg in found.legs])
+    sdot = nd.internal_velocity(g, c[0], twist[:3], twist[3:])
+    given = (twist[:3], twist[3:], sdot, rate[:3], rate[3:])
+    for _ in range(50):  # no other acceleration of O has smaller squares
+        other = nd.inverse_acceleration(g, c[0], *given, 3.0 * rng.normal(size=3))
+        assert np.sum(got**2) <= np.sum(other**2) + 1e-9
+    zero = nd.inverse_acceleration(g, c[0], *given, np.zeros(3))
+    along = np.stack([nd.inverse_acceleration(g, c[0], *given, axis) - zero for axis in np.eye(3)], axis=1)
+    best = np.linalg.lstsq(along, -zero, rcond=None)[0]
+    assert got == pytest.approx(zero + along @ best, abs=1e-9)
+
+
+@pytest.mark.parametrize("internal", ["least", "rest", "shifted", "carried"])
+@pytest.mark.parametrize("seed", range(size(2, 30)))
+def test_no_direction_accelerates_a_leg_more(seed, internal):
+    g, c, rng = robots_at_poses(seed, poses=1)
+    both = nd.sheet(g, c, internal=internal, linear_speed=1.3, angular_speed=0.7)
+    still = nd.sheet(g, c, internal=internal, linear_speed=1.3)
+    ways = rng.normal(size=(400, 2, 3))
+    ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
+    worst = np.zeros((2, 9))
+    for turn, shift in ways:
+        for k, w in enumerate((0.7, 0.0)):
+            motion = Motion(1.0, 0.0, internal, (*(w * turn).tolist(), *(1.3 * shift).tolist()))
+            worst[k] = np.maximum(worst[k], np.abs(twist_accelerations(g, c, motion)[0]))
+    assert (worst[0] <= np.array([leg.acceleration for leg in both.legs]) + 1e-9).all()
+    exact = np.array([leg.acceleration for leg in still.legs])
+    assert (worst[1] <= exact + 1e-9).all()
+    assert (worst[1] >= 0.9 * exact - 1e-9).all()  # 400 directions come near the largest
+    assert np.array([leg.acceleration for leg in nd.sheet(g, c, linear_speed=0.0).legs]).max() == 0.0
+
+
+@pytest.mark.parametrize("seed", range(size(4, 50)))
+def test_the_weight_does_the_work_of_its_centre(seed):
+    """Virtual work by differences: the legs' forces and the fall of the centre of mass, O moving by itself."""
+    g, c, rng = robots_at_poses(seed, poses=2)
+    mass, centre, gravity = 3.0, rng.normal(size=3), rng.normal(size=3)
+    found = nd.sheet(g, c, mass=mass, centre=centre, gravity=gravity)
+    loaded = nd.sheet(g, c, loads=[[0, 0, 0, 1, 0, 0]] * 2, mass=mass, centre=centre, gravity=gravity)
+    alone = nd.sheet(g, c, loads=[0, 0, 0, 1, 0, 0])
+    assert len(found.legs[0].forces) == 1
+    for k in range(2):
+        forces = np.array(
+            [leg.forces[0] for leg in nd.sheet(g, c[k : k + 1], mass=mass, centre=centre, gravity=gravity).legs]
+        )[:, 0]
+        assert all(
+            leg.forces[0][0] <= f + 1e-12 and f <= leg.forces[0][1] + 1e-12
+            for leg, f in zip(found.legs, forces, strict=True)
+        )
+        for way in np.eye(9):
+            ends = [c[k].moved(x * 1e-5 * way) for x in (-1.0, 1.0)]
+            fall = [mass * gravity @ (e.position + e.rotation @ centre) for e in ends]
+            work = forces @ (nd.leg_lengths(g, ends[1]) - nd.leg_lengths(g, ends[0])) + fall[1] - fall[0]
+            assert abs(work) < 1e-7 * 2e-5 * (1.0 + np.abs(forces).max()) * 100
+    ends = nd.leg_forces(g, c, [0, 0, 0], [1, 0, 0]).forces
+    at_poses = (
+        np.array(
+            [
+                [leg.forces[0] for leg in nd.sheet(g, c[k : k + 1], mass=mass, centre=centre, gravity=gravity).legs]
+                for k in range(2)
+            ]
+        )[..., 0]
+        + ends
+    )
+    for k, leg in enumerate(loaded.legs):
+        assert leg.forces[1] == leg.forces[0] == pytest.approx((at_poses[:, k].min(), at_poses[:, k].max()), abs=1e-9)
+    assert alone.weight is None
+    assert nd.sheet(g, c, mass=mass).weight.gravity == (0.0, 0.0, -9.81)
+
+
+@pytest.mark.parametrize("seed", range(size(4, 50)))
+def test_no_way_meets_a_singularity_before_the_nearest(seed):
+    g, c, rng = robots_at_poses(seed, poses=3)
+    found = nd.sheet(g, c, internal="shifted").singularities
+    tangents = {
+        "shift": lambda d: [0 * d, d, d],
+        "turn": lambda d: [d, 0 * d, 0 * d],
+        "internal": lambda d: [0 * d, 0 * d, d],
+    }
+    for name, near in found.items():
+        there = nd.Configuration(near.position, near.rotation, near.internal_point)
+        margins = nd.singularity_margins(g, there)._asdict()
+        assert abs(margins[f"det_{near.mechanism}"]) < 1e-7
+        ways = rng.normal(size=(300, 3))
+        ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+        ways = np.concatenate([ways, [near.direction]])
+        direction = np.concatenate(tangents[name](ways), axis=1)
+        far = nd.distance_to_singularity(g, c[:, None], direction, most=2.0 * near.distance).distance
+        assert far.min() >= near.distance * (1.0 - 1e-6)
+        assert far[near.pose, -1] == pytest.approx(near.distance, rel=1e-9)
+    high = nd.Configuration.neutral(4.0, [3.5])
+    plane = nd.sheet(nd.Geometry.hexagonal(0.0, 5.0, 2.0, 0.0), high, internal="rest").singularities["internal"]
+    assert plane.distance == pytest.approx(0.5)  # from O to the plane of the upper joints
+    assert plane.mechanism == "c"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"twist_rate": [0.0] * 6}, "twist_rate: got"),
+        ({"twist": [1.0, 2.0]}, "twist: got"),
+        ({"centre": [0, 0, 1]}, "centre: got .* without a mass"),
+        ({"mass": -1.0}, "mass"),
+        ({"mass": 1.0, "gravity": [1.0]}, "gravity"),
+        ({"samples": 0}, "samples"),
+    ],
+)
+def test_wrong_arguments_are_named(change, words):
+    g = nd.Geometry.hexagonal(a1=0.0, a2=3.0, b1=1.5, b2=0.0)
+    with pytest.raises(ValueError, match=words):
+        nd.sheet(g, nd.Configuration.neutral(3.0, [1.0]), **change)

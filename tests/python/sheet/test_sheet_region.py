@@ -1,0 +1,129 @@
+"""The sheet of a region study: against random poses of the region, and the poses against the core's."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from sizes import size
+
+import ninedof as nd
+from ninedof.design.region_stack import configurations_at, poses_at, samples
+from ninedof.optimize.exchange import search
+from ninedof.optimize.region_report import posed
+from ninedof.sheet.legs import cone_angles
+from ninedof.verify.region import random_poses
+
+REGIONS = [
+    {"box": [0.5, 0.4, 0.3], "tilt": 0.15},
+    {"ball": 0.12, "yaw": 0.3, "unit": "zp", "internal_point": "held"},
+    {"cylinder": [0.5, 0.3], "tilt": 0.1, "yaw": 0.2},
+    {"path": [[-0.5, 0.0, 0.0], [0.3, 0.2, 0.1], [0.4, -0.3, 0.2]], "tilt": 0.1},
+]
+CONES = {"base_cone": {"max_deg": 50, "axis": [0, 0, 1]}, "platform_cone": {"max_deg": 60}, "leg_ratio": (None, 4.0)}
+
+
+def result(region, seed=0):
+    """A design as the result of a region study holds it, without the solving."""
+    study = nd.Study(
+        family="symmetric", constraints=CONES, objective={"region": nd.Region(**region)}, characteristic_length=1.5
+    )
+    angles = ("base_internal_angle", "platform_external_angle", "platform_internal_angle")
+    sizes = {"base_external_radius": 5.0, "base_internal_radius": 3.0, "zp": 4.0, "zs": 2.2}
+    sizes |= {"platform_external_radius": 2.0, "platform_internal_radius": 1.2}
+    given = dict(zip(angles, np.random.default_rng(seed).uniform(0.4, 1.2, 3).tolist(), strict=True))
+    solved = posed(study, (nd.Pose(),))
+    point = solved.evaluate(sizes | given)
+    names = ("geometry", "configuration", "configurations", "characteristic_length")
+    return SimpleNamespace(
+        study=study, solved=solved, variables=sizes | given, **{name: getattr(point, name) for name in names}
+    )
+
+
+@pytest.fixture(scope="module")
+def boxed():
+    return nd.sheet(result(REGIONS[0]))
+
+
+@pytest.mark.parametrize("region", size(REGIONS[1:3], REGIONS))
+def test_no_random_pose_is_worse(region):
+    design = result(region)
+    found = nd.sheet(design, linear_speed=2.0, loads=[0.1, 0.2, 0.3, 1.0, 2.0, -3.0], samples=2000)
+    there = posed(
+        design.study, random_poses(design.study.objective.region, size(3000, 100_000), np.random.default_rng(1))
+    )
+    g, c = design.geometry, there.evaluate(design.variables).configurations
+    close = {"rel": 1e-9, "abs": 1e-12}
+    lengths, forces = nd.leg_lengths(g, c), nd.leg_forces(g, c, [0.1, 0.2, 0.3], [1.0, 2.0, -3.0]).forces
+    base, platform = cone_angles(g, c)
+    for k, leg in enumerate(found.legs):
+        assert leg.shortest <= lengths[:, k].min() * (1.0 + 1e-9)
+        assert leg.longest >= lengths[:, k].max() * (1.0 - 1e-9)
+        assert leg.base_cone is None or leg.base_cone >= base[:, k].max() - 1e-9
+        assert leg.platform_cone is None or leg.platform_cone >= platform[:, k].max() - 1e-9
+        assert leg.forces[0][0] <= forces[:, k].min() + 1e-9
+        assert leg.forces[0][1] >= forces[:, k].max() - 1e-9
+    sample = nd.sheet(g, c, linear_speed=2.0, internal=found.motion.internal, characteristic_length=1.5)
+    for k, leg in enumerate(found.legs):
+        assert leg.speed >= sample.legs[k].speed - 1e-9
+        assert leg.acceleration >= sample.legs[k].acceleration - 1e-9
+    assert found.condition_number.value >= sample.condition_number.value * (1.0 - 1e-9)
+    assert found.clearance.value <= sample.clearance.value + 1e-9
+    for name, one in found.determinants.items():
+        assert one.value <= sample.determinants[name].value + 1e-9
+    # and each is met: the extremes are those of poses of the sheet
+    again = nd.sheet(g, found.configurations, internal=found.motion.internal, characteristic_length=1.5)
+    assert again.condition_number == found.condition_number
+    assert [leg.longest for leg in again.legs] == pytest.approx([leg.longest for leg in found.legs], **close)
+    margins = {row.name: row.margin for row in found.limits}
+    assert min(there.evaluate(design.variables).margins.values()) >= min(margins.values()) - 1e-9
+    for name, margin in there.evaluate(design.variables).margins.items():
+        assert margin >= margins[name] - 1e-9
+    assert found.region.looked_at > 4000
+    kappa = nd.condition_number(
+        g,
+        configurations_at(design.study.objective.region, c[0], samples(design.study.objective.region, 2000)[:2000])[1],
+        1.5,
+    )
+    assert found.mean_condition_number == found.region.mean == pytest.approx(kappa.mean())
+
+
+def test_the_sheet_agrees_with_the_search_of_the_optimizer(boxed):
+    design, found = result(REGIONS[0]), boxed
+    best = SimpleNamespace(variables=design.variables, objective=1.0)
+    look = search(design.study, (), best, 4000, 0, 1)
+    assert found.condition_number.value == pytest.approx(look.objective, rel=1e-8)
+    assert min(row.margin for row in found.limits) == pytest.approx(look.margin, abs=1e-8)
+
+
+@pytest.mark.parametrize("region", REGIONS)
+def test_configurations_are_those_of_the_core(region):
+    design = result(region)
+    at = samples(nd.Region(**region), 40)
+    near, c = configurations_at(nd.Region(**region), design.configuration, at)
+    assert np.allclose(near, at, atol=1e-12)  # a sample is in the region
+    core = posed(design.study, poses_at(nd.Region(**region), at)).evaluate(design.variables).configurations[1:]
+    for name in ("position", "rotation", "internal_point"):
+        assert np.allclose(getattr(c, name), getattr(core, name), atol=1e-12)
+    outside = configurations_at(nd.Region(**region), design.configuration, 10.0 * at)[0]
+    reach = np.array(nd.Region(**region).reach)
+    assert (np.abs(outside) <= reach + 1e-12).all()
+
+
+def test_the_even_half_of_a_sample_is_even():
+    at = samples(nd.Region(ball=2.0, tilt=0.5, yaw=1.0), 20_000)[:20_000]
+    assert np.allclose(at.mean(axis=0), 0.0, atol=2e-3)
+    assert np.mean(np.linalg.norm(at[:, :3], axis=1) ** 2) == pytest.approx(0.6 * 4.0, rel=2e-3)  # of a ball
+    assert np.mean(np.linalg.norm(at[:, 3:5], axis=1) ** 2) == pytest.approx(0.5 * 0.25, rel=2e-3)  # of a disc
+    assert np.mean(at[:, 5] ** 2) == pytest.approx(1.0 / 3.0, rel=2e-3)
+
+
+def test_words_and_plain_values(boxed):
+    found = boxed
+    assert repr(found).startswith("<Sheet over a region, ")
+    assert f"{found.region.looked_at} poses looked at" in found.summary().splitlines()[0]
+    plain = found.to_dict()
+    assert plain["region"]["looked_at"] == found.region.looked_at
+    assert len(plain["poses"]) == len(found.configurations)
+    assert plain["singularities"]["turn"]["distance_deg"] == math.degrees(found.singularities["turn"].distance)
+    assert nd.sheet(result(REGIONS[0]), nd.Configuration.neutral(4.0, [2.0])).region is None
