@@ -48,6 +48,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
 from ninedof.runs.objects import load, save
+from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.nearest_singularity import NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import (
@@ -99,6 +100,7 @@ __all__ = [
     "Mechanism",
     "NearestSingularity",
     "Objective",
+    "PathLimits",
     "Pose",
     "PositionStatus",
     "Region",
@@ -152,6 +154,7 @@ __all__ = [
     "null_motion",
     "optimize",
     "pareto",
+    "path_limits",
     "reciprocal_condition_number",
     "save",
     "self_stress",

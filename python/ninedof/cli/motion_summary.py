@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.table import Table
 
 from ninedof.cli.screen import Screen
 from ninedof.motion import Followed
+from ninedof.sheet.path_limits import PathLimits
+from ninedof.sheet.pose_limits import CONES
+from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, heading, per
 
 SHOWN = 12  # breaks of limits
@@ -43,7 +47,25 @@ def _text(value: float, largest: float) -> str:
     return "0" if abs(value) < 1e-12 * largest else f"{value:.4g}"
 
 
-def sentences(found: Followed, unexamined: Sequence[str]) -> Iterator[str]:
+def limits_table(of_study: PathLimits) -> Table:
+    """Return the table of the other limits of the study: where each has its least margin."""
+    table = Table(title="Limits of the study along the path", title_justify="left", title_style="bold")
+    for k, words in enumerate(("limit", "", "allowed", "worst", "margin", "at t")):
+        table.add_column(words, justify="right" if k > 1 else "left")
+    for row in of_study.worst():
+        cone = "limit_deg" in row
+        values = (f"{row['limit_deg']:.2f}°", f"{row['value_deg']:.2f}°") if cone else _pair(row)
+        margin = f"{row['margin']:.4f}" if row["name"] == "singularity_free" else f"{100.0 * row['margin'] + 0.0:.2f} %"
+        name = f"{row['name']} {row['part']}".strip()
+        table.add_row(name, row["side"], *values, margin, f"{row['at']:.6g}")
+    return table
+
+
+def _pair(row: dict[str, Any]) -> tuple[str, str]:
+    return f"{row['limit']:.6g}", f"{row['value']:.6g}"
+
+
+def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:
     """Yield remarks on the table, one sentence each."""
     about = found.to_dict()
     kappa, near = about["condition_number"], about["nearest_singularity"]
@@ -57,17 +79,19 @@ def sentences(found: Followed, unexamined: Sequence[str]) -> Iterator[str]:
     moving = float(np.linalg.norm(found.velocity[:, 3:6], axis=1).max())
     speed, time = amount(f"{moving:.5g}", per(found.unit, "s")), "second" if found.unit else "unit of time"
     yield f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
-    for broken in found.breaks[:SHOWN]:
+    breaks = sorted((*found.breaks, *(of_study.breaks if of_study else ())), key=lambda b: (b.begin, b.limit))
+    for broken in breaks[:SHOWN]:
         if broken.limit.startswith("det"):
             yield f"[bold]singularity[/bold]: {broken.limit} changes sign at t = {broken.begin:.6g}"
         else:
             when = f"from t = {broken.begin:.6g} to {broken.end:.6g}"
-            worst = amount(f"{broken.worst:.5g}", found.unit)
+            cone = broken.limit.startswith(tuple(CONES))
+            worst = f"{math.degrees(broken.worst):.5g}°" if cone else f"{broken.worst:.5g}"
+            if broken in found.breaks:  # of a leg length
+                worst = amount(worst, found.unit)
             yield f"[bold]limit breaks[/bold]: {broken.limit}, {when}, at worst {worst} at {broken.at:.6g}"
-    if len(found.breaks) > SHOWN:
-        yield f"and {len(found.breaks) - SHOWN} more breaks of limits: see record.json"
-    if unexamined:
-        yield f"not examined along the path: {', '.join(unexamined)}"
+    if len(breaks) > SHOWN:
+        yield f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {found.tracking_error:.1e}"
     if found.tracked:
         yield f"tracked back from the leg lengths, every step proved: {error}"
@@ -75,10 +99,23 @@ def sentences(found: Followed, unexamined: Sequence[str]) -> Iterator[str]:
         yield f"[bold]not tracked back[/bold] beyond t = {found.tracked_until:.6g}: {error}"
 
 
-def draw(found: Followed, screen: Screen, directory: Path) -> list[Path]:
-    """Draw lengths and condition number; return the files."""
+def draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:
+    """Draw lengths, condition number and the margins of a study's limits; return the files."""
     screen.say("drawing the motion")
     from ninedof import plot
 
-    figure = plot.motion(found.time, found.leg_lengths, found.condition_number, found.limits, found.unit)
+    margins = _margins(found) | of_study.margins if of_study else None
+    figure = plot.motion(
+        found.time, found.leg_lengths, found.condition_number, found.limits, found.unit, margins=margins
+    )
     return plot.save(figure, directory, "motion")
+
+
+def _margins(found: Followed) -> dict[str, Floats]:
+    """Return the least margin of the limits of leg lengths, relative to them; nothing without limits."""
+    low, high = found.limits
+    with np.errstate(divide="ignore", invalid="ignore"):
+        least = np.where(low > 0.0, found.leg_lengths / low - 1.0, np.inf).min(axis=1)
+        most = np.where(np.isfinite(high), 1.0 - found.leg_lengths / high, np.inf).min(axis=1)
+    margin = np.minimum(least, most)
+    return {"leg lengths": margin} if np.isfinite(margin).all() else {}

@@ -6,15 +6,12 @@ import math
 
 import numpy as np
 
-from ninedof.design.limits import each, for_core, place
+from ninedof.design.limits import each, for_core
 from ninedof.design.study import Study
 from ninedof.support.arrays import Floats
 
 LEGS = {"leg_length": range(9), "external_length": range(3), "upper_length": range(3, 6), "lower_length": range(6, 9)}
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
-
-OTHERS = ("leg_ratio", "stroke_ratio", "stroke", "leg_clearance", "base_cone", "platform_cone")
-"""Limits at poses that do not follow from the length of one leg at one pose."""
 
 
 def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
@@ -35,10 +32,3 @@ def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
             low[legs] = np.maximum(low[legs], unit * given["low"])
             high[legs] = np.minimum(high[legs], unit * given["high"])
     return low, high
-
-
-def other_limits_of(study: Study) -> tuple[str, ...]:
-    """Return the study's limits at poses that `leg_limits_of` does not cover."""
-    at_poses = {name for name, limit in each(study.constraints) if place(limit) == "poses"}
-    limited = ("condition_limit",) if study.objective.condition_limit is not None else ()
-    return (*(name for name in OTHERS if name in at_poses), *limited)

@@ -51,10 +51,11 @@ def follow(
     trajectory : Trajectory
     home : Configuration
         The neutral configuration, a single one: it says where O is.
-    internal_point : {"carried", "held", "best"} or float
+    internal_point : {"carried", "shifted", "held", "best"} or float
         O along the trajectory. "carried", the default: as if fixed to the platform, so that O keeps its side of the
         upper internal joints on every trajectory; while the platform does not turn, the upper internal legs do not
-        move. "held": where it is at home; the lower internal legs never move. `idle_legs` names such legs. A number:
+        move. "shifted": with the platform's origin, s - p as at home in base axes, as regions of studies have it.
+        "held": where it is at home; the lower internal legs never move. `idle_legs` names such legs. A number:
         this fraction of the way from the centroid of the internal joints of the base to that of the platform. "best":
         `best_internal_path` within the limits, at 201 poses, with a cubic spline between them.
     limits : (low, high), optional

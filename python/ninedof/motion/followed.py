@@ -28,12 +28,13 @@ class LimitBreak(NamedTuple):
     """A stretch of time in which a limit is not kept."""
 
     limit: str
-    """"l1 low" or "q2 high": the leg is shorter or longer than its limit. "det B": a singularity is passed."""
+    """"l1 low" or "q2 high": the leg is shorter or longer than its limit. "det B": a singularity is passed. Of a study
+    "base_cone l1 max"."""
     begin: float
     """Time, interpolated linearly between poses."""
     end: float
     worst: float
-    """The leg length, or 0 for a determinant."""
+    """The leg length or the value that is limited, 0 for a determinant that changes its sign."""
     at: float
     """The time of the worst."""
 
@@ -98,8 +99,8 @@ class Followed(Saved):
         found: list[LimitBreak] = []
         for k, leg in enumerate(LEGS):
             lengths = self.leg_lengths[:, k]
-            found += _stretches(f"{leg} low", self.time, lengths, lengths - low[k], low[k])
-            found += _stretches(f"{leg} high", self.time, lengths, high[k] - lengths, high[k])
+            found += stretches(f"{leg} low", self.time, lengths, lengths - low[k], low[k])
+            found += stretches(f"{leg} high", self.time, lengths, high[k] - lengths, high[k])
         for name, word in DETERMINANTS.items():
             found += _crossings(word, self.time, getattr(self.singularity_margins, name))
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
@@ -190,7 +191,7 @@ class Followed(Saved):
         return cls(geometry=geometry, trajectory=moving, configurations=poses, **known)
 
 
-def _stretches(name: str, time: Floats, lengths: Floats, margin: Floats, limit: float) -> list[LimitBreak]:
+def stretches(name: str, time: Floats, lengths: Floats, margin: Floats, limit: float) -> list[LimitBreak]:
     """Return the stretches of a margin that is negative beyond rounding."""
     outside = np.concatenate([[False], margin < -ROUNDING * limit, [False]])
     found = []

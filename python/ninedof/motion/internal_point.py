@@ -1,4 +1,4 @@
-"""Where O is along a trajectory: carried, held, a fraction between the plates, or best."""
+"""Where O is along a trajectory: carried, shifted, held, a fraction between the plates, or best."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats
 
-RULES = ("carried", "held", "best")
+RULES = ("carried", "shifted", "held", "best")
 MOST_SEARCHED = 201  # poses at which the best O is searched
 
 
@@ -36,6 +36,8 @@ def internal_points(
         return _best(geometry, trajectory, home, length, limits)
     if rule == "held":
         return np.tile(home.internal_point, (len(p), 1))
+    if rule == "shifted":
+        return np.asarray(p + (home.internal_point - home.position))
     if rule == "carried":
         own = home.rotation.T @ (home.internal_point - home.position)  # in the platform frame
         found: Floats = p + q @ own

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,8 @@ from ninedof.support.arrays import Floats
 
 KINDS = (("l", "external legs"), ("q", "upper internal legs"), ("r", "lower internal legs"))
 DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)))
-MOST_DRAWN = 2000  # stretches of a curve
+MOST_DRAWN = 800  # stretches of a curve
+MOST_MARGIN = 1.0  # drawn: beyond it a limit is far
 RANGE = 30.0  # times the least condition number: larger values are cut off
 
 
@@ -23,8 +25,9 @@ def motion(
     conditions: ArrayLike,
     limits: tuple[ArrayLike, ArrayLike] | None = None,
     unit: str = "",
+    margins: Mapping[str, ArrayLike] | None = None,
 ) -> Figure:
-    """Return a figure of the leg lengths by kind over time, their limits, and the condition number below.
+    """Return a figure of the leg lengths by kind over time, their limits, the condition number below, and margins.
 
     Parameters
     ----------
@@ -37,6 +40,8 @@ def motion(
         Least and greatest lengths, each of shape (9,); 0 and infinity are no limits. None by default.
     unit : str
         Of lengths.
+    margins : mapping of str to array_like of shape (n,), optional
+        Relative margins of further limits by name, negative where a limit is passed; drawn up to 100 %.
 
     Examples
     --------
@@ -55,24 +60,29 @@ def motion(
     low, high = (np.zeros(9), np.full(9, np.inf)) if limits is None else (np.broadcast_to(x, 9) for x in limits)
     shown = _drawn(kappa)
     with style.settings():
-        figure = style.new_figure(9.0, 5.2)
-        grid = figure.add_gridspec(2, 3, height_ratios=(1.0, 0.85))
+        rows = (1.0, 0.85, 0.85) if margins else (1.0, 0.85)
+        figure = style.new_figure(9.0, 2.8 * sum(rows))
+        grid = figure.add_gridspec(len(rows), 3, height_ratios=rows)
         for k, (kind, title) in enumerate(KINDS):
             axes = figure.add_subplot(grid[0, k])
-            rows = slice(3 * k, 3 * k + 3)
-            _legs(axes, t[shown], lengths[shown, rows], kind)
-            _limits(axes, low[rows], high[rows], lengths[:, rows])
+            these = slice(3 * k, 3 * k + 3)
+            _legs(axes, t[shown], lengths[shown, these], kind)
+            _limits(axes, low[these], high[these], lengths[:, these])
             axes.set_title(title, size=style.TEXT_SIZE)
             axes.set_xlim(t[0], t[-1])
             if k == 0:
                 axes.set_ylabel(style.with_unit("length", unit))
         _condition(figure.add_subplot(grid[1, :]), t[shown], kappa[shown])
-        figure.subplots_adjust(left=0.075, right=0.985, bottom=0.09, top=0.93, hspace=0.42, wspace=0.22)
+        if margins:
+            given = {name: np.asarray(values, dtype=np.float64) for name, values in margins.items()}
+            _margins(figure.add_subplot(grid[2, :]), t, given)
+        bottom, top = (0.09, 0.93) if not margins else (0.065, 0.95)
+        figure.subplots_adjust(left=0.075, right=0.985, bottom=bottom, top=top, hspace=0.42, wspace=0.22)
     return figure
 
 
 def _drawn(kappa: Floats) -> NDArray[np.intp]:
-    """Return the samples to draw: the first of each stretch, its greatest condition number, and the last of all."""
+    """Return the samples to draw: the first of each stretch, its greatest value, and the last of all."""
     step = -(-len(kappa) // MOST_DRAWN)
     begins = np.arange(0, len(kappa), step)
     padded = np.full(step * len(begins), -np.inf)
@@ -120,3 +130,20 @@ def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
     elif finite.size:
         room = max(0.08 * float(np.ptp(finite)), 0.005 * float(finite.max()))
         axes.set_ylim(finite.min() - room, finite.max() + room)
+
+
+def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
+    for k, (name, values) in enumerate(margins.items()):
+        shown = _drawn(-values)
+        percent = 100.0 * np.minimum(values[shown], MOST_MARGIN)
+        colour, dashes = style.SERIES[k % len(style.SERIES)], DASHES[k // len(style.SERIES) % len(DASHES)]
+        axes.plot(t[shown], percent, color=colour, ls=dashes, lw=1.8, label=name.replace("_", " "))
+    axes.axhline(0.0, color=style.INK, lw=1.0, ls=(0, (6, 3)), zorder=1)
+    low, high = axes.get_ylim()
+    if low < 0.0 and min(float(values.min()) for values in margins.values()) < 0.0:
+        axes.axhspan(low, 0.0, color=style.ALARM, alpha=0.12, lw=0.0, zorder=0)
+    axes.set_ylim(low, high + 0.22 * (high - low))
+    axes.set_xlim(t[0], t[-1])
+    axes.set_title(f"least margin of each limit, % of it, up to {100.0 * MOST_MARGIN:g}", size=style.TEXT_SIZE)
+    axes.set_xlabel("time")
+    axes.legend(loc="upper center", ncols=min(5, len(margins)), handlelength=2.2, columnspacing=1.0)

@@ -5,6 +5,7 @@ Where the motion names its length unit, the names of columns have it in brackets
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -16,6 +17,8 @@ import numpy as np
 from ninedof.motion import Followed
 from ninedof.motion.followed import LEGS
 from ninedof.runs.folder import Record, write_record
+from ninedof.sheet.path_limits import PathLimits
+from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit
@@ -30,6 +33,7 @@ def write_motion(
     directory: str | os.PathLike[str],
     draw: Callable[[Path], Sequence[Path]] | None = None,
     asked: Mapping[str, Any] | None = None,
+    limits: PathLimits | None = None,
 ) -> Path:
     """Write a motion into an existing directory; return the path of its record.
 
@@ -41,14 +45,16 @@ def write_motion(
         Called with the directory after the record was written; draws figures there and returns their paths.
     asked : mapping, optional
         What was asked, for the record.
+    limits : PathLimits, optional
+        Those of a study: their worst values and breaks join the record, their margins poses.csv.
 
     """
     folder = Path(directory)
     write_whole(folder / LEGS_FILE, _csv(*_legs(found)))
-    write_whole(folder / POSES_FILE, _csv(*_poses(found)))
+    write_whole(folder / POSES_FILE, _csv(*_poses(found, {} if limits is None else limits.margins)))
     found.save(folder / ARRAYS_FILE)
     files = (LEGS_FILE, POSES_FILE, ARRAYS_FILE)
-    record = Record("motion", asked or {}, {"motion": found.to_dict()}, files=files)
+    record = Record("motion", asked or {}, {"motion": plain(found, limits)}, files=files)
     path = write_record(record, folder)
     if draw is not None:
         write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
@@ -61,6 +67,21 @@ def load_motion(path: str | os.PathLike[str]) -> Followed:
     return Followed.load((place if place.is_dir() else place.parent) / ARRAYS_FILE)
 
 
+def plain(found: Followed, limits: PathLimits | None) -> dict[str, Any]:
+    """Return a motion with the limits of a study as plain values; angles in degrees, as "worst_deg"."""
+    out = found.to_dict()
+    if limits is None:
+        return out
+    out["limits"] = limits.worst()
+    for broken in limits.breaks:
+        row = broken._asdict()
+        if broken.limit.startswith(tuple(CONES)):
+            row["worst_deg"] = math.degrees(row.pop("worst"))
+        out["breaks"].append(row)
+    out["breaks"].sort(key=lambda row: (row["begin"], row["limit"]))
+    return out
+
+
 def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:
     """Return t, nine lengths, nine rates, nine accelerations, and nine forces if there is a load."""
     parts = {"": found.leg_lengths, RATE: found.leg_rates, ACCELERATION: found.leg_accelerations}
@@ -71,12 +92,12 @@ def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:
     return names, (found.time[:, None], *parts.values())
 
 
-def _poses(found: Followed) -> tuple[list[str], Iterable[Floats]]:
+def _poses(found: Followed, margins: Mapping[str, Floats]) -> tuple[list[str], Iterable[Floats]]:
     c = found.configurations
     x, y, z, o_x, o_y, o_z, margin = (with_unit(name, found.unit) for name in LENGTHS)
     names = ["t", x, y, z, *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), o_x, o_y, o_z, "condition_number"]
-    names += [*found.singularity_margins._fields, margin]
-    last = (found.condition_number, *found.singularity_margins, found.leg_margins.min(axis=1))
+    names += [*found.singularity_margins._fields, margin, *(f"margin_{name}" for name in margins)]
+    last = (found.condition_number, *found.singularity_margins, found.leg_margins.min(axis=1), *margins.values())
     return names, (found.time[:, None], c.position, c.rotation.reshape(-1, 9), c.internal_point, np.stack(last, axis=1))
 
 

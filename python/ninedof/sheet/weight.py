@@ -38,14 +38,15 @@ class Weight(NamedTuple):
             vector("gravity", STANDARD if gravity is None else np.asarray(gravity).tolist()),
         )
 
-    def wrench(self, c: Configuration) -> Floats:
-        """Return (moment about p, force) at each pose of a stack, base axes, shape (n, 6)."""
-        force = np.broadcast_to(self.mass * np.asarray(self.gravity), c.position.shape)
-        return np.concatenate([np.cross(c.rotation @ np.asarray(self.centre), force), force], axis=-1)
+    def wrench(self, rotation: Floats) -> Floats:
+        """Return (moment about p, force) at each rotation of the platform, (n, 3, 3), in base axes, shape (n, 6)."""
+        arm = rotation @ np.asarray(self.centre)
+        force = np.broadcast_to(self.mass * np.asarray(self.gravity), arm.shape)
+        return np.concatenate([np.cross(arm, force), force], axis=-1)
 
 
 def wrenches(c: Configuration, loads: Floats, weight: Weight | None) -> Floats:
     """Return each load with the weight at each pose, shape (k, n, 6), for loads (k, 6)."""
-    own = np.zeros((len(c), 6)) if weight is None else weight.wrench(c)
+    own = np.zeros((len(c), 6)) if weight is None else weight.wrench(c.rotation)
     found: Floats = loads[:, None] + own
     return found

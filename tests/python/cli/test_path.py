@@ -75,7 +75,8 @@ def test_a_run_with_its_limits(capsys):
     status, out, _ = run(capsys, "path optimum poses.csv --no-figures --legs 1 2")
     assert status == 3
     assert "limit breaks: l1 high, from t = 0 to 1" in out
-    assert "not examined along the path: leg_ratio" in out
+    assert "Limits of the study along the path" in out
+    assert "leg_ratio" in out
 
 
 @pytest.mark.parametrize(
@@ -88,7 +89,10 @@ def test_a_run_with_its_limits(capsys):
         ("path poses.csv --points 7", "--points: got 7, expected none with a file"),
         ("path --circle 1 --points 2", "points: got 2"),
         ("path --circle 1 --duration 0", "duration: got 0"),
-        ("path --circle 1 --internal-point stay", "--internal-point: got 'stay', expected carried, held, best"),
+        (
+            "path --circle 1 --internal-point stay",
+            "--internal-point: got 'stay', expected carried, shifted, held, best",
+        ),
         ("path none.toml --circle 1", "none.toml"),
         ("path --circle 1 --internal-point best --legs 1 2", "no position of O is allowed at t = 0"),
     ],
@@ -101,3 +105,59 @@ def test_bad_input(capsys, tmp_path, line, words):
     assert words in err
     assert err.count("\n") == 1
     assert not (tmp_path / "run").exists()
+
+
+REGION = """
+[design]
+family = "symmetric"
+characteristic_length = 1.5
+[variables]
+base_external_radius = 5.0
+base_internal_radius = 3.0
+base_internal_angle = 0.5
+platform_external_radius = 2.0
+platform_external_angle = 1.0
+platform_internal_radius = 1.2
+platform_internal_angle = 0.7
+zp = 4.0
+zs = [2.2, 2.4]
+[constraints]
+base_cone = { max_deg = 9.0 }
+leg_clearance = { radius = 0.05 }
+[objective]
+condition_limit = 30.0
+[objective.region]
+box = [0.3, 0.3, 0.3]
+tilt_deg = 5.0
+[solver]
+starts = 2
+"""
+
+
+def test_every_limit_of_a_run(capsys, tmp_path):
+    with open("machine.toml", "w") as file:
+        file.write(REGION)
+    assert run(capsys, "optimize machine.toml --no-figures --out machine")[0] == 0
+    line = "path machine --points 201 --mass 2 --centre 0.1 0 0 --out along"
+    status, out, _ = run(capsys, f"{line} --line 0.3 0.3 -0.3 --json")
+    motion = json.loads(out)["motion"]
+    assert (status, motion["breaks"], motion["internal_point"]) == (0, [], "shifted")
+    rows = {row["name"]: row for row in motion["limits"]}
+    assert set(rows) == {"base_cone", "leg_clearance", "condition_limit"}
+    assert rows["base_cone"]["limit_deg"] == pytest.approx(9.0)
+    assert rows["base_cone"]["value_deg"] <= 9.0
+    assert motion["legs"]["r1"]["push"] > 0.0
+    with (tmp_path / "along" / "poses.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert min(float(row["margin_base_cone"]) for row in table) == pytest.approx(rows["base_cone"]["margin"])
+    status, out, _ = run(capsys, f"{line}2 --line 1 0 0 --no-figures")
+    assert status == 3
+    assert "limit breaks: base_cone l" in out
+    assert "°" in out
+
+
+def test_the_weight_of_a_path_is_that_of_a_force(capsys):
+    line = "path --circle 0.3 --points 21 --no-figures --json"
+    heavy = json.loads(run(capsys, f"{line} --mass 2 --gravity 0 0 -10 --moment 0 1 0")[1])["motion"]["legs"]
+    forced = json.loads(run(capsys, f"{line} --force 0 0 -20 --moment 0 1 0")[1])["motion"]["legs"]
+    assert all(heavy[leg]["push"] == pytest.approx(forced[leg]["push"], abs=1e-12) for leg in forced)

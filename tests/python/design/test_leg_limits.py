@@ -1,7 +1,7 @@
 """Limits of a study on the lengths of single legs."""
 
 import ninedof as nd
-from ninedof.design.leg_limits import leg_limits_of, other_limits_of
+from ninedof.design.leg_limits import leg_limits_of
 
 
 def test_limits_of_legs_by_kind_and_unit():
@@ -17,4 +17,3 @@ def test_limits_of_legs_by_kind_and_unit():
     low, high = leg_limits_of(study, zp=4.0)
     assert low.tolist() == [1.0] * 6 + [1.5] * 3
     assert high.tolist() == [9.0] * 3 + [8.0] * 3 + [9.0] * 3
-    assert other_limits_of(study) == ("stroke_ratio",)

@@ -6,19 +6,23 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import named_design, with_length
-from ninedof.cli.motion_summary import draw, legs_table, sentences
+from ninedof.cli.motion_summary import draw, legs_table, limits_table, sentences
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
-from ninedof.design.leg_limits import leg_limits_of, other_limits_of
+from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.study import Study
 from ninedof.motion import Trajectory, follow
 from ninedof.motion.internal_point import RULES
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
-from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE, write_motion
+from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE, plain, write_motion
+from ninedof.sheet.path_limits import path_limits
+from ninedof.sheet.weight import Weight
 from ninedof.support.units import unit_entry
 
 Three = tuple[float, float, float]
@@ -30,6 +34,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof path runs/20260101-120000 path.csv              the limits of the run's study
 
   ninedof path design.toml --circle 0.5 --duration 2 --internal-point best
+
+  ninedof path runs/20260101-120000 --line 30 0 20 --mass 5 --centre 0 0 20
 
   ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
 
@@ -56,20 +62,34 @@ def path(
     duration: Annotated[float | None, typer.Option(help="Of a circle, line or spiral; 1 by default.")] = None,
     points: Annotated[int | None, typer.Option(help="Poses of a circle, line or spiral; 1001 by default.")] = None,
     internal_point: Annotated[
-        str, typer.Option(help="Position of O: carried, held, best, or a fraction between the plates.")
-    ] = "carried",
+        str | None,
+        typer.Option(
+            help="Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
+            "region of the run's study, else carried."
+        ),
+    ] = None,
     legs: Annotated[
         tuple[float, float] | None,
         typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default."),
     ] = None,
     force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None,
     moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None,
+    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to the load.")] = None,
+    centre: Annotated[
+        Three | None, typer.Option(metavar="X Y Z", help="Its centre in the platform frame; the origin by default.")
+    ] = None,
+    gravity: Annotated[
+        Three | None, typer.Option(metavar="X Y Z", help="Force per mass, base axes; 0 0 -9.81 by default.")
+    ] = None,
     lc: Lc = None,
     out: Out = None,
     figures: Figures = True,
     json: Json = False,
 ) -> None:
-    """Compute leg lengths, rates and accelerations along a path, and the limits that break."""
+    """Compute leg lengths, rates and accelerations along a path, and the limits that break.
+
+    A run brings every limit of its study.
+    """
     screen = Screen(json)
     if file is None and design is not None and design.endswith(".csv"):
         file, design = Path(design), None
@@ -79,11 +99,16 @@ def path(
     trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
     study = given.study
     limits: Any = legs if legs is not None or study is None else leg_limits_of(study, float(home.position[2]))
-    asked = {"internal_point": _rule(internal_point), "limits": limits, "force": force, "moment": moment}
+    asked = {"internal_point": _rule(internal_point, study), "limits": limits, "force": force, "moment": moment}
+    weight = Weight.checked(mass, centre, gravity)
+    load = _with_weight(asked, weight, trajectory)
     with run_directory(out) as directory:
-        found = follow(g, trajectory, home, **asked, characteristic_length=length, unit=given.unit)
+        found = follow(g, trajectory, home, **(asked | load), characteristic_length=length, unit=given.unit)
+    of_study = path_limits(study, found, home) if study else None
     screen.print(legs_table(found))
-    for sentence in sentences(found, other_limits_of(study) if study else ()):
+    if of_study is not None and of_study.limits:
+        screen.print(limits_table(of_study))
+    for sentence in sentences(found, of_study):
         screen.print(sentence)
     shapes = {name: value for name, value in shape.items() if value is not None}
     question = {
@@ -91,13 +116,16 @@ def path(
         "home": arrays_of(home),
         **unit_entry(given.unit),
         **asked,
+        **({} if weight is None else {"weight": weight._asdict()}),
         **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }
-    record = write_motion(found, directory, partial(draw, found, screen) if figures else None, question)
+    drawing = partial(draw, found, screen, of_study) if figures else None
+    record = write_motion(found, directory, drawing, question, of_study)
     figure = ", figure motion (PNG and SVG)" if figures else ""
     screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")
-    screen.data({"motion": found.to_dict(), "record": str(record)})
-    raise typer.Exit(DONE if found.tracked and not found.breaks else NO_RESULT)
+    screen.data({"motion": plain(found, of_study), "record": str(record)})
+    broken = found.breaks or (of_study is not None and of_study.breaks)
+    raise typer.Exit(DONE if found.tracked and not broken else NO_RESULT)
 
 
 def _trajectory(
@@ -120,7 +148,21 @@ def _trajectory(
     return made
 
 
-def _rule(text: str) -> str | float:
+def _with_weight(load: dict[str, Any], weight: Weight | None, trajectory: Trajectory) -> dict[str, Any]:
+    """Return force and moment at each pose with the weight of the platform, nothing without one."""
+    if weight is None:
+        return {}
+    own = weight.wrench(trajectory.rotation)
+    given = {name: np.zeros(3) if load[name] is None else np.asarray(load[name]) for name in ("moment", "force")}
+    return {"moment": own[:, :3] + given["moment"], "force": own[:, 3:] + given["force"]}
+
+
+def _rule(text: str | None, study: Study | None) -> str | float:
+    """Return the rule for O: that of the option, or of the region of a study, which carries O in base axes."""
+    if text is None:
+        region = study.objective.region if study else None
+        own = None if region is None else "shifted" if region.internal_point == "carried" else region.internal_point
+        return own if own in RULES else "carried"
     if text in RULES:
         return text
     try:

@@ -1,0 +1,97 @@
+"""The limits of a study along a motion: margins over time, and when each is passed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.leg_limits import LEGS as OF_LENGTHS
+from ninedof.design.study import Study
+from ninedof.motion.followed import Followed, LimitBreak, stretches
+from ninedof.robot.configuration import Configuration, single
+from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
+from ninedof.support.arrays import Floats
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PathLimits:
+    """What `path_limits` returns."""
+
+    time: Floats
+    """Shape (n,)."""
+    limits: tuple[PoseLimit, ...]
+    """One for each side of each limit and each leg, with values and margins over time."""
+
+    @cached_property
+    def breaks(self) -> tuple[LimitBreak, ...]:
+        """Stretches of time in which a limit is passed by more than 1e-9 of it; angles in radians."""
+        found: list[LimitBreak] = []
+        for one in self.limits:
+            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, 1.0)
+        return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
+
+    @property
+    def margins(self) -> dict[str, Floats]:
+        """The least margin of each limit over its legs, by name, over time."""
+        found: dict[str, Floats] = {}
+        for one in self.limits:
+            found[one.name] = np.minimum(found[one.name], one.margin) if one.name in found else one.margin
+        return found
+
+    def worst(self) -> list[dict[str, Any]]:
+        """Return the least margin of each side of each limit as plain values; angles in degrees, as "limit_deg"."""
+        rows: dict[tuple[str, str], dict[str, Any]] = {}
+        for one in self.limits:
+            k = int(np.argmin(one.margin))
+            margin = float(one.margin[k])
+            if (key := (one.name, one.side)) in rows and rows[key]["margin"] <= margin:
+                continue
+            row = {"limit": one.limit, "value": float(one.value[k])}
+            if one.name in CONES:
+                row = {f"{name}_deg": float(np.degrees(value)) for name, value in row.items()}
+            named = {"name": one.name, "part": one.part, "side": one.side}
+            rows[key] = named | row | {"margin": margin, "at": float(self.time[k])}
+        return list(rows.values())
+
+    def __repr__(self) -> str:
+        """Show the limits that are passed."""
+        broken = ", ".join(sorted({entry.limit for entry in self.breaks}))
+        return f"<PathLimits: {len(self.time)} poses, {'breaks ' + broken if broken else 'within limits'}>"
+
+
+def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLimits:
+    """Return the margins of the limits of a study along a motion.
+
+    Every limit at poses but those on leg lengths, which are limits of `follow`: cones, clearance, determinants,
+    condition number, and spreads of lengths. A spread at a time is that over the path until then.
+
+    Parameters
+    ----------
+    study : Study
+    followed : Followed
+        A motion of a design of the study.
+    home : Configuration
+        The neutral configuration, a single one: for the axes of cones and the signs of determinants.
+
+    Returns
+    -------
+    PathLimits
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> study = nd.Study(constraints={"base_cone": {"max_deg": 5}, "leg_clearance": {"radius": 0.05}})
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    >>> home = nd.Configuration.neutral(3.9828, 2.4432)
+    >>> found = nd.follow(g, nd.Trajectory.line(home, [0.5, 0, 0]), home)
+    >>> nd.path_limits(study, found, home)
+    <PathLimits: 1001 poses, breaks base_cone l1 max, base_cone l2 max, base_cone r1 max, base_cone r3 max>
+
+    """
+    g = followed.geometry
+    single(g, home)
+    every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
+    return PathLimits(followed.time, tuple(one for one in every if one.name not in OF_LENGTHS))

@@ -1,0 +1,89 @@
+"""Margins along a path against those of the study at the poses passed so far."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from sizes import size
+
+import ninedof as nd
+
+EVERY = {
+    "leg_ratio": (None, 3.0),
+    "stroke_ratio": (None, 1.1),
+    "stroke": {"max": 0.5, "of": "zp"},
+    "leg_length": (0.5, 9.0),
+    "joint_spacing": {"min": 0.1},
+    "leg_clearance": {"radius": 0.05},
+    "base_cone": [{"max_deg": 60, "axis": [0, 0, 1]}, {"max_deg": 50, "axis": [0, 0, 1], "at": "neutral"}],
+    "platform_cone": {"max_deg": 4},
+    "singularity_free": {"steps": 1},
+}
+AXES = EVERY | {"base_cone": {"max_deg": 40}, "platform_cone": {"max_deg": 70, "axis": [0.1, 0.2, -1]}}
+
+
+@pytest.mark.parametrize("constraints", [EVERY, AXES])
+@pytest.mark.parametrize("seed", range(size(3, 100)))
+def test_margins_are_those_of_the_study(seed, constraints):
+    rng = np.random.default_rng(seed)
+    turns, shift, internal = 0.1 * rng.normal(size=(3, 6, 3))
+    poses = [nd.Pose(*(tuple(x.tolist()) for x in row)) for row in zip(shift, turns, internal, strict=True)]
+    study = nd.Study(
+        family="symmetric_nonplanar",
+        constraints=constraints,
+        objective={"poses": poses, "condition_limit": 20.0},
+        characteristic_length=1.0,
+    )
+    problem = study.problem()
+    variables = dict(zip(problem.names, problem.starts(1, seed)[0].tolist(), strict=True))
+    point = study.evaluate(variables)
+    g, home, c = point.geometry, point.configuration, point.configurations[1:]
+    trajectory = nd.Trajectory(np.arange(6.0), c.position, c.rotation)
+    followed = nd.follow(g, trajectory, home, internal_point="held")
+    object.__setattr__(followed, "configurations", c)  # O where the study has it
+    found = nd.path_limits(study, followed, home)
+    assert {one.name for one in found.limits} == {*constraints, "condition_limit"} - {"leg_length", "joint_spacing"}
+    for until in range(6):
+        some = nd.Study(
+            family="symmetric_nonplanar",
+            constraints=constraints,
+            objective={"poses": poses[: until + 1], "condition_limit": 20.0},
+            characteristic_length=1.0,
+        )
+        margins = some.evaluate(variables).margins
+        for name, values in found.margins.items():
+            if name == "singularity_free":  # the study tests the way from the neutral pose too
+                assert values[: until + 1].min() >= margins[name] - 1e-9
+                continue
+            assert values[: until + 1].min() == pytest.approx(margins[name], abs=1e-9)
+    signs = np.sign(nd.singularity_margins(g, home))
+    least = (np.stack(nd.singularity_margins(g, c), axis=1) * signs).min(axis=1)
+    assert found.margins["singularity_free"] == pytest.approx(least - 0.001, abs=1e-12)
+    for row in found.worst():
+        assert row["margin"] <= found.margins[row["name"]].min() + 1e-12 or row["side"] == "min"
+    broken = {entry.limit.rsplit(" ", 1)[0].split(" ")[0] for entry in found.breaks}
+    assert broken == {name for name, values in found.margins.items() if values.min() < -1e-9}
+
+
+def test_a_break_begins_where_the_limit_is_met():
+    study = nd.Study(constraints={"base_cone": {"max_deg": 5.0}})
+    g, home = nd.Geometry.hexagonal(0.0, 5.8124, 2.9062, 0.0), nd.Configuration.neutral(3.9828, 2.4432)
+    followed = nd.follow(g, nd.Trajectory.line(home, [0.5, 0.0, 0.0], points=4001), home)
+    for broken in nd.path_limits(study, followed, home).breaks:
+        leg = {"l": 0, "q": 3, "r": 6}[broken.limit.split()[1][0]] + int(broken.limit.split()[1][1]) - 1
+        k = int(np.searchsorted(followed.time, broken.begin))
+        start = np.vstack([g.base_external, g.base_internal, g.base_internal])[leg]
+
+        def along(pose, leg=leg, start=start):
+            end = pose.position + pose.rotation @ g.platform_external[leg % 3] if leg < 3 else pose.internal_point
+            return (end - start) / np.linalg.norm(end - start)
+
+        angle = np.degrees(np.arccos(along(home) @ along(followed.configurations[k])))
+        assert angle == pytest.approx(5.0, abs=2e-3)
+
+
+def test_shifted_keeps_the_arm_of_o():
+    g, home = nd.Geometry.hexagonal(0.0, 5.8124, 2.9062, 0.0), nd.Configuration.neutral(3.9828, 2.4432)
+    turns = Rotation.from_rotvec(np.linspace(0.0, 0.2, 9)[:, None] * [0.0, 1.0, 0.0]).as_matrix()
+    trajectory = nd.Trajectory(np.arange(9.0), home.position + 0.01 * np.arange(9.0)[:, None], turns)
+    c = nd.follow(g, trajectory, home, internal_point="shifted").configurations
+    assert np.allclose(c.internal_point - c.position, home.internal_point - home.position)
