@@ -8,9 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.indices import LEGS as LEG_NAMES
+from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.sheet.pose_limits import SPREADS
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 from ninedof.workspace.study_criteria import EASE, LEGS, leg_ranges, own_fraction, study_criteria
@@ -49,15 +52,24 @@ def criteria_asked(
     return ({} if legs is None else {"leg_limits": legs}) | found, own, left
 
 
-def rule_asked(text: str | None, geometry: Geometry, home: Configuration) -> str | float | tuple[float, ...]:
-    """Return the rule for O: that of the option, or where the design has O."""
-    if text is not None and text not in ("best", "held"):
+def compare_poses(left: Sequence[str], criteria: Mapping[str, Any]) -> bool:
+    """Return whether limits on the spread of lengths are left over and no range of lengths stands in their place."""
+    return "leg_limits" not in criteria and any(name in SPREADS for name in left)
+
+
+def rule_asked(text: str | None, geometry: Geometry, home: Configuration, region: Region | None) -> Any:
+    """Return the rule for O: that of the option, of the region of a study, or where the design has O."""
+    if text is not None and text not in ("best", "held", "carried"):
         try:
             return float(text)
         except ValueError:
-            raise ValueError(f"--internal-point: got {text!r}, expected best, held or a fraction") from None
+            raise ValueError(f"--internal-point: got {text!r}, expected best, held, carried or a fraction") from None
+    if text is None and region is not None:
+        text = region.internal_point
     if text == "best":
         return text
+    if text == "carried":
+        return {"platform": tuple((home.rotation.T @ (home.internal_point - home.position)).tolist())}
     upper = home.position + home.rotation @ geometry.platform_internal.mean(axis=0)
     own = own_fraction(upper, geometry.base_internal.mean(axis=0), home.internal_point)
     return tuple(home.internal_point.tolist()) if text == "held" or own is None else own
@@ -88,6 +100,8 @@ def asked_lines(
 def _rule_words(rule: Any, unit: str) -> str:
     if isinstance(rule, str):
         return "where the condition number is least, at each pose"
+    if isinstance(rule, Mapping):
+        return f"carried with the platform, at {_point(rule['platform'])} of its frame"
     if isinstance(rule, float):
         return f"at {rule:.4g} of the way from the lower to the upper internal joints"
     return f"stays at {amount(_point(rule), unit)}"
@@ -97,6 +111,10 @@ def _criterion_words(name: str, value: Any, unit: str) -> Iterator[str]:
     if name == "leg_limits":
         low, high = (np.broadcast_to(end, 9) for end in value)
         kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
+        if any(len(set(end[legs].tolist())) > 1 for end in (low, high) for legs in KINDS.values()):
+            ranges = (f"{leg} {a:.6g} to {b:.6g}" for leg, a, b in zip(LEG_NAMES, low, high, strict=True))
+            yield f"legs as the region needs them: {', '.join(ranges)}"
+            return
         for kind, legs in kinds.items():
             least, most = float(low[legs][0]), float(high[legs][0])
             if least > 0.0 or math.isfinite(most):

@@ -12,9 +12,12 @@ from rich.table import Table
 
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import INDICES, Index
+from ninedof.design.region import Region
+from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import with_unit
 from ninedof.workspace import IndexStatistics, WorkspaceMap
+from ninedof.workspace.region_share import RegionShare, outline
 
 SHOWN = 8  # limits in the table
 
@@ -91,18 +94,35 @@ def sentences(found: WorkspaceMap) -> Iterator[str]:
         yield f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
-def draw(found: WorkspaceMap, screen: Screen, directory: Path) -> list[Path]:
-    """Draw two sections through the centre of the largest ball, or else the worst pose; return the files."""
+def region_words(region: Region, found: RegionShare) -> str:
+    """Return a sentence on how much of a region keeps the limits."""
+    words = f"region of the study, {region.words}: {100.0 * found.share:.4g} % of it within these limits"
+    passed = f"; passed: {', '.join(name.replace('_', ' ') for name in found.passed)}" if found.passed else ""
+    return f"{words}, {found.looked_at} poses looked at{passed}"
+
+
+def draw(
+    found: WorkspaceMap, screen: Screen, region: tuple[Region, Configuration] | None, directory: Path
+) -> list[Path]:
+    """Draw two sections through the centre of the largest ball, or else the worst pose; return the files.
+
+    The region of a study, given with the home pose, is outlined; the sections go through its middle then.
+    """
     screen.say("drawing the workspace")
     from ninedof import plot
 
     middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
+    if region is not None:
+        middle = region[1].position
     sections = []
     for fixed in (1, 2):
         drawn = [k for k in range(3) if k != fixed]
+        plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
+        if region is not None:
+            sections.append(plot.Section(plane, region=outline(*region, fixed, float(middle[fixed]))))
+            continue
         ball = (middle[drawn], found.ball_radius) if found.ball_radius > 0.0 else None
         inner = (found.box_low[drawn], found.box_high[drawn]) if np.isfinite(found.box_low).all() else None
-        plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
         sections.append(plot.Section(plane, ball, inner))
     unit = "rad" if found.of_angles else found.unit
     figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)

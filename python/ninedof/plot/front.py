@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ class Sketch(NamedTuple):
 
 
 MOST_SKETCHES = 5
+MOST_LETTERS = 72  # of a line of the title
 MARKS = {"optimal": "o", "stopped": "D"}
 NONE = {"infeasible": ("X", "no design"), "unbounded": ("v", "unbounded"), "stopped": ("P", "nothing found")}
 
@@ -106,7 +108,7 @@ def _objective(axes: Any, rows: Sequence[Mapping[str, Any]], objective: str) -> 
         face = "white" if row["dominated"] else colour
         mark = MARKS.get(row["status"], "D")
         axes.plot(row["limit"], row["objective"], mark, ms=6.5, mfc=face, mec=colour, mew=1.3, zorder=4)
-    axes.set_title(f"{objective}: the least for each limit")
+    axes.set_title(fill(f"{objective}: the least for each limit", MOST_LETTERS))
     axes.set_ylabel(objective if len(objective) < 30 else "objective")
     if len(y):
         room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, Rectangle
 from numpy.typing import ArrayLike
 
@@ -46,6 +47,8 @@ class Section:
     """Centre and radius of the section of the ball, in the two coordinates drawn."""
     box: tuple[ArrayLike, ArrayLike] | None = None
     """Low and high corner in the two coordinates drawn."""
+    region: ArrayLike | None = None
+    """Outline of the region of a study, points (n, 2)."""
 
 
 def workspace(
@@ -163,6 +166,8 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
     if section.box is not None:
         low, high = (np.asarray(turn(corner), dtype=np.float64) for corner in section.box)
         axes.add_patch(Rectangle(tuple(low), *(high - low), **line, ls=(0, (4, 2))))
+    if section.region is not None:
+        axes.plot(*np.asarray(section.region, dtype=np.float64).T, color=style.INK, lw=1.6)
     axes.grid(visible=False)
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
     axes.set_title(f"{s.plane[0]} = {amount(f'{s.plane[1]:.4g}', unit)}")
@@ -179,6 +184,8 @@ def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[f
 def _legend(figure: Figure, sections: Sequence[Section], kinds: Sequence[str]) -> None:
     there = {kinds[n] for s in sections for n in np.unique(s.plane.limit[s.plane.state == 1]).tolist() if n >= 0}
     entries: list[Any] = [Patch(color=colour, label=words) for kind, (words, colour) in KINDS.items() if kind in there]
+    if any(section.region is not None for section in sections):
+        entries.append(Line2D([], [], color=style.INK, lw=1.6, label="region of the study"))
     if entries:
         figure.legend(
             handles=entries,

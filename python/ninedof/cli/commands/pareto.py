@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
+from ninedof.cli.chosen_design import named_design
 from ninedof.cli.long_run import CHUNKS, run_folder
-from ninedof.cli.options import Figures, Json, Out, Resume, Starts, StudyFile, Threads
+from ninedof.cli.options import Figures, Json, Out, Resume, Starts, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
+from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.limited import with_degrees
@@ -36,18 +39,23 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof pareto study.toml --against base_cone_deg --value 30 --value 35
 
+  ninedof pareto runs/20260101-120000 --points 7   the study of a run, against the limit of greatest price
+
   ninedof pareto study.toml --against leg_ratio --out front     --resume after an interruption"""
 
 
 def pareto(
-    study: StudyFile = None,
+    study: Annotated[
+        Path | None,
+        typer.Argument(help="A study file (TOML), or a run folder: its study. The paper's study if none is given."),
+    ] = None,
     against: Annotated[
-        str,
+        str | None,
         typer.Option(
             help='The limit that is swept: a constraint ("leg_ratio", "leg_ratio at neutral", "base_cone_deg"), or '
-            "condition_limit."
+            "condition_limit. By default radius_ratio, of a run the limit of greatest price."
         ),
-    ] = "radius_ratio",
+    ] = None,
     value: Annotated[
         list[float] | None,
         typer.Option(
@@ -65,7 +73,10 @@ def pareto(
     """Compute the least condition number for each value of a limit."""
     screen = Screen(json)
     thread_argument(threads)
-    chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts)
+    asked, run = _asked(study)
+    chosen = asked.with_solver(starts)
+    if against is None:
+        against = "radius_ratio" if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if study is None else study.name
     with run_folder(out, resume) as directory, screen.limits(f"{name}, {against}") as bar:
@@ -90,6 +101,28 @@ def pareto(
 
 def _count(front: Front) -> str:
     return "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
+
+
+def _asked(study: Path | None) -> tuple[Study, Result | None]:
+    """Return the study of a file, or that of a run with its result; that of the paper without either."""
+    if study is None:
+        return Study.paper(), None
+    if not study.is_dir() and study.suffix != ".json":
+        return Study.load(study), None
+    run = named_design(str(study)).result
+    assert run is not None  # a run folder
+    return run.study, run
+
+
+def _dearest(run: Result) -> str:
+    """Return the limit of a run whose relaxation buys most."""
+    prices = run.prices or {}
+    names = [name for name in prices if split_label(name)[0] in names_with_max() or name == "condition_limit"]
+    if not names:
+        raise ValueError(
+            "--against: got none, expected the limit to sweep: no limit with a max has a price in this run"
+        )
+    return max(names, key=lambda name: prices[name])
 
 
 def front_table(front: Front) -> Table:

@@ -13,10 +13,11 @@ import typer
 from ninedof.cli.chosen_design import named_design, with_length
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
-from ninedof.cli.workspace_limits import asked_lines, criteria_asked, rule_asked
-from ninedof.cli.workspace_summary import draw, sentences, workspace_table
+from ninedof.cli.workspace_limits import asked_lines, compare_poses, criteria_asked, rule_asked
+from ninedof.cli.workspace_summary import draw, region_words, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.indices import computed
+from ninedof.design.region_stack import places_o
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
@@ -24,6 +25,7 @@ from ninedof.runs.folder import write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import workspace as find_workspace
+from ninedof.workspace.region_share import box_about, leg_ranges_over, region_share
 
 Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
@@ -91,7 +93,8 @@ def workspace(
     internal_point: Annotated[
         str | None,
         typer.Option(
-            help="Position of O: best, held (as at home), or a fraction between the plates; by default the design's."
+            help="Position of O: best, held (as at home), carried with the platform, or a fraction between the plates; "
+            "by default as in the region of the run's study, else the design's."
         ),
     ] = None,
     lc: Lc = None,
@@ -111,7 +114,7 @@ def workspace(
     """Compute the workspace of a robot: its volume, its boundary and what limits it.
 
     A run brings the limits of its study that a single pose can meet; each option replaces its own. O keeps its place
-    between the plates.
+    between the plates. Of a region study, the box is about the region, which is outlined, and O follows its rule.
     """
     screen = Screen(json)
     thread_argument(threads)
@@ -129,9 +132,12 @@ def workspace(
         "leg_clearance": clearance,
         "singularity_free": singularity_free,
     }
-    study = given.study if study_limits else None
+    study = given.study
     home = given.configuration
-    criteria, own, left = criteria_asked(study, float(home.position[2]), options)
+    region_asked = None if study is None else study.objective.region
+    criteria, own, left = criteria_asked(study if study_limits else None, float(home.position[2]), options)
+    if region_asked is not None and study_limits and places_o(region_asked) and compare_poses(left, criteria):
+        criteria = {"leg_limits": leg_ranges_over(region_asked, given.geometry, home)} | criteria
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if method == "grid":
@@ -151,7 +157,7 @@ def workspace(
         "characteristic_length": float(length),
         "region": _given(region) or None,
         "orientations": orientations,
-        "internal_point": rule_asked(internal_point, given.geometry, home),
+        "internal_point": rule_asked(internal_point, given.geometry, home, region_asked),
         "method": method,
         "tolerance": tolerance,
         "resolution": resolution,
@@ -160,7 +166,8 @@ def workspace(
         "index": index or None,
         "unit": given.unit or None,
     }
-    asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position)
+    about = None if region_asked is None else box_about(region_asked, home)
+    asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position, about)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
     for line in asked_lines(asked, home, own, left, given.unit):
@@ -168,12 +175,18 @@ def workspace(
     screen.print(workspace_table(found))
     for sentence in sentences(found):
         screen.print(sentence)
+    share = None
+    if region_asked is not None and places_o(region_asked):
+        share = region_share(region_asked, given.geometry, home, criteria, float(length))
+        screen.print(region_words(region_asked, share))
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
-    record = write_run(found, directory, partial(draw, found, screen) if drawn else None, question)
+    outlined = None if region_asked is None or archetype == "orientation" else (region_asked, home)
+    record = write_run(found, directory, partial(draw, found, screen, outlined) if drawn else None, question)
     figure = ", figure workspace (PNG and SVG)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, map.npz{figure}")
-    screen.data({"workspace": found.to_dict(), "record": str(record)})
+    data = {"workspace": found.to_dict(), "record": str(record)}
+    screen.data(data | ({} if share is None else {"region": share._asdict()}))
     if found.interrupted:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
@@ -188,9 +201,13 @@ def _radians(name: str, degrees: float | None) -> float | None:
 
 
 def _place(
-    home: Configuration, archetype: str, box: Mapping[str, Any], position: tuple[float, float, float] | None
+    home: Configuration,
+    archetype: str,
+    box: Mapping[str, Any],
+    position: tuple[float, float, float] | None,
+    about: tuple[Any, Any] | None,
 ) -> dict[str, Any]:
-    """Return the box, or the fixed position and rotation, of an archetype."""
+    """Return the box, by default that about a region, or the fixed position and rotation, of an archetype."""
     if archetype == "orientation":
         if _given(box):
             raise ValueError("workspace: got a box, expected none for orientations at one position")
@@ -198,8 +215,7 @@ def _place(
     if position is not None:
         raise ValueError(f"--position: got {position}, expected none but for --archetype orientation")
     reach = max(float(np.linalg.norm(home.position)), 1e-300)
-    around = [
-        (at - reach, at + reach) if box[k] is None else box[k] for k, at in zip("xyz", home.position, strict=True)
-    ]
+    low, high = (home.position - reach, home.position + reach) if about is None else about
+    around = [(low[k], high[k]) if box[name] is None else box[name] for k, name in enumerate("xyz")]
     rotation = {"rotation": home.rotation} if archetype == "constant_orientation" else {}
     return rotation | {"box": tuple(zip(*around, strict=True))}

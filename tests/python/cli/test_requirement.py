@@ -1,0 +1,94 @@
+"""From a requirement to a machine in five commands, as docs/requirement.md has them, for a smaller machine."""
+
+import json
+import shlex
+
+import pytest
+
+from ninedof.cli.app import main
+
+MACHINE = """
+[design]
+family = "hexagonal"
+characteristic_length = 150.0
+[variables]
+a1 = 0.0
+a2 = 850.0
+b1 = [200.0, 350.0]
+b2 = 0.0
+zp = [400.0, 560.0]
+zs = 320.0
+theta_z = 0.0
+[constraints]
+stroke_ratio = { max = 1.22 }
+base_cone = { max_deg = 45.0 }
+leg_clearance = { min = 20.0 }
+[objective.region]
+box = [40.0, 40.0, 20.0]
+tilt_deg = 5.0
+[solver]
+starts = 1
+"""
+COMMANDS = (
+    "optimize machine.toml --out machine",
+    "sheet machine --mass 5",
+    "path machine --circle 40",
+    "workspace machine --tolerance 0.02 --resolution 8",
+    "pareto machine --value 1.225",
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("fresh")
+
+
+def test_five_commands(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    monkeypatch.setenv("COLUMNS", "120")
+    (folder / "machine.toml").write_text(MACHINE)
+    printed, data = [], []
+    for line in COMMANDS:
+        figures = [] if line.startswith(("sheet", "optimize")) else ["--out", line.split()[0]]
+        quick = ["--no-figures"] if line.startswith(("optimize", "pareto")) else []
+        with pytest.raises(SystemExit) as end:
+            main([*shlex.split(line), *figures, *quick, "--json"])
+        captured = capsys.readouterr()
+        assert end.value.code == 0, (line, captured.err)
+        printed.append(" ".join(captured.err.split()))
+        data.append(json.loads(captured.out))
+    optimum, sheet, path, reach, front = data
+    best = optimum["optimization"]["candidates"][0]
+    # the sheet agrees with the run
+    assert sheet["condition_number"]["value"] == pytest.approx(best["objective"], rel=1e-8)
+    assert sheet["region"]["looked_at"] > 20_000
+    assert min(row["margin"] for row in sheet["limits"]) > -1e-6
+    assert "Poses looked at:" in printed[1]
+    # a path in the region breaks nothing, and its lengths are within those of the sheet
+    assert path["motion"]["breaks"] == []
+    for leg in sheet["legs"]:
+        along = path["motion"]["legs"][leg["leg"]]
+        assert leg["shortest"] * (1.0 - 1e-9) <= along["shortest"]
+        assert along["longest"] <= leg["longest"] * (1.0 + 1e-9)
+    # the workspace holds the region
+    assert reach["region"]["share"] == 1.0
+    assert reach["region"]["passed"] == []
+    assert "100 % of it within these limits" in printed[3]
+    assert "legs as the region needs them: l1 " in printed[3]
+    assert reach["workspace"]["volume"] > 80.0 * 80.0 * 40.0
+    # the front is against the limit that is reached, and a looser limit is better
+    assert front["front"]["against"] == "stroke_ratio"
+    assert front["front"]["rows"][0]["objective"] < best["objective"]
+    assert (folder / "path" / "motion.png").exists()
+    assert (folder / "workspace" / "workspace.png").exists()
+
+
+def test_a_run_without_a_limit_of_price_needs_against(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    loose = MACHINE.replace("max = 1.22", "max = 2.0")
+    (folder / "loose.toml").write_text(loose)
+    for line, status in (("optimize loose.toml --no-figures --out loose", 0), ("pareto loose --out front", 2)):
+        with pytest.raises(SystemExit) as end:
+            main(shlex.split(line))
+        assert end.value.code == status
+    assert "--against: got none" in capsys.readouterr().err
