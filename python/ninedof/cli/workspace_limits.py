@@ -57,8 +57,13 @@ def compare_poses(left: Sequence[str], criteria: Mapping[str, Any]) -> bool:
     return "leg_limits" not in criteria and any(name in SPREADS for name in left)
 
 
-def rule_asked(text: str | None, geometry: Geometry, home: Configuration, region: Region | None) -> Any:
-    """Return the rule for O: that of the option, of the region of a study, or where the design has O."""
+def rule_asked(
+    text: str | None, geometry: Geometry, home: Configuration, region: Region | None, position: Any = None
+) -> Any:
+    """Return the rule for O: that of the option, of the region of a study, or where the design has O.
+
+    `position` is the one position of a set of orientations, where a region that carries O leaves it at rest.
+    """
     if text is not None and text not in ("best", "held", "carried"):
         try:
             return float(text)
@@ -66,6 +71,8 @@ def rule_asked(text: str | None, geometry: Geometry, home: Configuration, region
             raise ValueError(f"--internal-point: got {text!r}, expected best, held, carried or a fraction") from None
     if text is None and region is not None:
         text = region.internal_point
+        if text == "carried" and position is not None:
+            return tuple((np.asarray(position) + home.internal_point - home.position).tolist())
     if text == "best":
         return text
     if text == "carried":

@@ -43,6 +43,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("fresh")
 
 
+@pytest.mark.slow
 def test_five_commands(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     monkeypatch.setenv("COLUMNS", "120")
@@ -92,3 +93,22 @@ def test_a_run_without_a_limit_of_price_needs_against(folder, monkeypatch, capsy
             main(shlex.split(line))
         assert end.value.code == status
     assert "--against: got none" in capsys.readouterr().err
+
+
+def test_o_in_the_workspace_of_a_region(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    if not (folder / "machine").exists():
+        (folder / "machine.toml").write_text(MACHINE)
+        with pytest.raises(SystemExit):
+            main(shlex.split("optimize machine.toml --no-figures --out machine"))
+    quick = "--no-figures --resolution 4 --tolerance 0.2"
+    for line, words in (
+        (f"workspace machine {quick}", "O: carried with the platform, at (0, 0, "),
+        (f"workspace machine --archetype orientation --angle-deg 20 {quick}", "O: stays at (0, 0, "),
+        (f"workspace machine --internal-point stay {quick}", "O: stays at (0, 0, "),
+        (f"workspace machine --legs 100 900 {quick}", "limit: all legs 100 to 900"),
+    ):
+        capsys.readouterr()
+        with pytest.raises(SystemExit):
+            main(shlex.split(line))
+        assert words in " ".join(capsys.readouterr().out.split())

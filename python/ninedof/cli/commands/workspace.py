@@ -151,13 +151,14 @@ def workspace(
     length = given.characteristic_length
     if isinstance(length, str):
         length = float(characteristic_length(given.geometry, given.configuration, length))
+    fixed_position = None if archetype != "orientation" else home.position if position is None else position
     others = {
         "archetype": archetype,
         "criteria": criteria,
         "characteristic_length": float(length),
         "region": _given(region) or None,
         "orientations": orientations,
-        "internal_point": rule_asked(internal_point, given.geometry, home, region_asked),
+        "internal_point": rule_asked(internal_point, given.geometry, home, region_asked, fixed_position),
         "method": method,
         "tolerance": tolerance,
         "resolution": resolution,
