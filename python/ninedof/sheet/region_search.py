@@ -15,7 +15,8 @@ from ninedof.support.arrays import Floats
 Numbers = Callable[[Configuration], Floats]
 """From a stack of n poses to shape (n, k), the worse the lower; NaN, where a pose has no number, is never least."""
 
-SUBSETS = 4  # of the sample: a descent begins from the worst of each
+STARTS = 5  # descents for each number: from the worst of as many parts of the region, those with the worst first
+HALVED = (0, 1, 2, 5, 3, 4)  # coordinates that part the region, the first four that are free
 FIRST_STEP, LAST_STEP = 0.2, 1e-6  # of a descent, in parts of the region
 # A step must lower a number by this part of it times the square of the step: long steps that only graze a round
 # boundary are not worth while.
@@ -39,20 +40,32 @@ def extreme_poses(region: Region, neutral: Configuration, at: Floats, groups: Se
 
     """
     near, c = configurations_at(region, neutral, at)
-    found, looked_at = [], len(near)
+    found, looked_at, parts = [], len(near), _parts(region, near)
     for group in groups:
         values = _numbers(group, c)
-        starts = [k + SUBSETS * np.argmin(values[k::SUBSETS], axis=0) for k in range(SUBSETS)]  # (subsets, numbers)
-        which = np.tile(np.arange(values.shape[1]), SUBSETS)
-        rows = np.concatenate(starts)
+        numbers = np.arange(values.shape[1])
+        worst = np.stack([part[np.argmin(values[part], axis=0)] for part in parts])  # (parts, numbers)
+        order = np.argsort(values[worst, numbers], axis=0, kind="stable")[:STARTS]
+        rows = np.take_along_axis(worst, order, axis=0).reshape(-1)
+        which = np.tile(numbers, len(order))
         ends, least, count = _descend(region, neutral, group, near[rows], which, values[rows, which])
-        best = np.argmin(least.reshape(SUBSETS, -1), axis=0)
-        found.append(ends.reshape(SUBSETS, -1, 6)[best, np.arange(values.shape[1])])
+        best = np.argmin(least.reshape(len(order), -1), axis=0)
+        found.append(ends.reshape(len(order), -1, 6)[best, numbers])
         looked_at += count
     every = np.concatenate(found)
     cells = np.round(every / (SAME * np.maximum(region.reach, 1e-300)))
     _, first = np.unique(cells, axis=0, return_index=True)
     return every[np.sort(first)], looked_at
+
+
+def _parts(region: Region, at: Floats) -> list[NDArray[np.intp]]:
+    """Return the rows of a sample in each part of the region that has some: by the signs of up to four coordinates."""
+    reach = region.reach
+    free = [k for k in HALVED if reach[k] > 0.0][:4]
+    code = (at[:, free] > 0.0) @ (1 << np.arange(len(free)))
+    if region.path is not None:
+        code = 4 * code + np.clip((2.0 * (1.0 + at[:, 0])).astype(int), 0, 3)
+    return [np.flatnonzero(code == k) for k in np.unique(code)]
 
 
 def _descend(
