@@ -45,7 +45,7 @@ def boxed():
     return nd.sheet(result(REGIONS[0]))
 
 
-@pytest.mark.parametrize("region", size(REGIONS[1:3], REGIONS))
+@pytest.mark.parametrize("region", size(REGIONS[1:2], REGIONS))
 def test_no_random_pose_is_worse(region):
     design = result(region)
     found = nd.sheet(design, linear_speed=2.0, loads=[0.1, 0.2, 0.3, 1.0, 2.0, -3.0], samples=2000)
