@@ -185,11 +185,13 @@ Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd
     std::ranges::copy_if(order, std::back_inserter(likely), touched);
     if (likely.empty() || search.possible(search.of(likely))) likely = order;
     Indices conflict;
-    for (int k = 0; k < attempts && !search.stopped(); ++k) {
+    bool confirmed = false;
+    for (int k = 0; k < attempts && !confirmed && !search.stopped(); ++k) {
       conflict = search.smallest({}, false, likely);
-      if (!search.possible(search.of(conflict), thorough)) break;
-      likely = order;  // the design that satisfies them is known from now on
+      confirmed = !search.possible(search.of(conflict), thorough);
+      likely = order;  // a design that satisfies them is known from now on
     }
+    if (!confirmed) conflict = order;  // of all of them it remains true
     for (const std::size_t d : conflict)
       if (std::ranges::find(out.causes, demands[d].name) == out.causes.end()) out.causes.push_back(demands[d].name);
     if (!search.stopped()) out.reason = sentence(search, conflict, !problem.objective.poses.empty());
