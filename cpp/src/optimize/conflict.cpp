@@ -9,8 +9,8 @@
 namespace ninedof {
 namespace {
 
-/// Starts of a question whether a design satisfies some demands, besides designs already known: within the bounds of the
-/// study, and as many far beyond. So many times as many where a conflict is confirmed.
+/// Starts of a question whether a design satisfies some demands, besides designs already known: within the bounds of
+/// the study, and as many far beyond. So many times as many where a conflict is confirmed.
 constexpr int most_starts = 4, thorough = 4;
 /// Of the designs already known, so many; and so many starts at once, until one satisfies the demands.
 constexpr std::size_t most_known = 4, at_once = 4;

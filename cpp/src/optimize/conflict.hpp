@@ -12,9 +12,9 @@ struct Conflict {
   long evaluations = 0;
 };
 
-/// Limits and bounds of `problem` that no design found satisfies together, while for each of them there is a design that
-/// satisfies all the others named; and how far each would have to give. `ends` are designs of a search that failed.
-/// On a stop, nothing.
+/// Limits and bounds of `problem` that no design found satisfies together, while for each of them there is a design
+/// that satisfies all the others named; and how far each would have to give. `ends` are designs of a search that
+/// failed. On a stop, nothing.
 Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd>& ends, const Settings& settings,
                        const Control& control);
 

@@ -63,8 +63,9 @@ Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   return out.cwiseMax(1e-300).cwiseMin(1e300).array().log();
 }
 
-/// Distances of all points of the neutral robot from each other, in mean leg lengths, sorted by what they join: the same
-/// for robots that differ by a rotation, a reflection or a numbering of the joints. External joints keep their partners.
+/// Distances of all points of the neutral robot from each other, in mean leg lengths, sorted by what they join: the
+/// same for robots that differ by a rotation, a reflection or a numbering of the joints. External joints keep their
+/// partners.
 Eigen::VectorXd shape(const PreparedProblem& p, const Candidate& c) {
   DesignEvaluation design;
   evaluate_design(p, p.coordinates.coordinates(c.variables), design);

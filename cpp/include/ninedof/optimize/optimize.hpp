@@ -33,9 +33,9 @@ struct Settings {
   void validate() const;
 };
 
-/// Multi-start minimax optimization; `control.progress` gets runs done, runs in all, and the best objective so far.
-/// A start is one run, or two where it is run to its end after a short run; runs in all grow where another batch follows. Same problem and settings give the same bits for any number of
-/// threads.
+/// Multi-start minimax optimization; `control.progress` gets runs done, runs in all, and the best objective so far. A
+/// start is one run, or two where it is run to its end after a short run; runs in all grow where another batch follows.
+/// Same problem and settings give the same bits for any number of threads.
 Result optimize(const Problem& problem, const Settings& settings = {}, const Control& control = {});
 
 /// The starts that `optimize` would use, one per column.

@@ -12,8 +12,8 @@ namespace {
 /// Variables without their bounds may be so many times as large as any bound of the study.
 constexpr double reach = 1000.0;
 
-/// All rows are given to SLSQP where there are no more; otherwise those this near at first, those nearer than the second
-/// once one that was left out is violated, so many times at most.
+/// All rows are given to SLSQP where there are no more; otherwise those this near at first, those nearer than the
+/// second once one that was left out is violated, so many times at most.
 constexpr std::size_t rows_at_once = 150;
 constexpr double near_at_first = 0.2, near_later = 0.05, counts_as_violated = 1e-9;
 constexpr int most_selections = 8;
