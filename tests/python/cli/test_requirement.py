@@ -105,7 +105,7 @@ def test_o_in_the_workspace_of_a_region(folder, monkeypatch, capsys):
     for line, words in (
         (f"workspace machine {quick}", "O: carried with the platform, at (0, 0, "),
         (f"workspace machine --archetype orientation --angle-deg 20 {quick}", "O: stays at (0, 0, "),
-        (f"workspace machine --internal-point stay {quick}", "O: stays at (0, 0, "),
+        (f"workspace machine --internal-point held {quick}", "O: stays at (0, 0, "),
         (f"workspace machine --legs 100 900 {quick}", "limit: all legs 100 to 900"),
     ):
         capsys.readouterr()

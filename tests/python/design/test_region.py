@@ -80,7 +80,7 @@ def test_bad_entries(entry, words):
 
 
 def test_what_a_region_excludes():
-    with pytest.raises(ValueError, match=r"objective\.aggregate: got \"mean_inverse\", expected \"worst\""):
-        nd.Objective(region=REGIONS["box"], aggregate="mean_inverse")
+    with pytest.raises(ValueError, match=r"objective\.poses: got poses beside a mean over a region"):
+        nd.Objective(region=REGIONS["box"], aggregate="mean_inverse", poses=[nd.Pose()])
     with pytest.raises(ValueError, match=r"objective\.region: got a region, expected none"):
         nd.Objective(region=REGIONS["box"], index="six_legged")
