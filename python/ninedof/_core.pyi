@@ -226,6 +226,26 @@ def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
 def search_region(
     problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
+def search_region_placed(
+    problem: Problem,
+    region: dict[str, Any],
+    variables: Sequence[float],
+    log_index: float,
+    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    known: Sequence[tuple[Sequence[float], Sequence[float]]],
+    samples: int,
+    seed: int,
+    threads: int,
+    /,
+) -> dict[str, Any]: ...
+def optimize_placed(
+    problem: Problem,
+    given: Sequence[tuple[Sequence[float], Sequence[Sequence[float]]]],
+    starts: int,
+    seed: int,
+    threads: int,
+    /,
+) -> list[tuple[list[float], list[_Triple], float, float]]: ...
 def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> dict[str, Any]: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> tuple[list[float], dict[str, Any]]: ...
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "ninedof/optimize/region_search.hpp"
+#include "ninedof/optimize/region_placement.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
@@ -128,6 +128,65 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
+/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its limit).
+/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
+py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
+                            double log_index, const py::sequence& ranges, const py::sequence& known, long samples,
+                            std::uint64_t seed, int threads) {
+  const Region r = region_from(region);
+  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+  PlacementGoal goal{log_index, {}};
+  for (const py::handle& range : ranges) {
+    const auto [limit, low, high, size] =
+        range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
+    Vec9 a = Vec9::Map(low.data()), b = Vec9::Map(high.data());
+    for (Vec9* end : {&a, &b}) *end = size > 0.0 ? Vec9(*end / size) : Vec9(end->array().log());
+    goal.ranges.push_back({limit, a, b, size});
+  }
+  std::vector<Placed> places;
+  for (const py::handle& place : known) {
+    const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
+    places.push_back({Vec6::Map(at.data()), Vec3::Map(shift.data())});
+  }
+  const PlacedWorst found = interruptible(py::none(), [&](const Control& control) {
+    return search_region_placed(problem, r, variables, goal, places, {samples, seed, threads}, control);
+  });
+  py::list ends;
+  for (const PlacedEnd& end : found.ends) {
+    const Vec3& s = end.placed.shift;
+    ends.append(py::make_tuple(numbers(end.placed.at), py::make_tuple(s[0], s[1], s[2]), end.excess, end.log_index,
+                               end.margin, end.limit));
+  }
+  py::dict out;
+  out["ends"] = ends;
+  out["at_known"] = found.at_known;
+  out["poses"] = found.poses;
+  return out;
+}
+
+using PlacedEntry = std::tuple<std::vector<double>, std::vector<std::array<double, 3>>>;
+
+/// For each design (variables without poses, shifts of s in zp at each pose, logarithm of the index, violation).
+py::list placed_optima(const Problem& problem, const std::vector<PlacedEntry>& given, int starts, std::uint64_t seed,
+                       int threads) {
+  std::vector<PlacedDesign> designs;
+  for (const auto& [x, shifts] : given) {
+    designs.push_back({Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())), {}});
+    for (const auto& shift : shifts) designs.back().shifts.push_back(Vec3::Map(shift.data()));
+  }
+  const std::vector<PlacedDesign> found = interruptible(py::none(), [&](const Control& control) {
+    return optimize_placed(problem, designs, {starts, seed, threads}, control);
+  });
+  py::list out;
+  for (const PlacedDesign& design : found) {
+    py::list places;
+    for (const Vec3& s : design.shifts) places.append(py::make_tuple(s[0], s[1], s[2]));
+    out.append(py::make_tuple(std::vector<double>(design.variables.begin(), design.variables.end()), places,
+                              design.log_objective, design.violation));
+  }
+  return out;
+}
+
 }  // namespace
 
 void bind_optimize(py::module_& m) {
@@ -153,6 +212,8 @@ void bind_optimize(py::module_& m) {
   m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
+  m.def("search_region_placed", &worst_with_placing);
+  m.def("optimize_placed", &placed_optima);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },

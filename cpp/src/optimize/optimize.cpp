@@ -32,7 +32,8 @@ Result interrupted(Result result) {
 }  // namespace
 
 void Settings::validate() const {
-  if (starts < 1) throw InvalidArgument("starts", std::to_string(starts), "at least 1");
+  const int least = warm.empty() ? 1 : 0;
+  if (starts < least) throw InvalidArgument("starts", std::to_string(starts), "at least " + std::to_string(least));
   if (max_evaluations < 1) throw InvalidArgument("max_evaluations", std::to_string(max_evaluations), "at least 1");
 }
 

@@ -1,22 +1,19 @@
 #include "ninedof/optimize/region_search.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "math/numbers.hpp"
-#include "math/splitmix.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
+#include "optimize/region_sample.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr long block = 2048;         // of samples
 constexpr std::size_t subsets = 6;           // of the samples: a descent begins from the worst of each
-constexpr double outward = 1.25;     // samples are drawn from a region larger by this and moved to the nearest pose
 constexpr double small = 0.1;       // margin from which a descent is not worth while
 constexpr double first_step = 0.2, last_step = 1e-5;  // of a descent, in parts of the region
 constexpr double worthwhile = 1e-10;  // decrease of a descent's step
@@ -60,19 +57,6 @@ class OnePose {
   RowSelection none_;  // no derivatives
 };
 
-/// Point n of a low-discrepancy sequence of the cube from -1 to 1 (Kronecker, of the root of x^7 = x + 1).
-Vec6 sequence_point(long n, std::uint64_t seed) {
-  constexpr double root = 1.1127756842787055;
-  Vec6 out;
-  double step = 1.0;
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    step /= root;
-    const double x = uniform_from(stream(seed, static_cast<std::uint64_t>(k))) + static_cast<double>(n + 1) * step;
-    out[k] = 2.0 * (x - std::floor(x)) - 1.0;
-  }
-  return out;
-}
-
 /// The least values met, and where.
 struct Least {
   explicit Least(Eigen::Index size)
@@ -86,26 +70,6 @@ struct Least {
   std::vector<Vec6> at;
 };
 
-/// Coordinates after move number `move`, by `step` parts of the region: along a coordinate, or, since balls, cylinders
-/// and tilts have round boundaries, around an axis: the tilt vector about z, positions about x, y and z.
-constexpr int moves = 10;
-Vec6 moved(const Region& region, Vec6 at, int move, double step) {
-  if (move < 6) {
-    at[move] += step * region.reach()[move];
-    return at;
-  }
-  const double angle = step * std::numbers::pi;
-  const auto turn = [&](Eigen::Index a, Eigen::Index b) {
-    const Eigen::Vector2d v = Eigen::Rotation2Dd(angle) * Eigen::Vector2d(at[a], at[b]);
-    at[a] = v[0];
-    at[b] = v[1];
-  };
-  if (move == 6) turn(3, 4);
-  else if (region.shape == Region::Shape::ball) turn(move == 7 ? 1 : 0, move == 9 ? 1 : 2);
-  else if (region.shape == Region::Shape::cylinder && move == 9) turn(0, 1);
-  return at;
-}
-
 /// Lowers one number by moves both ways; a step is doubled where it helps and halved where none does.
 long descend(OnePose& design, const Region& region, Eigen::Index k, double& value, Vec6& at) {
   Eigen::VectorXd all;
@@ -114,10 +78,10 @@ long descend(OnePose& design, const Region& region, Eigen::Index k, double& valu
     bool lower = true;
     while (lower && count < most_evaluations) {
       lower = false;
-      for (int move = 0; move < moves; ++move)
+      for (int move = 0; move < region_moves; ++move)
         for (const double side : {1.0, -1.0})
           for (double length = step; length < 2.0; length *= 2.0) {
-            const Vec6 next = region.nearest(moved(region, at, move, side * length));
+            const Vec6 next = region.nearest(region_moved(region, at, move, side * length));
             if ((next - at).isZero(0.0)) break;
             design.evaluate(region.pose(next), all);
             ++count;
@@ -141,7 +105,6 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
   if (settings.samples < 1) throw InvalidArgument("samples", std::to_string(settings.samples), "one or more");
   const OnePose shape(problem, variables);
   const Eigen::Index size = shape.size();
-  const Vec6 drawn = outward * region.reach();
   const long blocks = (settings.samples + block - 1) / block;
 
   std::vector<std::vector<Least>> of_block(at_index(blocks));
@@ -151,9 +114,7 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
     std::vector<Least> least(subsets, Least(size));
     Eigen::VectorXd all;
     for (long n = first * block; n < std::min(settings.samples, (first + 1) * block); ++n) {
-      // The neutral pose comes first.
-      const Vec6 at =
-          n == 0 ? Vec6(Vec6::Zero()) : region.nearest(drawn.cwiseProduct(sequence_point(n, settings.seed)));
+      const Vec6 at = region_sample(region, n, settings.seed);
       design.evaluate(region.pose(at), all);
       for (Eigen::Index k = 0; k < size; ++k) least[at_index(n) % subsets].take(k, all[k], at);
     }
