@@ -17,6 +17,7 @@ from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.perturbation import SCALES, perturb
+from ninedof.verify.placing import worst_placed
 from ninedof.verify.region import mean_at_random, worst_at_random
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import Limit, limits_of, margins
@@ -29,6 +30,7 @@ BETTER = 1e-8  # relative: a smaller improvement is rounding or the tolerance of
 BETWEEN = 1e-6  # by which a limit may be passed between the poses that ruled
 IN_REGION = 4000
 ERRORS = 5.0  # standard errors of a mean at random poses
+PLACED = 1000  # the same where O is placed at every pose, by a search of its own
 BOUND = 1e-7  # close to 1 a condition number has half the digits only
 
 
@@ -171,16 +173,25 @@ def _findings(result: Result, count: int, seed: int) -> Iterator[Finding]:
 def _region(result: Result, seed: int) -> Finding:
     """Test limits and index at random poses of the region."""
     best: Any = result.best
-    index, margin = worst_at_random(result.study, best.variables, IN_REGION, seed)
-    sentence = f"at {IN_REGION} random poses the index is at most {index:.9g}, the least margin {margin:.1e}"
+    study: Any = result.study
+    if study.objective.region.internal_point == "best":
+        count, where = PLACED, "random poses, O being placed at each,"
+        report: Any = result.region
+        index, margin = worst_placed(study, best, report, count, seed)
+    else:
+        count, where = IN_REGION, "random poses"
+        index, margin = worst_at_random(study, best.variables, count, seed)
+    sentence = f"at {count} {where} the index is at most {index:.9g}, the least margin {margin:.1e}"
     above = -math.inf
-    if result.study.objective.aggregate != "mean_inverse":
+    if study.objective.aggregate == "worst":
+        above = index / best.objective - 1.0
+    elif study.objective.aggregate == "weighted":
         space = DesignSpace(result.solved, best.variables)
         above = index / float(ObjectiveRule.of(result.solved).values(space.robot(space.x)).max()) - 1.0
     passed = above <= BETWEEN and margin >= -BETWEEN
     average = result.region.mean if result.region is not None else None
     if average is not None:
-        mean, error = mean_at_random(result.study, best.variables, IN_REGION, seed + 1)
+        mean, error = mean_at_random(study, best.variables, count, seed + 1)
         passed &= abs(mean - average.quadrature) <= average.error + ERRORS * error
         sentence += f", the harmonic mean of as many others {mean:.6g}"
     return Finding("region", passed, max(above, -margin), sentence)
