@@ -97,6 +97,8 @@ class Objective:
         if self.region is not None:
             if objectives()[self.index].function is None:
                 raise ValueError(f"objective.region: got a region, expected none: {self.index} is for the neutral pose")
+            if self.aggregate != "worst" and self.region.internal_point == "best":
+                raise ValueError(f'objective.aggregate: got "{self.aggregate}", expected "worst" where O is best')
             if self.aggregate != "worst" and any(pose.weight > 0.0 for pose in self.poses):
                 raise ValueError("objective.poses: got poses beside a mean over a region, expected weight = 0 for them")
 

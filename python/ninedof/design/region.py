@@ -13,7 +13,7 @@ from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
-INTERNAL_POINTS = ("carried", "held")
+INTERNAL_POINTS = ("carried", "held", "best")
 
 
 @short_repr
@@ -36,9 +36,12 @@ class Region:
         Shifts of p at the corners of a path, straight between them.
     tilt, yaw : float
         Greatest angle of a tilt about any horizontal axis, and of a yaw in both directions; radians, 0 by default.
-    internal_point : {"carried", "held"}
+    internal_point : {"carried", "held", "best"}
         "carried", the default: s - p stays as at the neutral pose, in base axes; without turns q1, q2, q3 do not move.
-        "held": s stays, and r1, r2, r3 never move.
+        "held": s stays, and r1, r2, r3 never move. "best": O is placed anew at every pose, where the worst of the
+        index and of all limits is least: between the plates, at most zp from its neutral position along each axis.
+        Limits on strokes give each leg a range of lengths, the same at every pose. The index is at most that of
+        "carried"; the solution takes ten times as long.
     unit : {"length", "zp"}
         Scale of positions: the length unit of the study (default), or the height zp of the design. The name of the
         length unit is the `unit` of the study.
@@ -131,6 +134,8 @@ class Region:
         elif self.path is not None:
             where = f"a path of {len(self.path)} corners"
         turns = [("tilts", self.tilt), ("yaws", self.yaw)]
+        if self.internal_point == "best":
+            where += " with O placed at every pose"
         said = [f"{name} of at most {math.degrees(angle):.6g} degrees" for name, angle in turns if angle > 0.0]
         return ", ".join([where, *said])
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.pose import Pose
-from ninedof.design.region import INTERNAL_POINTS, Region
+from ninedof.design.region import Region
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
@@ -17,7 +17,7 @@ ROOT = 1.1127756842787055  # of x^7 = x + 1: of the sequence in six dimensions w
 
 def places_o(region: Region) -> bool:
     """Return whether the region alone says where O is."""
-    return region.internal_point in INTERNAL_POINTS
+    return region.internal_point != "best"
 
 
 def configurations_at(region: Region, neutral: Configuration, at: Floats) -> tuple[Floats, Configuration]:

@@ -9,6 +9,7 @@ from time import perf_counter
 from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.optimize.exchange import optimize_region
+from ninedof.optimize.exchange_placed import optimize_placed
 from ninedof.optimize.result import Candidate, Result, candidate_from, result_from
 from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, warm_starts
@@ -81,8 +82,10 @@ def optimize(
         found = _core.optimize(posed.problem(), settings, report)
         return result_from(posed, found | {"seconds": perf_counter() - begin})
 
-    if study.objective.region is not None:
-        return optimize_region(study, solve, warm, count)
+    region = study.objective.region
+    if region is not None:
+        exchange = optimize_placed if region.internal_point == "best" else optimize_region
+        return exchange(study, solve, warm, count)
     return solve(study, study.starts, warm)
 
 

@@ -53,6 +53,9 @@ class RegionReport:
     """The name of that limit; "" without limits."""
     mean: RegionMean | None = None
     """Where the objective is a mean over the region."""
+    leg_ranges: tuple[tuple[float, float], ...] = ()
+    """Where O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
+    that O keeps in all of the region."""
 
     def posed(self, study: Study) -> Study:
         """Return a region study with its poses and these in the place of the region."""
@@ -69,12 +72,19 @@ class RegionReport:
         average = "" if self.mean is None else f"{self.mean.words}; "
         return (
             f"{average}{self._ruling} poses of the region ruled; of {self.looked_at} looked at the worst has "
-            f"{self.objective:.6f}, and {passed}"
+            f"{self.objective:.6f}, and {passed}{self._ranges}"
         )
 
     @property
     def _ruling(self) -> int:
         return len(self.poses) - (0 if self.mean is None else self.mean.nodes)
+
+    @property
+    def _ranges(self) -> str:
+        if not self.leg_ranges:
+            return ""
+        short, long = (f(x) for f, x in zip((min, max), zip(*self.leg_ranges, strict=True), strict=True))
+        return f"; placing O keeps every leg in a range of its own, {short:.6g} to {long:.6g} over all"
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""
@@ -82,6 +92,7 @@ class RegionReport:
             "poses": [pose.to_dict() for pose in self.poses],
             "objective_at": self.objective_at.to_dict(),
             "mean": None if self.mean is None else dict(self.mean.__dict__),
+            "leg_ranges": [list(pair) for pair in self.leg_ranges],
         }
 
     @classmethod
@@ -89,8 +100,9 @@ class RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
         poses = tuple(Pose.from_dict(pose) for pose in data["poses"])
         mean = RegionMean(**data["mean"]) if data.get("mean") else None
+        ranges = tuple((low, high) for low, high in data.get("leg_ranges", ()))
         at = Pose.from_dict(data["objective_at"])
-        return cls(**{**data, "poses": poses, "objective_at": at, "mean": mean})
+        return cls(**{**data, "poses": poses, "objective_at": at, "mean": mean, "leg_ranges": ranges})
 
 
 def posed(study: Study, poses: tuple[Pose, ...]) -> Study:

@@ -17,6 +17,7 @@ REGIONS = {
     "cylinder": nd.Region(cylinder=(0.2, 0.1), yaw=1.0),
     "path": nd.Region(path=((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 2.0, 0.0)), tilt=0.2),
     "turns alone": nd.Region(tilt=0.5, yaw=0.5),
+    "best O": nd.Region(box=(0.1, 0.1, 0.0), tilt=0.1, internal_point="best"),
 }
 EVERY = pytest.mark.parametrize("region", REGIONS.values(), ids=REGIONS)
 
@@ -66,7 +67,7 @@ BAD = {
     "negative": ({"ball": -1}, r"objective\.region\.ball: got -1"),
     "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt_deg: got"),
     "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
-    "word": ({"internal_point": "best"}, r"objective\.region\.internal_point: got 'best'"),
+    "word": ({"internal_point": "stay"}, r"objective\.region\.internal_point: got 'stay'"),
     "key": ({"bal": 1}, r"objective\.region\.region\.bal|did you mean"),
     "corners": ({"path": [[0, 0, 0], [0, 0, 0]]}, r"objective\.region\.path: got 2 corners"),
     "cylinder": ({"cylinder": 1}, r"objective\.region\.cylinder: got 1"),

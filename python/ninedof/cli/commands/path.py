@@ -98,7 +98,13 @@ def path(
     shape = {"circle": circle, "line": line, "spiral": spiral}
     trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
     study = given.study
-    limits: Any = legs if legs is not None or study is None else leg_limits_of(study, float(home.position[2]))
+    limits: Any = legs
+    if legs is None and study is not None:
+        limits = leg_limits_of(study, float(home.position[2]))
+        report = given.result.region if given.result is not None else None
+        if report is not None and report.leg_ranges:  # O may be placed within them
+            low, high = np.transpose(report.leg_ranges)
+            limits = np.maximum(limits[0], low), np.minimum(limits[1], high)
     asked = {"internal_point": _rule(internal_point, study), "limits": limits, "force": force, "moment": moment}
     weight = Weight.checked(mass, centre, gravity)
     load = _with_weight(asked, weight, trajectory)

@@ -1,0 +1,173 @@
+"""Studies over a region with O placed at every pose.
+
+Oracle: `check`, which draws its own poses and places O by a search of its own in numpy.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.spatial.transform import Rotation
+from sizes import LONG, size
+
+import ninedof as nd
+from ninedof import _core
+from ninedof.optimize import exchange_placed
+from ninedof.optimize.leg_ranges import common_range, leg_ranges
+from ninedof.runs.design_file import load_design
+from ninedof.runs.folder import load, write_run
+
+TURNS = nd.Study(
+    constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 2.5)},
+    objective={"index": "frobenius", "region": {"tilt_deg": 20, "internal_point": "best"}},
+    starts=1,
+)
+BOX = nd.Study(
+    "symmetric",
+    constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0), "stroke": {"max": 0.4, "of": "zp"}},
+    objective={"region": {"box": [0.1, 0.1, 0.1], "tilt_deg": 5, "unit": "zp", "internal_point": "best"}},
+    starts=2,
+)
+LINE = nd.Study(
+    constraints={"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.3)},
+    objective={
+        "index": "speed",
+        "condition_limit": 6.0,
+        "region": {"path": [[0, 0, 0], [0.3, 0, 0]], "unit": "zp", "internal_point": "best"},
+    },
+    starts=1,
+)
+STUDIES = {"line": LINE, "turns": TURNS, "box": BOX}
+SOLVED = {}
+solves = pytest.mark.skipif(not LONG, reason="seconds to minutes for each study: NINEDOF_LONG=1")
+
+
+def with_rule(study, rule):
+    region = replace(study.objective.region, internal_point=rule)
+    return replace(study, objective=replace(study.objective, region=region))
+
+
+def solved(name):
+    if name not in SOLVED:
+        SOLVED[name] = nd.optimize(STUDIES[name])
+    return SOLVED[name]
+
+
+@solves
+@pytest.mark.parametrize("name", STUDIES)
+def test_limits_hold_between_the_poses(name):
+    result = solved(name)
+    assert result.status == "optimal", result.reason
+    assert result.region.margin >= -2e-7
+    assert result.region.objective <= result.objective * (1.0 + 3e-7)
+    found = nd.check(result, perturbations=0, seed=7)["region"]
+    assert found.passed, found.sentence
+
+
+@solves
+@pytest.mark.parametrize("name", STUDIES)
+def test_the_index_is_at_most_that_of_the_other_rules(name):
+    for rule in ("carried", "held"):
+        assert solved(name).objective <= nd.optimize(with_rule(STUDIES[name], rule)).objective * (1.0 + 1e-6)
+
+
+@solves
+def test_check_finds_ranges_that_are_too_narrow():
+    result = solved("line")
+    assert result.region.leg_ranges
+    narrow = tuple((0.5 * (low + high), 0.5001 * (low + high)) for low, high in result.region.leg_ranges)
+    worse = replace(result, region=replace(result.region, leg_ranges=narrow))
+    assert not nd.check(worse, perturbations=0)["region"].passed
+    wide = tuple((low / 1.01, high * 1.01) for low, high in result.region.leg_ranges)
+    worse = replace(result, region=replace(result.region, leg_ranges=wide))
+    assert not nd.check(worse, perturbations=0)["region"].passed
+
+
+@solves
+def test_a_run_is_read_back(tmp_path):
+    result = solved("line")
+    write_run(result, tmp_path)
+    again = load(tmp_path)
+    assert again.region == result.region
+    assert again.objective == result.objective
+    assert np.array_equal(again.configurations.internal_point, result.configurations.internal_point)
+    assert np.array_equal(load_design(tmp_path).geometry.base_external, result.geometry.base_external)
+    assert "placing O keeps every leg in a range" in result.summary()
+    assert "with O placed at every pose" in result.summary()
+
+
+@pytest.mark.slow
+def test_an_interruption_keeps_the_design_with_o_carried(monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(exchange_placed, "_round", interrupted)
+    result = nd.optimize(LINE)
+    assert (result.status, result.interrupted, result.region.looked_at) == ("stopped", True, 0)
+    assert result.objective == nd.optimize(with_rule(LINE, "carried")).objective
+    assert "O carried" in result.reason
+    assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
+
+
+def test_an_impossible_region_is_infeasible():
+    region = {"ball": 20.0, "internal_point": "best"}
+    study = nd.Study(constraints={"leg_ratio": (None, 1.01)}, objective={"region": region}, starts=1)
+    result = nd.optimize(study)
+    assert (result.status, result.best, result.region) == ("infeasible", None, None)
+
+
+G = nd.Geometry.hexagonal(1.0, 0.8, 0.5, 0.6)
+SIDES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0}
+REGION = nd.Region(box=(0.3, 0.3, 0.3), tilt=0.3, internal_point="best")
+LEVEL = 1.0  # logarithm of the index
+
+
+def placed(known, samples=1, threads=1):
+    """Search the region for a design within ranges of lengths."""
+    plain = nd.Study(variables=SIDES | {"theta_z": 0.0}).problem()
+    lengths = np.asarray(nd.leg_lengths(G, nd.Configuration.neutral(2.0, 1.0))).reshape(1, 9)
+    ranges = leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}), lengths, 2.0)
+    x = [SIDES.get(name, 0.0) for name in plain.names]
+    found = _core.search_region_placed(plain, REGION.for_core(), x, LEVEL, ranges, known, samples, 3, threads)
+    return found, ranges
+
+
+def test_threads_do_not_change_a_search():
+    known = [((0.0,) * 6, (0.0,) * 3)]
+    assert placed(known, 100, 1) == placed(known, 100, 2)
+
+
+def test_o_is_placed_where_the_worst_is_least():
+    """Against a direct search (Nelder and Mead) of the definition."""
+    rng = np.random.default_rng(5)
+    at = [tuple((np.array(REGION.reach) * rng.uniform(-1.0, 1.0, 6)).tolist()) for _ in range(size(2, 40))]
+    found, ((_, low, high, _),) = placed([(pose, (0.0,) * 3) for pose in at])
+    for pose, excess in zip(at, found["at_known"], strict=True):
+        position, rotation, _ = _core.region_pose(REGION.for_core(), pose)
+        p, q = np.add(position, [0.0, 0.0, 2.0]), Rotation.from_rotvec(rotation).as_matrix()
+
+        def worst(shift, p=p, q=q):
+            c = nd.Configuration(p, q, np.array([0.0, 0.0, 1.0]) + 2.0 * shift)
+            lengths = np.asarray(nd.leg_lengths(G, c))
+            index = np.log(float(nd.condition_number(G, c))) - LEVEL
+            return max(index, *np.log(low / lengths), *np.log(lengths / high))
+
+        oracle = np.zeros(3)
+        for _ in range(4):
+            oracle = minimize(worst, oracle, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-10}).x
+        assert excess <= worst(oracle) + 1e-7
+        assert excess >= worst(oracle) - 2e-2  # a direct search may end at a kink, or in another valley
+
+
+def test_ranges_of_lengths_divide_what_a_limit_leaves():
+    lengths = np.array([[1.0] * 9, [1.2] * 9])
+    both = nd.Study(constraints={"stroke": {"max": 0.4}, "stroke_ratio": (None, 1.5), "leg_ratio": (None, 3.0)})
+    found = {name: (low[0], high[0]) for name, low, high, _ in leg_ranges(both, lengths, 1.0)}
+    assert found["stroke"] == pytest.approx((0.9, 1.3))
+    assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
+    assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
+    low, high = common_range(leg_ranges(both, lengths, 1.0))[0]
+    assert low == pytest.approx(max(a for a, _ in found.values()))
+    assert high == pytest.approx(min(b for _, b in found.values()))
+    assert common_range(()) == ()
