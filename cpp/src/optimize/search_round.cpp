@@ -182,7 +182,7 @@ int start_count(const PreparedProblem& p, const Settings& s) {
 void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Eigen::VectorXd>& further,
                const Settings& s, const Control& control, Progress& progress, SearchRound& round) {
   RunSettings full_run{s.max_evaluations};
-  if (s.starts == 0) full_run.restarts = 1;  // warm starts alone are near an optimum
+  if (s.starts == 0) full_run.restarts = 0;  // warm starts alone are near an optimum
   const Batch batch{p, s, round.batches++};
   round.warm += p.coordinates.size() > 0 ? batch.warm() : 0;
   const std::size_t before = round.runs.size();

@@ -272,6 +272,12 @@ def _finished(program: _Program, state: _State) -> Result:
     if look.worse:
         reason = f"after {state.rounds} rounds the design is still worse between the poses than at them"
         found = replace(found, status=Status.STOPPED if found.status == Status.OPTIMAL else found.status, reason=reason)
+    elif found.status == Status.STOPPED:
+        reason = (
+            f"no limit is passed in the region, but the test of stationarity leaves {best.optimality_residual:.1e}: "
+            "a slightly better design may exist"
+        )
+        found = replace(found, reason=reason)
     kept = program.kept(state.imposed, design, look, -NEAR)
     at_poses = [at for at, _ in state.imposed]
     numbers = [*range(program.listed), *(program.listed + at_poses.index(at) for at, _ in kept)]
