@@ -143,6 +143,7 @@ def test_o_is_placed_where_the_worst_is_least():
     rng = np.random.default_rng(5)
     at = [tuple((np.array(REGION.reach) * rng.uniform(-1.0, 1.0, 6)).tolist()) for _ in range(size(2, 40))]
     found, ((_, low, high, _),) = placed([(pose, (0.0,) * 3) for pose in at])
+    above = []
     for pose, excess in zip(at, found["at_known"], strict=True):
         position, rotation, _ = _core.region_pose(REGION.for_core(), pose)
         p, q = np.add(position, [0.0, 0.0, 2.0]), Rotation.from_rotvec(rotation).as_matrix()
@@ -153,11 +154,16 @@ def test_o_is_placed_where_the_worst_is_least():
             index = np.log(float(nd.condition_number(G, c))) - LEVEL
             return max(index, *np.log(low / lengths), *np.log(lengths / high))
 
-        oracle = np.zeros(3)
-        for _ in range(4):
-            oracle = minimize(worst, oracle, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-10}).x
-        assert excess <= worst(oracle) + 1e-7
-        assert excess >= worst(oracle) - 2e-2  # a direct search may end at a kink, or in another valley
+        ends = []
+        for start in (np.zeros(3), 0.5 * np.array(position), *rng.uniform(-0.2, 0.2, (size(1, 4), 3))):
+            end = start
+            for _ in range(3):
+                end = minimize(worst, end, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-9}).x
+            ends.append(worst(end))
+        above.append(excess - ends[0])
+        assert excess >= min(ends) - 0.15  # a direct search may end at a kink
+    assert np.median(above) <= 1e-7
+    assert max(above) <= 0.05  # both are local: now and then another valley
 
 
 def test_ranges_of_lengths_divide_what_a_limit_leaves():
