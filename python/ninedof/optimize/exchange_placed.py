@@ -31,6 +31,7 @@ Place = tuple[At, Shift]
 """A pose of a region with O."""
 
 LOOSE = 1e-6  # the excess that ends the rounds of the quick solver
+NEARLY = 1e-5  # the violation up to which an end of the quick solver is a design
 BRANCH = 0.2  # of the region: nearer poses do not join together
 MOST_JOINED = 16  # in a round
 IDLE = -0.03  # a pose where O leaves so much to spare does not rule
@@ -107,7 +108,7 @@ class _Program:
         """Return the feasible ends of the quick solver, best first."""
         entries = [(list(d.x), [list(s) for s in d.shifts]) for d in given]
         found = _core.optimize_placed(self.posed(ruling).problem(), entries, starts, self.study.seed, self.threads)
-        ends = [Design(tuple(x), tuple(shifts), index) for x, shifts, index, violation in found if violation <= LOOSE]
+        ends = [Design(tuple(x), tuple(shifts), index) for x, shifts, index, violation in found if violation <= NEARLY]
         return sorted(ends, key=lambda d: d.log_objective)
 
     def ranges(self, ruling: Sequence[Place], design: Design) -> tuple[Range, ...]:
@@ -250,13 +251,15 @@ def _round(program: _Program, solve: Solve, state: _State) -> bool:
     state.look = look
     if state.exact and not look.worse:
         return False
-    done = not look.worse and (state.thorough or program.study.starts == 1)
+    known = [at for at, _ in imposed]
+    nothing_new = all(any(program.apart(at, other) <= SAME for other in known) for at, _ in look.worse)
+    done = nothing_new and (state.thorough or program.study.starts == 1)
     # Poses that are far from deciding anything leave: at first all, once they go round in circles none.
     add_only = state.exact or state.rounds > SETTLED
     idle = -math.inf if add_only else IDLE
     state.ruling = program.joined(program.kept(imposed, design, look, idle), look)
     state.given = [Design(design.x, (*design.shifts[: program.listed], *(shift for _, shift in state.ruling)))]
-    state.all_starts = not look.worse and not done
+    state.all_starts = nothing_new and not done and not state.exact
     state.thorough |= state.all_starts
     state.exact |= done
     return True
