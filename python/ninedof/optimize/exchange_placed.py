@@ -302,7 +302,7 @@ def _finished(program: _Program, state: _State) -> Result:
         worst_at,
         look.margin,
         look.limit,
-        common_range(program.ranges(state.imposed, design)),
+        leg_ranges=common_range(program.ranges(state.imposed, design)),
     )
     abandoned = max(program.study.starts - state.tried, 0)
     return replace(

@@ -22,7 +22,7 @@ def test_progress_of_a_map_rises_to_the_total(published):
     assert set(value) == {None}
     assert all(a < b for a, b in itertools.pairwise(done))
     assert done[-1] == 64 * 64
-    assert len(seen) > 5
+    assert len(seen) > 2  # at most one call in a tenth of a second
 
 
 @pytest.mark.parametrize("error", [RuntimeError("mine"), SystemExit(3)], ids=repr)

@@ -10,7 +10,7 @@ namespace ninedof {
 namespace {
 
 /// Variables without their bounds may be so many times as large as any bound of the study.
-constexpr double reach = 1000.0;
+constexpr double relaxed_range = 1000.0;
 
 /// All rows are given to SLSQP where there are no more; otherwise those this near at first, those nearer than the
 /// second once one that was left out is violated, so many times at most.
@@ -65,7 +65,7 @@ Problem without_bounds(Problem study) {
 }  // namespace
 
 Relaxation::Relaxation(const Problem& study)
-    : p_(without_bounds(study), reach * largest_bound(study)), own_(study, reach * largest_bound(study)) {
+    : p_(without_bounds(study), relaxed_range * largest_bound(study)), own_(study, relaxed_range * largest_bound(study)) {
   add_limits();
   add_bounds(study);
 }
