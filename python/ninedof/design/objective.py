@@ -137,7 +137,8 @@ class Objective:
                 if SET_KEYS[name][0] not in data[name]:
                     raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
                 found.extend(_named(where, make, **(defaults | dict(data[name]))))
-        region = _region(data.get("region"), **{k: v for k, v in defaults.items() if k == "unit"})
+        # A region has no shift of s of its own: only a word for where O is, is a default for it too.
+        region = _region(data.get("region"), **{k: v for k, v in defaults.items() if isinstance(v, str)})
         if defaults:
             _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
         rest = {name: data[name] for name in ("index", *NUMBERS) if name in data}

@@ -85,3 +85,12 @@ def test_what_a_region_excludes():
         nd.Objective(region=REGIONS["box"], aggregate="mean_inverse", poses=[nd.Pose()])
     with pytest.raises(ValueError, match=r"objective\.region: got a region, expected none"):
         nd.Objective(region=REGIONS["box"], index="six_legged")
+
+
+def test_the_objective_has_defaults_for_its_region():
+    table = {"internal_point": "held", "unit": "zp", "region": {"ball": 0.1}}
+    assert nd.Objective.from_dict(table).region == nd.Region(ball=0.1, internal_point="held", unit="zp")
+    own = table | {"region": {"ball": 0.1, "internal_point": "best"}}
+    assert nd.Objective.from_dict(own).region == nd.Region(ball=0.1, internal_point="best", unit="zp")
+    shifted = table | {"internal_point": [0.0, 0.0, 0.1]}
+    assert nd.Objective.from_dict(shifted).region == nd.Region(ball=0.1, unit="zp")
