@@ -18,6 +18,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, heading, per
 
 SHOWN = 12  # breaks of limits
+LENGTHS = ("leg_clearance", "stroke")
 
 
 def legs_table(found: Followed) -> Table:
@@ -47,22 +48,23 @@ def _text(value: float, largest: float) -> str:
     return "0" if abs(value) < 1e-12 * largest else f"{value:.4g}"
 
 
-def limits_table(of_study: PathLimits) -> Table:
+def limits_table(of_study: PathLimits, unit: str) -> Table:
     """Return the table of the other limits of the study: where each has its least margin."""
     table = Table(title="Limits of the study along the path", title_justify="left", title_style="bold")
     for k, words in enumerate(("limit", "", "allowed", "worst", "margin", "at t")):
         table.add_column(words, justify="right" if k > 1 else "left")
     for row in of_study.worst():
         cone = "limit_deg" in row
-        values = (f"{row['limit_deg']:.2f}°", f"{row['value_deg']:.2f}°") if cone else _pair(row)
+        values = (f"{row['limit_deg']:.2f}°", f"{row['value_deg']:.2f}°") if cone else _pair(row, unit)
         margin = f"{row['margin']:.4f}" if row["name"] == "singularity_free" else f"{100.0 * row['margin'] + 0.0:.2f} %"
         name = f"{row['name']} {row['part']}".strip()
         table.add_row(name, row["side"], *values, margin, f"{row['at']:.6g}")
     return table
 
 
-def _pair(row: dict[str, Any]) -> tuple[str, str]:
-    return f"{row['limit']:.6g}", f"{row['value']:.6g}"
+def _pair(row: dict[str, Any], unit: str) -> tuple[str, str]:
+    of_length = unit if row["name"] in LENGTHS else ""
+    return amount(f"{row['limit']:.6g}", of_length), amount(f"{row['value']:.6g}", of_length)
 
 
 def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:

@@ -120,7 +120,7 @@ def _criterion_words(name: str, value: Any, unit: str) -> Iterator[str]:
         kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
         if any(len(set(end[legs].tolist())) > 1 for end in (low, high) for legs in KINDS.values()):
             ranges = (f"{leg} {a:.6g} to {b:.6g}" for leg, a, b in zip(LEG_NAMES, low, high, strict=True))
-            yield f"legs as the region needs them: {', '.join(ranges)}"
+            yield amount(f"legs as the region needs them: {', '.join(ranges)}", unit)
             return
         for kind, legs in kinds.items():
             least, most = float(low[legs][0]), float(high[legs][0])

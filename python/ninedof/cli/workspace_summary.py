@@ -94,9 +94,9 @@ def sentences(found: WorkspaceMap) -> Iterator[str]:
         yield f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
-def region_words(region: Region, found: RegionShare) -> str:
+def region_words(region: Region, found: RegionShare, unit: str = "") -> str:
     """Return a sentence on how much of a region keeps the limits."""
-    words = f"region of the study, {region.words}: {100.0 * found.share:.4g} % of it within these limits"
+    words = f"region of the study, {region.worded(unit)}: {100.0 * found.share:.4g} % of it within these limits"
     passed = f"; passed: {', '.join(name.replace('_', ' ') for name in found.passed)}" if found.passed else ""
     return f"{words}, {found.looked_at} poses looked at{passed}"
 

@@ -71,7 +71,7 @@ def look_over(
         kappa = np.asarray(condition_number(g, even, asked.characteristic_length))
     means = np.array([part.mean() for part in np.array_split(kappa, PARTS) if len(part)])
     error = float(means.std(ddof=1) / np.sqrt(len(means))) if len(means) > 1 and np.isfinite(means).all() else np.inf
-    look = RegionLook(region.words, looked_at, float(kappa.mean()), error)
+    look = RegionLook(region.worded(study.unit), looked_at, float(kappa.mean()), error)
     return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
 
 

@@ -113,7 +113,7 @@ def path(
     of_study = path_limits(study, found, home) if study else None
     screen.print(legs_table(found))
     if of_study is not None and of_study.limits:
-        screen.print(limits_table(of_study))
+        screen.print(limits_table(of_study, given.unit))
     for sentence in sentences(found, of_study):
         screen.print(sentence)
     shapes = {name: value for name, value in shape.items() if value is not None}

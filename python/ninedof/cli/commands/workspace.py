@@ -179,7 +179,7 @@ def workspace(
     share = None
     if region_asked is not None and places_o(region_asked):
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
-        screen.print(region_words(region_asked, share))
+        screen.print(region_words(region_asked, share, given.unit))
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
     outlined = None if region_asked is None or archetype == "orientation" else (region_asked, home)
