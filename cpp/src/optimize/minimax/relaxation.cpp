@@ -65,7 +65,8 @@ Problem without_bounds(Problem study) {
 }  // namespace
 
 Relaxation::Relaxation(const Problem& study)
-    : p_(without_bounds(study), relaxed_range * largest_bound(study)), own_(study, relaxed_range * largest_bound(study)) {
+    : p_(without_bounds(study), relaxed_range * largest_bound(study)),
+      own_(study, relaxed_range * largest_bound(study)) {
   add_limits();
   add_bounds(study);
 }
