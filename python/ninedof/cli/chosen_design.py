@@ -6,7 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+import numpy as np
+
 from ninedof.conditioning.characteristic_length import KINDS
+from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -15,6 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design, hexagonal_design
 from ninedof.runs.objects import load
+from ninedof.support.arrays import Floats
 
 
 class Chosen(NamedTuple):
@@ -35,6 +39,22 @@ class Chosen(NamedTuple):
     def study(self) -> Study | None:
         """The study that found it."""
         return None if self.result is None else self.result.study
+
+    @property
+    def leg_ranges(self) -> tuple[tuple[float, float], ...]:
+        """The length that each leg keeps where O is placed in the region of the study; nothing for others."""
+        report = None if self.result is None else self.result.region
+        return () if report is None else report.leg_ranges
+
+    def leg_limits(self) -> tuple[Floats, Floats] | None:
+        """Return the least and greatest length of each leg, of the study and of its ranges; None without a study."""
+        if self.study is None:
+            return None
+        low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
+        if self.leg_ranges:
+            least, most = np.transpose(self.leg_ranges)
+            low, high = np.maximum(low, least), np.minimum(high, most)
+        return low, high
 
 
 def named_design(name: str | None) -> Chosen:

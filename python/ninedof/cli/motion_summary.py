@@ -35,7 +35,9 @@ def legs_table(found: Followed) -> Table:
     units |= {"speed": per(found.unit, "s"), "acceleration": per(found.unit, "s²")}
     for key, words in columns.items():
         table.add_column(heading(words, units.get(key, "")), justify="right")
-    largest = {key: max(abs(leg[key]) for leg in legs.values()) for key in columns}
+    largest = {
+        key: max((abs(x) for leg in legs.values() if math.isfinite(x := leg[key])), default=0.0) for key in columns
+    }
     if found.leg_forces is not None:
         largest["push"] = largest["pull"] = max(largest["push"], largest["pull"])
     for k, (name, leg) in enumerate(legs.items()):
@@ -89,7 +91,7 @@ def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:
             when = f"from t = {broken.begin:.6g} to {broken.end:.6g}"
             cone = broken.limit.startswith(tuple(CONES))
             worst = f"{math.degrees(broken.worst):.5g}°" if cone else f"{broken.worst:.5g}"
-            if broken in found.breaks:  # of a leg length
+            if broken in found.breaks or (broken.limit.startswith(LENGTHS) and not broken.limit.startswith("stroke_")):
                 worst = amount(worst, found.unit)
             yield f"[bold]limit breaks[/bold]: {broken.limit}, {when}, at worst {worst} at {broken.at:.6g}"
     if len(breaks) > SHOWN:

@@ -62,10 +62,10 @@ def length_at_home(chosen: Chosen) -> float:
     return length
 
 
-def mentioned(c: Configuration, poses: Iterable[int]) -> Iterator[str]:
+def mentioned(c: Configuration, poses: Iterable[int], unit: str) -> Iterator[str]:
     """Yield the poses of a stack that a table mentions by their numbers."""
     if len(c) > 1:
-        yield from (f"pose {k}: {pose_words(c[k], c.rotation[0])}" for k in sorted(set(poses)))
+        yield from (f"pose {k}: {pose_words(c[k], c.rotation[0], unit)}" for k in sorted(set(poses)))
 
 
 def pose_lines(c: Configuration, chosen: Chosen) -> Iterator[str]:
@@ -73,7 +73,7 @@ def pose_lines(c: Configuration, chosen: Chosen) -> Iterator[str]:
     if len(c) > 1:
         yield f"{len(c)} poses of the study; pose 0 is the neutral one"
     else:
-        yield f"at {pose_words(c[0], chosen.configuration.rotation)}"
+        yield f"at {pose_words(c[0], chosen.configuration.rotation, chosen.unit)}"
 
 
 def poses_data(c: Configuration) -> list[dict[str, Floats]]:

@@ -48,13 +48,19 @@ def criteria_asked(
     ranges = {name: found.pop(name) for name in LEGS if name in found}
     legs = leg_ranges(ranges)
     kept = {name for name in from_study if name not in given}
-    own = {name for name in found if name in kept} | ({"leg_limits"} if kept & set(LEGS) else set())
+    own = {name for name in found if name in kept} | ({"leg_limits"} if ranges and set(ranges) <= kept else set())
     return ({} if legs is None else {"leg_limits": legs}) | found, own, left
 
 
-def compare_poses(left: Sequence[str], criteria: Mapping[str, Any]) -> bool:
-    """Return whether limits on the spread of lengths are left over and no range of lengths stands in their place."""
-    return "leg_limits" not in criteria and any(name in SPREADS for name in left)
+def compare_poses(left: Sequence[str], options: Mapping[str, Any]) -> bool:
+    """Return whether limits on the spread of lengths are left over and no lengths are given by options."""
+    return any(name in SPREADS for name in left) and all(options[name] is None for name in LEGS)
+
+
+def narrowed(criteria: Mapping[str, Any], low: Floats, high: Floats) -> dict[str, Any]:
+    """Return criteria with leg limits that are within a range too, before the others."""
+    least, most = criteria.get("leg_limits", (0.0, math.inf))
+    return {**criteria, "leg_limits": (np.maximum(least, low), np.minimum(most, high))}
 
 
 def rule_asked(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.design.indices import LEGS
-from ninedof.design.pose import Pose
+from ninedof.design.pose import ZERO, Pose
 from ninedof.support.arrays import Floats
 
 IDLE = 1e-9  # of the longest length: a leg whose stroke is shorter does not move
@@ -27,12 +27,15 @@ def idle_words(lengths: Floats) -> str:
     return ", ".join(name for name, idle in zip(LEGS, idle_legs(lengths), strict=True) if idle)
 
 
-def rule_words(poses: Sequence[Pose], region_rule: str | None = None) -> str:
+def rule_words(poses: Sequence[Pose]) -> str:
     """Return where O is: one word for all poses, or how many poses follow each."""
     rules = Counter(p.internal_point if isinstance(p.internal_point, str) else "given" for p in poses)
-    if region_rule is not None:
-        rules[region_rule] += 0
+    if any(p.position != ZERO for p in poses) and len(rules) > 1:
+        at_rest = [p for p in poses if p.position == ZERO and p.internal_point == "carried"]
+        if len(at_rest) == rules["carried"]:  # where the platform has not moved, carried and held are the same
+            del rules["carried"]
+            rules[next(iter(rules))] += len(at_rest)
     if len(rules) == 1:
         return f"O is {WORDS[next(iter(rules))]} at every pose"
-    counts = [f"{WORDS[rule]} at {count} poses" for rule, count in rules.most_common() if count]
-    return f"O is {', '.join(counts)}" + ("" if region_rule is None else f", {WORDS[region_rule]} in the region")
+    counts = (f"{WORDS[rule]} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
+    return f"O is {', '.join(counts)}"

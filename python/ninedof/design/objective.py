@@ -156,7 +156,7 @@ class Objective:
         """Return the objective as the core takes it."""
         return {
             "index": self.index,
-            "aggregate": self.aggregate,
+            "aggregate": self.aggregate if self.region is None else "worst",  # the mean over a region is posed apart
             "weight": self.weight,
             **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
             "poses": [pose.for_core() for pose in self.poses],

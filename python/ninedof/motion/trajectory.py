@@ -67,7 +67,7 @@ class Trajectory:
             object.__setattr__(self, name, array)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], home: Configuration) -> Self:
+    def load(cls, path: str | os.PathLike[str], home: Configuration, unit: str = "") -> Self:
         """Read a CSV file whose first line names the columns.
 
         Parameters
@@ -79,6 +79,9 @@ class Trajectory:
             is a comment.
         home : Configuration
             Its rotation is taken where the file has none.
+        unit : str
+            Name of the length unit of the robot. A file may name its own behind a column, "x (mm)"; another one is an
+            error.
 
         Raises
         ------
@@ -86,7 +89,7 @@ class Trajectory:
             Naming file, line and column.
 
         """
-        found = read_trajectory(path)
+        found = read_trajectory(path, unit)
         return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
 
     @classmethod

@@ -37,8 +37,8 @@ class Columns(NamedTuple):
     rotation: Floats | None
 
 
-def read_trajectory(path: str | os.PathLike[str]) -> Columns:
-    """Read a file; raise ValueError naming file, line and column."""
+def read_trajectory(path: str | os.PathLike[str], unit: str) -> Columns:
+    """Read a file; raise ValueError naming file, line and column, and where it names another unit of lengths."""
     file = os.fspath(path)
     try:
         with open(path, encoding="utf-8-sig", newline="") as lines:
@@ -51,7 +51,9 @@ def read_trajectory(path: str | os.PathLike[str]) -> Columns:
     if not rows:
         raise ValueError(f"{file}: got an empty file, expected a line with the names of the columns")
     (line, header), *body = rows
-    names = [name.strip() for name in header]
+    named = [name.strip().partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
+    names = [name for name, _, _ in named]
+    _require_unit(f"{file}, line {line}", unit, {name: end.rstrip(")") for name, _, end in named if name in PLACE[1:]})
     way = _way(f"{file}, line {line}", names)
     if len(body) < FEWEST:
         raise ValueError(f"{file}: got {len(body)} poses, expected at least {FEWEST}")
@@ -64,6 +66,12 @@ def read_trajectory(path: str | os.PathLike[str]) -> Columns:
     return Columns(columns["t"], position, rotation)
 
 
+def _require_unit(where: str, unit: str, found: dict[str, str]) -> None:
+    for name, named in found.items():
+        if named and unit and named != unit:
+            raise ValueError(f"{where}, column {name}: got {named}, expected {unit} as in the design")
+
+
 def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
     """Return the columns of the rotation, none if there are none, or raise for missing and unknown columns."""
     for name in names:
@@ -73,7 +81,7 @@ def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
             raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
     missing = [name for name in PLACE if name not in names]
     if missing:
-        raise ValueError(f"{where}: got no column {', '.join(missing)}, expected t, x, y, z")
+        raise ValueError(f"{where}: got columns {', '.join(names)}, no {', '.join(missing)}; expected t, x, y, z")
     others = [name for name in names if name not in PLACE]
     if not others:
         return ()

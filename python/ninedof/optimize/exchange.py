@@ -86,7 +86,7 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
                 average = region_mean(study, nodes, found.best.variables) if mean else None
                 if average is None or average.error <= TOLERANCE * average.value or len(nodes) >= MOST_NODES:
                     break
-                nodes = uniform_poses(region, 2 * len(nodes), study.seed)
+                nodes, average = uniform_poses(region, 2 * len(nodes), study.seed), None
                 starts, warm, thorough = 1, found.candidates[:4], False
                 continue
             # The last run from all starts has all poses: it shows whether another design is better with them.
@@ -250,7 +250,9 @@ def first_poses(region: Region) -> list[At]:
         corners = [(2.0 * float(at / along[-1]) - 1.0, 0.0, 0.0) for at in along]
     turns = [sign * r * np.eye(6)[k] for k, r in enumerate(reach) if k >= 3 and r > 0.0 for sign in (1.0, -1.0)]
     rows = [np.zeros(6), *(np.array([*corner, 0.0, 0.0, 0.0]) for corner in corners), *turns]
-    return list(dict.fromkeys(tuple(row.tolist()) for row in rows))
+    # The corners of a ball and a cylinder are outside of them: the nearest poses of the region stand for them.
+    nearest = _core.region_poses(region.for_core(), np.array(rows))[:, :6]
+    return list(dict.fromkeys(tuple(row) for row in nearest.tolist()))
 
 
 def _pose(region: Region, at: At, weight: float = 1.0) -> Pose:

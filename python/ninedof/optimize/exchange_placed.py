@@ -15,6 +15,7 @@ from time import perf_counter
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -253,6 +254,8 @@ def _round(program: _Program, solve: Solve, state: _State) -> bool:
         return False
     known = [at for at, _ in imposed]
     nothing_new = all(any(program.apart(at, other) <= SAME for other in known) for at, _ in look.worse)
+    if state.exact and nothing_new:
+        return False  # the same problem again
     done = nothing_new and (state.thorough or program.study.starts == 1)
     # Poses that are far from deciding anything leave: at first all, once they go round in circles none.
     add_only = state.exact or state.rounds > SETTLED
@@ -294,6 +297,7 @@ def _finished(program: _Program, state: _State) -> Result:
         reached=state.reached,
     )
     worst_at = program.pose(*look.objective_at, zp=design.x[program.height])
+    zp = design.x[program.height]
     report = RegionReport(
         tuple(program.pose(at) for at, _ in kept),
         state.rounds,
@@ -302,7 +306,7 @@ def _finished(program: _Program, state: _State) -> Result:
         worst_at,
         look.margin,
         look.limit,
-        leg_ranges=common_range(program.ranges(state.imposed, design)),
+        leg_ranges=common_range(program.ranges(state.imposed, design), *leg_limits_of(program.study, zp)),
     )
     abandoned = max(program.study.starts - state.tried, 0)
     return replace(

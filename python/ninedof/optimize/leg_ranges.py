@@ -25,13 +25,13 @@ def leg_ranges(study: Study, lengths: Floats, zp: float) -> tuple[Range, ...]:
     return tuple(_ranges(study, lengths, zp))
 
 
-def common_range(ranges: Iterable[Range]) -> tuple[tuple[float, float], ...]:
-    """Return the least and greatest length of each leg that all ranges allow; nothing without ranges."""
+def common_range(ranges: Iterable[Range], least: Floats, most: Floats) -> tuple[tuple[float, float], ...]:
+    """Return the least and greatest length of each leg that all ranges and limits allow; nothing without ranges."""
     every = list(ranges)
     if not every:
         return ()
-    low = np.max([low for _, low, _, _ in every], axis=0)
-    high = np.min([high for _, _, high, _ in every], axis=0)
+    low = np.maximum(least, np.max([low for _, low, _, _ in every], axis=0))
+    high = np.minimum(most, np.min([high for _, _, high, _ in every], axis=0))
     return tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
 
 

@@ -77,7 +77,8 @@ class RegionReport:
 
     @property
     def _ruling(self) -> int:
-        return len(self.poses) - (0 if self.mean is None else self.mean.nodes)
+        nodes = [pose.weight > 0.0 for pose in self.poses]
+        return len(nodes) if all(nodes) else nodes.count(False)
 
     @property
     def _ranges(self) -> str:

@@ -177,8 +177,7 @@ class Result:
         best = self.best
         if best is None or len(self.solved.objective.poses) < 2:
             return ""
-        region = self.study.objective.region
-        where = rule_words(self.study.objective.poses, None if region is None else region.internal_point)
+        where = rule_words(self.solved.objective.poses)
         idle = idle_words(leg_lengths(best.geometry, best.configurations))
         if not idle:
             return where
@@ -195,7 +194,7 @@ class Result:
         """Show the status, and the objective and active limits of the best candidate."""
         if self.best is None:
             return f"<Result: {self.status}, causes: {', '.join(self.causes) or 'none found'}>"
-        value = f"{self.study.objective.words} = {self.best.objective:.6f}"
+        value = f"{self.study.words} = {self.best.objective:.6f}"
         return f"<Result: {self.status}, {value}, limits reached: {', '.join(self.best.active) or 'nothing'}>"
 
     def _repr_html_(self) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
 from ninedof.support.html import html_table
+from ninedof.support.units import with_unit
 
 SHOWN = 4  # candidates, side by side
 
@@ -21,11 +23,14 @@ def _rows(result: Any, shown: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
     if not shown:
         yield "causes", ", ".join(result.causes) or "none found"
         return
-    yield result.study.objective.words, *(f"{c.objective:.6f}" for c in shown)
+    yield result.study.words, *(f"{c.objective:.6f}" for c in shown)
     yield "condition number, neutral pose", *(f"{c.condition_number:.6f}" for c in shown)
     for name, bound in result.study.variables.items():
         if isinstance(bound, tuple):
-            yield name, *(c.variables[name] for c in shown)
-    yield "characteristic length", *(c.characteristic_length for c in shown)
+            angle = name in result.study.angles
+            label = with_unit(name, "deg" if angle else result.study.unit)
+            yield label, *(math.degrees(c.variables[name]) if angle else c.variables[name] for c in shown)
+    length = with_unit("characteristic length", result.study.unit)
+    yield length, *(c.characteristic_length for c in shown)
     yield "limits reached", *(", ".join(c.active) or "nothing" for c in shown)
     yield "starts that ended here", *(f"{c.reached} of {result.starts_done}" for c in shown)

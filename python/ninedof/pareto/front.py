@@ -44,7 +44,7 @@ class Front:
         """Show the ends of the limit and of the objective."""
         found = [value for value in self.objectives if not math.isnan(value)]
         ends = f"{self.limits[0]:.6g} to {self.limits[-1]:.6g}" if self.limits else "none"
-        words = f"{self.study.objective.words} = {max(found):.6f} to {min(found):.6f}" if found else "no design"
+        words = f"{self.study.words} = {max(found):.6f} to {min(found):.6f}" if found else "no design"
         count = f"{len(self)} limits of {self.against}, {ends}"
         return f"<Front: {count}; {words}{', interrupted' * self.interrupted}>"
 
@@ -62,7 +62,7 @@ class Front:
             "price, % for 1 %",
             "limits reached",
         )
-        return html_table(f"{self.study.objective.words} against {self.against}", rows, head)
+        return html_table(f"{self.study.words} against {self.against}", rows, head)
 
     @property
     def objectives(self) -> tuple[float, ...]:

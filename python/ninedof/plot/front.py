@@ -87,7 +87,7 @@ def front(
     with style.settings():
         figure = style.new_figure(8.0, 6.9 if sketches else 5.34)
         share = 1.75 / 6.9 if sketches else 0.0
-        upper = figure.add_axes((0.095, share + 0.42 * (1 - share), 0.885, 0.515 * (1 - share)))
+        upper = figure.add_axes((0.095, share + 0.42 * (1 - share), 0.885, 0.475 * (1 - share)))
         lower = figure.add_axes((0.095, share + 0.115 * (1 - share), 0.885, 0.225 * (1 - share)), sharex=upper)
         name = style.with_unit(f"largest {against.replace('_', ' ')} allowed", unit)
         _objective(upper, shown, objective)

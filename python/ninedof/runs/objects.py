@@ -92,6 +92,8 @@ def save(kept: Kept, path: str | os.PathLike[str]) -> Path:
 
     """
     if isinstance(kept, Design):
+        if Path(path).is_dir():
+            raise ValueError(f"path: got the folder {os.fspath(path)}, expected a file name for a design")
         return save_design(kept, path)
     if not isinstance(kept, Result | Front | WorkspaceMap | SweepResult | Followed):
         raise ValueError(f"kept: got {shown(kept)}, expected a run or a design")

@@ -118,6 +118,9 @@ class Sheet:
     """How the region of the study was looked over; None without one."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+    leg_ranges: tuple[tuple[float, float], ...] | None = None
+    """Where O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
+    compares poses; the extremes are then those of the poses that ruled. None for others."""
 
     @property
     def idle(self) -> tuple[str, ...]:
@@ -148,7 +151,8 @@ class Sheet:
     def _repr_html_(self) -> str:
         keys = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "speed")
         rows = [(leg.name, *(getattr(leg, key) for key in keys)) for leg in self.legs]
-        others = "; ".join(sheet_words(self)[1 + len(rows) :])
+        above = 1 + bool(self.unit) + (self.region is not None)
+        others = "; ".join(sheet_words(self)[above + len(rows) :])
         return html_table(f"{repr(self)[1:-1]}; {others}", rows, ("leg", *(key.replace("_", " ") for key in keys)))
 
     def to_dict(self) -> dict[str, Any]:
@@ -191,7 +195,8 @@ class Sheet:
         rows = [leg.flat() for leg in self.legs]
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-        units = dict.fromkeys(("shortest", "longest", "neutral", "stroke"), self.unit) | {"speed": per(self.unit, "s")}
+        units = dict.fromkeys(("shortest", "longest", "neutral", "stroke"), self.unit)
+        units |= {"speed": per(self.unit, "s"), "acceleration": per(self.unit, "s²")}
         writer.writerow({name: with_unit(name, units.get(name, "")) for name in rows[0]})
         writer.writerows(rows)
         return text.getvalue()
@@ -325,6 +330,7 @@ def sheet(
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
         unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
+        leg_ranges=design.region.leg_ranges if look is None and region is not None and design.region else None,
     )
 
 

@@ -155,6 +155,8 @@ def worst_placed(study: Study, best: Any, report: RegionReport, count: int, seed
 def _ranges_margin(study: Study, best: Any, report: RegionReport) -> float:
     """Return by how much the ranges of lengths are within the limits that compare poses."""
     out = np.inf
+    if not report.leg_ranges:  # none of the limits compares poses, or the result is unfinished
+        return out
     for limit in limits_of(study):
         if limit.name not in SPREADS or limit.at == "neutral" or not math.isfinite(limit.high):
             continue

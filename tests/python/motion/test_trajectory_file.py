@@ -54,7 +54,7 @@ GOOD = "t,x,y,z\n0,0,0,4\n1,0,0,4\n2,0,0,4\n"
     ("text", "words"),
     [
         ("", "path.csv: got an empty file"),
-        ("t,x,y\n0,0,0\n", "path.csv, line 1: got no column z, expected t, x, y, z"),
+        ("t,x,y\n0,0,0\n", "path.csv, line 1: got columns t, x, y, no z; expected t, x, y, z"),
         ("t,x,y,z\n0,0,0,4\n", "path.csv: got 1 poses, expected at least 3"),
         ("0,0,0,4\n1,0,0,4\n", "path.csv, line 1: got the number 0, expected the names of the columns"),
         (GOOD.replace("1,0,0,4", "1,0,wide,4"), "path.csv, line 3, column y: got 'wide', expected a finite number"),
@@ -87,3 +87,13 @@ def test_a_missing_file_and_a_binary_one(tmp_path):
     (tmp_path / "image.csv").write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(ValueError, match="not a CSV file"):
         nd.Trajectory.load(tmp_path / "image.csv", HOME)
+
+
+def test_a_file_may_name_the_unit_of_lengths(tmp_path):
+    path = tmp_path / "path.csv"
+    path.write_text("t,x (mm),y (mm),z (mm)\n0,0,0,1\n1,1,0,1\n2,2,0,1\n")
+    home = nd.Configuration([0.0, 0.0, 1.0], internal_point=[0.0, 0.0, 0.5])
+    for unit in ("", "mm"):
+        assert nd.Trajectory.load(path, home, unit).position[1].tolist() == [1.0, 0.0, 1.0]
+    with pytest.raises(ValueError, match="column x: got mm, expected m as in the design"):
+        nd.Trajectory.load(path, home, "m")

@@ -258,3 +258,21 @@ def test_check_and_sheet_see_a_limit_on_the_condition_number():
     assert not nd.check(replace(result, study=tight), perturbations=0)["region"].passed
     row = next(row for row in result.sheet().limits if row.name == "condition_limit")
     assert row.value == pytest.approx(max(result.conditions), rel=1e-7)
+
+
+def test_first_poses_are_in_the_region():
+    """The corners about a ball or a cylinder are outside of it."""
+    for region in (nd.Region(ball=2.0, tilt=0.1), nd.Region(cylinder=(1.0, 2.0), yaw=0.2), nd.Region(box=(1, 2, 3))):
+        at = np.array(exchange.first_poses(region))
+        assert np.all(np.linalg.norm(at[:, :3], axis=1) <= (2.0 if region.ball else 4.0) * (1 + 1e-12))
+        if region.cylinder is not None:
+            assert np.all(np.linalg.norm(at[:, :2], axis=1) <= 1.0 + 1e-12)
+        assert len(at) >= 9
+
+
+def test_a_mean_over_a_region_beside_a_listed_pose_of_no_weight():
+    study = replace(STUDIES["mean, one variable"], starts=1)
+    objective = replace(study.objective, poses=(nd.Pose((0.5, 0.0, 0.0), weight=0.0),))
+    study = replace(study, objective=objective)
+    point = study.evaluate({"zs": 2.4})
+    assert point.condition_number > 1.0

@@ -173,7 +173,7 @@ def test_ranges_of_lengths_divide_what_a_limit_leaves():
     assert found["stroke"] == pytest.approx((0.9, 1.3))
     assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
     assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
-    low, high = common_range(leg_ranges(both, lengths, 1.0))[0]
+    low, high = common_range(leg_ranges(both, lengths, 1.0), np.zeros(9), np.full(9, np.inf))[0]
     assert low == pytest.approx(max(a for a, _ in found.values()))
     assert high == pytest.approx(min(b for _, b in found.values()))
-    assert common_range(()) == ()
+    assert common_range((), np.zeros(9), np.full(9, np.inf)) == ()

@@ -145,5 +145,5 @@ def test_o_by_the_rule_of_each_pose():
     assert nd.Pose(internal_point="held") == nd.Pose()
     assert nd.Pose(shift).for_core()[2] == shift
     assert rule_words([nd.Pose(shift), nd.Pose(shift, internal_point="held"), nd.Pose()]) == (
-        "O is carried with the platform at 2 poses, held at 1 poses"
+        "O is carried with the platform at 2 poses, held at 1 pose"
     )

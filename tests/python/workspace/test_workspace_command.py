@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.cli.workspace_limits import compare_poses, narrowed
 from ninedof.paper.published import published_variables
 from ninedof.runs.folder import write_run
 from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
@@ -235,3 +236,15 @@ def test_ranges_by_kind_and_the_own_fraction():
     upper, lower = np.array([0.0, 0.0, 5.0]), np.array([0.0, 0.0, 1.0])
     assert own_fraction(upper, lower, np.array([0.0, 0.0, 2.0])) == 0.25
     assert own_fraction(upper, lower, np.array([0.1, 0.0, 2.0])) is None
+
+
+def test_limits_of_legs_and_what_a_region_needs_hold_together():
+    """A least length in the study does not make room for legs that its limit on strokes excludes."""
+    criteria = {"condition_number": 5.0, "leg_limits": (np.full(9, 1.2), np.full(9, np.inf))}
+    both = narrowed(criteria, np.linspace(1.0, 1.4, 9), np.full(9, 2.0))
+    assert both["leg_limits"][0].tolist() == np.maximum(1.2, np.linspace(1.0, 1.4, 9)).tolist()
+    assert both["leg_limits"][1].tolist() == [2.0] * 9
+    options = dict.fromkeys(("leg_length", "external_length", "upper_length", "lower_length"))
+    assert compare_poses(["stroke_ratio"], options)
+    assert not compare_poses(["height"], options)
+    assert not compare_poses(["stroke_ratio"], options | {"upper_length": (1.0, 2.0)})

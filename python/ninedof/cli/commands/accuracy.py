@@ -13,7 +13,7 @@ from ninedof.cli.chosen_design import named_design
 from ninedof.cli.screen import Screen
 from ninedof.robot.configuration import Configuration
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_samples
-from ninedof.support.arguments import finite
+from ninedof.support.arguments import finite, whole
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -46,6 +46,8 @@ def accuracy(
         finite(name, value, 0.0)
     if leg_error == 0.0 and joint_error == 0.0:
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
+    if samples is not None:
+        whole("--samples", samples, 1)
     if samples is not None and all_poses:
         raise ValueError("--samples: got it with --all-poses, expected one pose")
     chosen = named_design(design)
@@ -55,7 +57,7 @@ def accuracy(
         screen.print(line)
     table, used = _table(c, bounds)
     screen.print(table)
-    for line in posed.mentioned(c, used):
+    for line in posed.mentioned(c, used, chosen.unit):
         screen.print(line)
     data: dict[str, Any] = {"poses": posed.poses_data(c), "leg_error": leg_error, "joint_error": joint_error}
     data |= {

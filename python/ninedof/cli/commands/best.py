@@ -17,7 +17,6 @@ from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.pose_words import decimals_of, fixed, vector_words
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.leg_limits import leg_limits_of
 from ninedof.redundancy.redundancy import InternalPoint, best_internal_point
 from ninedof.redundancy.search_arguments import CRITERIA
 from ninedof.robot.configuration import Configuration
@@ -55,9 +54,7 @@ def best(
     screen = Screen(json)
     chosen = with_length(named_design(design), lc)
     c = posed.chosen_poses(chosen, position, rotation_deg, internal_point, all_poses)
-    limits: Any = legs
-    if legs is None and chosen.study is not None:
-        limits = leg_limits_of(chosen.study, float(chosen.configuration.position[2]))
+    limits: Any = chosen.leg_limits() if legs is None else legs
     length = posed.length_at_home(chosen)
     asked = {"criterion": criterion, "limits": limits, "characteristic_length": length}
     found = best_internal_point(chosen.geometry, c.position, c.rotation, **asked, start=c.internal_point)

@@ -53,11 +53,11 @@ def optimize(
     run = _solve_paper(chosen, threads, screen) if study is None else _solve_study(chosen, study.name, threads, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
+    record = write_run(run, directory, figures_of(run, screen.say) if figures else None)
     if check and result.best is not None:
         verdict = examine(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
-    record = write_run(run, directory, figures_of(run, screen.say) if figures else None)
     stems = sorted({path.stem for path in directory.glob("*.png")})
     drawn = f", figures {', '.join(stems)} (PNG and SVG)" if stems else ""
     screen.print(f"run folder {directory}: {record.name}{drawn}")

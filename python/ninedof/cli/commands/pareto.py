@@ -21,6 +21,7 @@ from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.limited import with_degrees
 from ninedof.runs.folder import write_run
+from ninedof.runs.objects import split
 from ninedof.support.arrays import thread_argument
 from ninedof.support.units import with_unit
 
@@ -107,7 +108,8 @@ def _asked(study: Path | None) -> tuple[Study, Result | None]:
     """Return the study of a file, or that of a run with its result; that of the paper without either."""
     if study is None:
         return Study.paper(), None
-    if not study.is_dir() and study.suffix != ".json":
+    place, point = split(str(study))
+    if not point and not place.is_dir() and place.suffix != ".json":
         return Study.load(study), None
     run = named_design(str(study)).result
     assert run is not None  # a run folder

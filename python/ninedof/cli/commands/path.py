@@ -9,15 +9,14 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli.chosen_design import named_design, with_length
+from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.motion_summary import draw, legs_table, limits_table, sentences
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
-from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.motion import Trajectory, follow
 from ninedof.motion.internal_point import RULES
-from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
 from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE, plain, write_motion
@@ -96,15 +95,9 @@ def path(
     given = with_length(named_design(design), lc)
     g, home, length = given.geometry, given.configuration, given.characteristic_length
     shape = {"circle": circle, "line": line, "spiral": spiral}
-    trajectory = _trajectory(home, file, shape, {"duration": duration, "points": points})
+    trajectory = _trajectory(given, file, shape, {"duration": duration, "points": points})
     study = given.study
-    limits: Any = legs
-    if legs is None and study is not None:
-        limits = leg_limits_of(study, float(home.position[2]))
-        report = given.result.region if given.result is not None else None
-        if report is not None and report.leg_ranges:  # O may be placed within them
-            low, high = np.transpose(report.leg_ranges)
-            limits = np.maximum(limits[0], low), np.minimum(limits[1], high)
+    limits: Any = given.leg_limits() if legs is None else legs
     asked = {"internal_point": _rule(internal_point, study), "limits": limits, "force": force, "moment": moment}
     weight = Weight.checked(mass, centre, gravity)
     load = _with_weight(asked, weight, trajectory)
@@ -135,9 +128,10 @@ def path(
 
 
 def _trajectory(
-    home: Configuration, file: Path | None, shape: dict[str, Any], times: dict[str, float | int | None]
+    given: Chosen, file: Path | None, shape: dict[str, Any], times: dict[str, float | int | None]
 ) -> Trajectory:
     """Return the one trajectory that was asked for."""
+    home = given.configuration
     shapes = {name: value for name, value in shape.items() if value is not None}
     options = {name: value for name, value in times.items() if value is not None}
     asked = [*(["a file"] if file else []), *(f"--{name}" for name in shapes)]
@@ -147,7 +141,7 @@ def _trajectory(
     if file is not None:
         for name, value in options.items():
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
-        return Trajectory.load(file, home)
+        return Trajectory.load(file, home, given.unit)
     ((name, value),) = shapes.items()
     make = getattr(Trajectory, name)
     made: Trajectory = make(home, *(value if name == "spiral" else (value,)), **options)

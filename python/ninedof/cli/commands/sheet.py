@@ -60,6 +60,8 @@ def sheet(
 ) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
     screen = Screen(json)
+    if csv is not None and not csv.absolute().parent.is_dir():
+        raise ValueError(f"--csv: got {csv}, expected a file in a folder that exists")
     chosen = named_design(design)
     found = sheet_of(
         chosen.result or chosen.design,

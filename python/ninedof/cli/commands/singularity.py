@@ -59,6 +59,8 @@ def singularity(
     screen = Screen(json)
     words = "wx wy wz px py pz sx sy sz"
     motion = None if direction is None else np.array(posed.several("--direction", direction, 9, words))
+    if motion is not None and not motion.any():
+        raise ValueError(f"--direction: got {direction!r}, expected a motion that is not zero")
     chosen = named_design(design)
     c = posed.chosen_poses(chosen, position, rotation_deg, internal_point, all_poses)
     here = singularity_of(chosen.geometry, c)
@@ -78,7 +80,7 @@ def _along(chosen: Chosen, c: Configuration, motion: Floats, most: float, screen
     found = distance_to_singularity(chosen.geometry, c, motion, most)
     k = int(np.argmin(found.distance))
     if math.isfinite(found.distance[k]):
-        where = pose_words(c[k].moved(found.distance[k] * motion), chosen.configuration.rotation)
+        where = pose_words(c[k].moved(found.distance[k] * motion), chosen.configuration.rotation, chosen.unit)
         screen.print(f"first singularity at {found.distance[k]:.6g} of the motion: {_kind(found, k)}")
         screen.print(f"there {where}")
     else:
@@ -130,7 +132,7 @@ def _nearest(name: str, distance: str, one: NearestSingularity, count: int, chos
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"
     pose = f" from pose {one.pose}" if count > 1 else ""
-    where = pose_words(one.configuration, chosen.configuration.rotation)
+    where = pose_words(one.configuration, chosen.configuration.rotation, chosen.unit)
     return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {where}"
 
 

@@ -53,7 +53,7 @@ def stiffness(
     at, turning = (_least(one, len(c)) for one in least)
     screen.print(f"least stiffness: {at} in force per displacement, the platform free to turn")
     screen.print(f"least turning stiffness: {turning} in moment per radian, the platform free to shift")
-    for line in posed.mentioned(c, [one.pose for one in least]):
+    for line in posed.mentioned(c, [one.pose for one in least], chosen.unit):
         screen.print(line)
     data = {"poses": posed.poses_data(c), "leg_stiffness": leg_stiffness, "stiffness": found}
     screen.data(data | {"least": {name: one._asdict() for name, one in least._asdict().items()}})

@@ -13,7 +13,7 @@ import typer
 from ninedof.cli.chosen_design import named_design, with_length
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
-from ninedof.cli.workspace_limits import asked_lines, compare_poses, criteria_asked, rule_asked
+from ninedof.cli.workspace_limits import asked_lines, compare_poses, criteria_asked, narrowed, rule_asked
 from ninedof.cli.workspace_summary import draw, region_words, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.indices import computed
@@ -26,6 +26,7 @@ from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.region_share import box_about, leg_ranges_over, region_share
+from ninedof.workspace.study_criteria import EASE
 
 Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
@@ -136,8 +137,13 @@ def workspace(
     home = given.configuration
     region_asked = None if study is None else study.objective.region
     criteria, own, left = criteria_asked(study if study_limits else None, float(home.position[2]), options)
-    if region_asked is not None and study_limits and places_o(region_asked) and compare_poses(left, criteria):
-        criteria = {"leg_limits": leg_ranges_over(region_asked, given.geometry, home)} | criteria
+    if region_asked is not None and study_limits and places_o(region_asked) and compare_poses(left, options):
+        criteria = narrowed(criteria, *leg_ranges_over(region_asked, given.geometry, home))
+        own.discard("leg_limits")
+    elif given.leg_ranges and study_limits and compare_poses(left, options):
+        low, high = np.transpose(given.leg_ranges)
+        criteria = narrowed(criteria, low * (1.0 - EASE), high * (1.0 + EASE))
+        own.discard("leg_limits")
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if method == "grid":
