@@ -61,6 +61,12 @@ SCREENS = {  # what stands where the unit is mm
     ),
     "pareto study.toml --against footprint --value 295 --value 300": ("at most (mm)",),
     "sweep run --over x_p=-20:20:3 --index leg_lengths": ("x_p = -20 mm", "leg lengths"),
+    "accuracy run --leg-error 0.1": ("displacement of p", " mm "),
+    "forces run --load '0 0 0 0 0 -10'": ("force mm, force",),
+    "stiffness run --leg-stiffness 1e4": ("in force/mm, the platform", "in force mm per radian", ") mm, O = ("),
+    "singularity run": (" mm ", ") mm, O = ("),
+    "modes run": ("p (mm)", "O (mm)"),
+    "best run": ("best O (", ") mm: condition"),
     "evaluate design.toml": ("legs l1 l2 l3 (mm)", "natural length"),
     "sheet design.toml": ("(mm/s)",),
     "path design.toml --line 10 0 0 --points 21 --legs 100 401": ("(mm/s)", "mm at "),
@@ -101,7 +107,8 @@ def here(folder, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("line", SCREENS)
 def test_every_screen_has_the_unit_where_it_is_given(capsys, here, line):
-    figures = "" if line.split()[0] in ("evaluate", "sheet") else " --no-figures"
+    drawing = ("optimize", "path", "workspace", "pareto", "sweep")
+    figures = " --no-figures" if line.split()[0] in drawing else ""
     said = run(capsys, line + figures)
     if here:
         assert [words for words in SCREENS[line] if words not in said] == []

@@ -14,6 +14,7 @@ from ninedof.cli.screen import Screen
 from ninedof.robot.configuration import Configuration
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
+from ninedof.support.units import amount, unit_entry
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -55,11 +56,15 @@ def accuracy(
     bounds = error_bounds(chosen.geometry, c, leg_error, joint_error)
     for line in posed.pose_lines(c, chosen):
         screen.print(line)
-    table, used = _table(c, bounds)
+    table, used = _table(c, bounds, chosen.unit)
     screen.print(table)
     for line in posed.mentioned(c, used, chosen.unit):
         screen.print(line)
-    data: dict[str, Any] = {"poses": posed.poses_data(c), "leg_error": leg_error, "joint_error": joint_error}
+    data: dict[str, Any] = {
+        "poses": posed.poses_data(c),
+        "leg_error": leg_error,
+        "joint_error": joint_error,
+    }
     data |= {
         "position": bounds.position,
         "rotation_deg": np.degrees(bounds.rotation),
@@ -67,13 +72,13 @@ def accuracy(
         "covariance": bounds.covariance,
     }
     if samples is not None:
-        data["samples"] = _quantiles(error_samples(chosen.geometry, c[0], leg_error, joint_error, samples))
+        data["samples"] = _quantiles(error_samples(chosen.geometry, c[0], leg_error, joint_error, samples), chosen.unit)
         for words in data["samples"]["words"]:
             screen.print(words)
-    screen.data(data)
+    screen.data(unit_entry(chosen.unit) | data)
 
 
-def _table(c: Configuration, bounds: ErrorBounds) -> tuple[Table, set[int]]:
+def _table(c: Configuration, bounds: ErrorBounds, unit: str) -> tuple[Table, set[int]]:
     """Return the largest error of each component over the poses and its standard deviation there; and those poses."""
     table = Table(title="Errors of first order", title_justify="left", title_style="bold")
     heads = ("", "largest", "standard deviation", *(["pose"] if len(c) > 1 else []))
@@ -84,7 +89,7 @@ def _table(c: Configuration, bounds: ErrorBounds) -> tuple[Table, set[int]]:
     def add(label: str, values: Any, deviations: Any, angle: bool, end: bool) -> None:
         value, at = posed.at_worst(values)
         used.add(at)
-        shown = ["-" if x is None else _text(x, angle) for x in (value, deviations and deviations[at])]
+        shown = ["-" if x is None else _text(x, angle, unit) for x in (value, deviations and deviations[at])]
         table.add_row(label, *shown, *([str(at)] if len(c) > 1 else []), end_section=end)
 
     variance = np.diagonal(bounds.covariance, axis1=-2, axis2=-1)
@@ -97,11 +102,11 @@ def _table(c: Configuration, bounds: ErrorBounds) -> tuple[Table, set[int]]:
     return table, used
 
 
-def _text(value: float, angle: bool) -> str:
-    return f"{np.degrees(value):.4g}°" if angle else f"{value:.4g}"
+def _text(value: float, angle: bool, unit: str) -> str:
+    return f"{np.degrees(value):.4g}°" if angle else amount(f"{value:.4g}", unit)
 
 
-def _quantiles(found: Any) -> dict[str, Any]:
+def _quantiles(found: Any, unit: str) -> dict[str, Any]:
     """Return how far 95 % of the random robots go, in numbers and in words."""
     lost = int(np.isnan(found).any(axis=1).sum())
     kept = found[~np.isnan(found).any(axis=1)]
@@ -110,7 +115,8 @@ def _quantiles(found: Any) -> dict[str, Any]:
         for k in (0, 3, 6)
     )
     words = [
-        f"95 % of {len(kept)} random robots: p within {p:.4g}, turned less than {_text(turn, True)}, O within {o:.4g}"
+        f"95 % of {len(kept)} random robots: p within {_text(p, False, unit)}, turned less than "
+        f"{_text(turn, True, unit)}, O within {_text(o, False, unit)}"
     ]
     words += [f"{lost} more did not reach a pose near this one"] if lost else []
     return {"count": len(found), "lost": lost, "rotation_deg": np.degrees(turn), "position": p, "internal_point": o} | {

@@ -22,6 +22,7 @@ from ninedof.redundancy.search_arguments import CRITERIA
 from ninedof.robot.configuration import Configuration
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount, unit_entry, with_unit
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -62,15 +63,15 @@ def best(
     for line in posed.pose_lines(c, chosen):
         screen.print(line)
     if len(c) == 1:
-        for line in _words(c, found, now, WORDS[criterion]):
+        for line in _words(c, found, now, WORDS[criterion], chosen.unit):
             screen.print(line)
     else:
-        screen.print(_table(c, found, now, WORDS[criterion], criterion == "condition_number"))
+        screen.print(_table(c, found, now, WORDS[criterion], criterion == "condition_number", chosen.unit))
         for line in _over_poses(found, now, WORDS[criterion], criterion == "condition_number"):
             screen.print(line)
     data = {"poses": posed.poses_data(c), "criterion": criterion, "limits": limits}
     data |= {"internal_point": found.configuration.internal_point, "value": found.value, "now": now}
-    screen.data(data | {"status": found.status, "active": found.active})
+    screen.data(unit_entry(chosen.unit) | data | {"status": found.status, "active": found.active})
     raise typer.Exit(DONE if np.isfinite(found.value).any() else NO_RESULT)
 
 
@@ -95,23 +96,33 @@ def _over_poses(found: InternalPoint, now: Floats | None, words: str, small: boo
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(c: Configuration, found: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
+def _words(c: Configuration, found: InternalPoint, now: Floats | None, words: str, unit: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
-        yield f"O now {_point(c.internal_point[0])}: {words} {now[0]:.6g}"
+        yield f"O now {amount(_point(c.internal_point[0]), unit)}: {words} {now[0]:.6g}"
     if not np.isnan(found.value[0]):
-        yield f"best O {_point(found.configuration.internal_point[0])}: {words} {found.value[0]:.6g}"
+        yield f"best O {amount(_point(found.configuration.internal_point[0]), unit)}: {words} {found.value[0]:.6g}"
     yield f"{found.status[0]}; limits reached: {', '.join(found.active[0]) or 'nothing'}"
 
 
-def _table(c: Configuration, found: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
+def _table(c: Configuration, found: InternalPoint, now: Floats | None, words: str, small: bool, unit: str) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
     worst, points = order[:SHOWN], found.configuration.internal_point
     why = [_why(str(found.status[k]), found.active[k]) for k in worst]
     table = Table(title=f"Best places of O by {words}", title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
     table.padding = (0, 1, 0, 0)
-    for head in ("pose", "p\nx", "\ny", "\nz", "now", "best", "best O\nx", "\ny", "\nz"):
+    for head in (
+        "pose",
+        f"{with_unit('p', unit)}\nx",
+        "\ny",
+        "\nz",
+        "now",
+        "best",
+        f"{with_unit('best O', unit)}\nx",
+        "\ny",
+        "\nz",
+    ):
         table.add_column(head, justify="right", no_wrap=True)
     if any(why):
         table.add_column("why", overflow="fold")

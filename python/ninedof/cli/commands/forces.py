@@ -15,6 +15,7 @@ from ninedof.cli.screen import Screen
 from ninedof.design.indices import LEGS
 from ninedof.statics.statics import leg_forces
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount, times, unit_entry
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -50,13 +51,14 @@ def forces(
     for line in posed.pose_lines(c, chosen):
         screen.print(line)
     for k, row in enumerate(loads):
-        screen.print(f"load {k + 1}: moment {vector_words(row[:3])}, force {vector_words(row[3:])}")
+        moment = amount(vector_words(row[:3]), times("force", chosen.unit))
+        screen.print(f"load {k + 1}: moment {moment}, force {vector_words(row[3:])}")
     screen.print(_table(loads, found))
     left = np.abs(unbalanced).max(axis=(1, 2)) > BALANCED * np.abs(loads).max(axis=1)
     for k in np.flatnonzero(left).tolist():
         screen.print(f"[bold]singular[/bold]: at some pose no leg forces balance all of load {k + 1}")
     data = {"poses": posed.poses_data(c), "loads": loads, "legs": LEGS}
-    screen.data(data | {"forces": found, "unbalanced": unbalanced})
+    screen.data(unit_entry(chosen.unit) | data | {"forces": found, "unbalanced": unbalanced})
 
 
 def _table(loads: Floats, found: Floats) -> Table:

@@ -19,6 +19,7 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.position.forward_position import AssemblyModes, forward_position
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
+from ninedof.support.units import unit_entry, with_unit
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -61,12 +62,12 @@ def modes(
         screen.print(found.reason)
     this = _this(found, float(given.max()), c) if lengths is None else -1
     if found.count:
-        screen.print(_table(found, kappa, this, chosen.configuration.rotation))
+        screen.print(_table(found, kappa, this, chosen.configuration.rotation, chosen.unit))
     if this >= 0:
         screen.print("* the given pose")
     data = {"lengths": given, "status": found.status, "reason": found.reason, "count": found.count}
     data |= {"certain": found.certain, "given_pose": this + 1 if this >= 0 else None}
-    screen.data(data | {"modes": posed.poses_data(found), "condition_number": kappa})
+    screen.data(unit_entry(chosen.unit) | data | {"modes": posed.poses_data(found), "condition_number": kappa})
     raise typer.Exit(DONE if found.count else NO_RESULT)
 
 
@@ -78,16 +79,17 @@ def _this(found: AssemblyModes, size: float, c: Configuration) -> int:
     return int(near[0]) if len(near) == 1 else -1
 
 
-def _table(found: AssemblyModes, kappa: Floats, this: int, neutral: Floats) -> Table:
+def _table(found: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
     table = Table(box=box.SIMPLE_HEAD, padding=0)
-    for name in ("", "p\nx", "\ny", "\nz", "turn °\nx", "\ny", "\nz", "O\nx", "\ny", "\nz", "cond.\nno."):
+    p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
+    for name in ("", p, "\ny", "\nz", "turn °\nx", "\ny", "\nz", o, "\ny", "\nz", "cond.\nno."):
         table.add_column(name, justify="right", no_wrap=True)
     decimals = decimals_of(found.position, found.internal_point)
     for k in range(len(found)):
-        p, o = ([fixed(x, decimals) for x in row] for row in (found.position[k], found.internal_point[k]))
+        at, centre = ([fixed(x, decimals) for x in row] for row in (found.position[k], found.internal_point[k]))
         turn = [fixed(x, 1) for x in np.degrees(_rotation_vector(found.rotation[k] @ neutral.T))]
-        table.add_row(f"{k + 1}{'*' if k == this else ''}", *p, *turn, *o, f"{kappa[k]:.4g}")
+        table.add_row(f"{k + 1}{'*' if k == this else ''}", *at, *turn, *centre, f"{kappa[k]:.4g}")
     return table
 
 

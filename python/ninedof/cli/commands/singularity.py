@@ -20,6 +20,7 @@ from ninedof.singularity.nearest_singularity import PARTS, NearestSingularity, n
 from ninedof.singularity.singularity import singularity as singularity_of
 from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
 from ninedof.support.arrays import Floats
+from ninedof.support.units import amount, unit_entry
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -71,8 +72,16 @@ def singularity(
         at = int(np.argmin(values))
         where = f" at pose {at}" if len(c) > 1 else ""
         screen.print(f"|det {name[-1].upper()}| = {values[at]:.6f}{where} (0: {MECHANISMS[name]})")
-    data = {"poses": posed.poses_data(c), "margins": here.margins._asdict(), "mechanism": here.mechanism}
-    screen.data(data | (_coordinates(chosen, c, screen) if motion is None else _along(chosen, c, motion, most, screen)))
+    data = {
+        "poses": posed.poses_data(c),
+        "margins": here.margins._asdict(),
+        "mechanism": here.mechanism,
+    }
+    screen.data(
+        unit_entry(chosen.unit)
+        | data
+        | (_coordinates(chosen, c, screen) if motion is None else _along(chosen, c, motion, most, screen))
+    )
 
 
 def _along(chosen: Chosen, c: Configuration, motion: Floats, most: float, screen: Screen) -> dict[str, Any]:
@@ -102,11 +111,15 @@ def _coordinates(chosen: Chosen, c: Configuration, screen: Screen) -> dict[str, 
         found = distance_to_singularity(chosen.geometry, c[:, None], motions)
         at, axes = np.argmin(found.distance, axis=0), np.arange(6)
         least, kinds = factor * far * found.distance[at, axes], found.mechanism[at, axes]
-        cells = [(f"{x:.4g}{unit}" if math.isfinite(x) else "-", str(k)) for x, k in zip(least, kinds, strict=True)]
+        texts = (f"{x:.4g}{unit}" if unit else amount(f"{x:.4g}", chosen.unit) for x in least)
+        shown_kinds = zip(texts, least, kinds, strict=True)
+        cells = [(text if math.isfinite(x) else "-", str(k)) for text, x, k in shown_kinds]
         for k, axis in enumerate("xyz"):
             table.add_row(f"{name} {axis}", *cells[k], *cells[k + 3], end_section=k == 2)
         one = nearest_singularity(chosen.geometry, c, part, far)
-        nearest.append(_nearest(name, f"{factor * one.distance:.5g}{unit}", one, len(c), chosen))
+        far_off = f"{factor * one.distance:.5g}"
+        shown = far_off + unit if unit else amount(far_off, chosen.unit)
+        nearest.append(_nearest(name, shown, one, len(c), chosen))
         out[part + ("_deg" if unit else "")] = {
             "backward": least[:3],
             "forward": least[3:],

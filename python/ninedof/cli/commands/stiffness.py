@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -16,6 +16,7 @@ from ninedof.sheet.sheet import Extreme, sheet
 from ninedof.statics.statics import stiffness as stiffness_of
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
+from ninedof.support.units import per, times, unit_entry
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -51,12 +52,15 @@ def stiffness(
     if len(c) == 1:
         screen.print(_matrix(found[0]))
     at, turning = (_least(one, len(c)) for one in least)
-    screen.print(f"least stiffness: {at} in force per displacement, the platform free to turn")
-    screen.print(f"least turning stiffness: {turning} in moment per radian, the platform free to shift")
+    along = per("force", chosen.unit) or "force per displacement"
+    about = times("force", chosen.unit) or "moment"
+    screen.print(f"least stiffness: {at} in {along}, the platform free to turn")
+    screen.print(f"least turning stiffness: {turning} in {about} per radian, the platform free to shift")
     for line in posed.mentioned(c, [one.pose for one in least], chosen.unit):
         screen.print(line)
-    data = {"poses": posed.poses_data(c), "leg_stiffness": leg_stiffness, "stiffness": found}
-    screen.data(data | {"least": {name: one._asdict() for name, one in least._asdict().items()}})
+    data: dict[str, Any] = {"poses": posed.poses_data(c), "leg_stiffness": leg_stiffness, "stiffness": found}
+    data["least"] = {name: one._asdict() for name, one in least._asdict().items()}
+    screen.data(unit_entry(chosen.unit) | data)
 
 
 def _least(one: Extreme, count: int) -> str:
