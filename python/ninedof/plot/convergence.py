@@ -123,9 +123,11 @@ def _share(axes: Any, name: str, there: Floats, colour: str) -> None:
     text = f"{name}\n{there[-1]:.1%} by {int(np.argmax(end)) + 1}".replace(".0%", "%").replace("%", " %")
     if half[-1]:
         text = text.replace("\n", f"\nhalf by {int(np.argmax(half)) + 1}, ")
+    # Curves that never reach one half end at the same place: their labels stand one below the other.
+    at = (np.argmax(half) + 1, 0.5) if half[-1] else (len(there), 0.75 - 0.3 * len(axes.texts))
     axes.annotate(
         text,
-        (float(np.argmax(half) + 1 if half[-1] else len(there)), 0.5),
+        (float(at[0]), at[1]),
         xytext=(-8, 0),
         textcoords="offset points",
         ha="right",
