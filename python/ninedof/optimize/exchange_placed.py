@@ -36,6 +36,8 @@ NEARLY = 1e-5  # the violation up to which an end of the quick solver is a desig
 BRANCH = 0.2  # of the region: nearer poses do not join together
 MOST_JOINED = 16  # in a round
 IDLE = -0.03  # a pose where O leaves so much to spare does not rule
+DECIDING = -1e-4  # one where it leaves less takes part when O is a variable
+NEIGHBOURS = 0.05  # of the region: of nearer poses only the worst does, since two of them say nearly the same
 SAME_END = 1e-6  # of logarithms of the index: starts that agree
 SETTLED = 12  # rounds after which poses are added only, so that the exchange comes to an end
 NEAR = 1e-5  # relative: as in `exchange`
@@ -117,7 +119,7 @@ class _Program:
 
     def look(self, ruling: Sequence[Place], design: Design, samples: int, seed: int, passed: float) -> Look:
         """Search the region for where a design is worst although O is placed."""
-        known = [(at, shift) for (at, _), shift in zip(ruling, design.shifts[self.listed :], strict=True)]
+        known = self.placed(ruling, design)
         ranges = self.ranges(ruling, design)
         region = self.region.for_core()
         found = _core.search_region_placed(
@@ -136,17 +138,33 @@ class _Program:
             limit,
         )
 
-    def kept(self, ruling: Sequence[Place], design: Design, look: Look, idle: float) -> list[Place]:
+    def kept(self, ruling: Sequence[Place], design: Design, look: Look, idle: float) -> list[int]:
         """Return the poses where O leaves less than -`idle` to spare or a leg is longest or shortest, and the first."""
         lengths = self._lengths(ruling, design)
         extreme = (lengths >= lengths.max(axis=0) * (1.0 - NEAR)) | (lengths <= lengths.min(axis=0) * (1.0 + NEAR))
         ends = extreme.any(axis=1)[self.listed :]
+        return [k for k, excess in enumerate(look.excess) if k == 0 or ends[k] or excess > idle]
+
+    def placed(self, ruling: Sequence[Place], design: Design) -> list[Place]:
+        """Return the poses with O where the design has it."""
+        return [(at, shift) for (at, _), shift in zip(ruling, design.shifts[self.listed :], strict=True)]
+
+    def deciding(self, ruling: Sequence[Place], design: Design, look: Look) -> list[Place]:
+        """Return the poses that decide the design, of neighbours only the worst."""
+        places = self.placed(ruling, design)
         out: list[Place] = []
-        shifts = design.shifts[self.listed :]
-        for k, ((at, _), shift, excess) in enumerate(zip(ruling, shifts, look.excess, strict=True)):
-            if k == 0 or ends[k] or excess > idle:
-                out.append((at, shift))
+        for k in sorted(self.kept(ruling, design, look, DECIDING), key=lambda k: -look.excess[k]):
+            if not self._beside(places[k], out):
+                out.append(places[k])
         return out
+
+    def replaced(self, ruling: Sequence[Place], design: Design, look: Look) -> list[Place]:
+        """Return the poses with those where the design is worse, which take the place of their neighbours."""
+        new = self.joined((), look)
+        return [place for place in self.placed(ruling, design) if not self._beside(place, new)] + new
+
+    def _beside(self, place: Place, others: Iterable[Place]) -> bool:
+        return any(self.apart(place[0], other) <= NEIGHBOURS for other, _ in others)
 
     def joined(self, ruling: Sequence[Place], look: Look) -> list[Place]:
         """Return the poses with those where the design is worse, far enough from each other."""
@@ -257,10 +275,15 @@ def _round(program: _Program, solve: Solve, state: _State) -> bool:
     if state.exact and nothing_new:
         return False  # the same problem again
     done = nothing_new and (state.thorough or program.study.starts == 1)
-    # Poses that are far from deciding anything leave: at first all, once they go round in circles none.
-    add_only = state.exact or state.rounds > SETTLED
-    idle = -math.inf if add_only else IDLE
-    state.ruling = program.joined(program.kept(imposed, design, look, idle), look)
+    if state.exact:
+        state.ruling = program.replaced(imposed, design, look)
+    elif done:
+        state.ruling = program.deciding(imposed, design, look)
+    else:
+        # Poses that are far from deciding anything leave: at first all, once they go round in circles none.
+        idle = -math.inf if state.rounds > SETTLED else IDLE
+        places = program.placed(imposed, design)
+        state.ruling = program.joined([places[k] for k in program.kept(imposed, design, look, idle)], look)
     state.given = [Design(design.x, (*design.shifts[: program.listed], *(shift for _, shift in state.ruling)))]
     state.all_starts = nothing_new and not done and not state.exact
     state.thorough |= state.all_starts
@@ -285,13 +308,12 @@ def _finished(program: _Program, state: _State) -> Result:
         )
         found = replace(found, reason=reason)
     kept = program.kept(state.imposed, design, look, -NEAR)
-    at_poses = [at for at, _ in state.imposed]
-    numbers = [*range(program.listed), *(program.listed + at_poses.index(at) for at, _ in kept)]
-    places = [*design.shifts[: program.listed], *(shift for _, shift in kept)]
-    fewer = Design(design.x, tuple(places), design.log_objective)
+    numbers = [*range(program.listed), *(program.listed + k for k in kept)]
+    ruling = [state.imposed[k] for k in kept]
+    fewer = Design(design.x, tuple(design.shifts[k] for k in numbers), design.log_objective)
     best = replace(
         best,
-        variables=program.named(program.posed(kept), fewer),
+        variables=program.named(program.posed(ruling), fewer),
         conditions=tuple(best.conditions[k] for k in numbers),
         configurations=best.configurations[[0, *(k + 1 for k in numbers)]],
         reached=state.reached,
@@ -299,7 +321,7 @@ def _finished(program: _Program, state: _State) -> Result:
     worst_at = program.pose(*look.objective_at, zp=design.x[program.height])
     zp = design.x[program.height]
     report = RegionReport(
-        tuple(program.pose(at) for at, _ in kept),
+        tuple(program.pose(at) for at, _ in ruling),
         state.rounds,
         look.looked_at,
         math.exp(look.log_objective),

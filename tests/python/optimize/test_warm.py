@@ -48,6 +48,15 @@ def test_a_warm_start_is_tried(result):
     assert again.objective <= result.objective * (1.0 + 1e-9)
 
 
+def test_a_warm_start_next_to_an_optimum_goes_straight_there(result):
+    """By Newton's method on the rows that carry weight: SLSQP would take dozens of evaluations."""
+    best = result.best.variables
+    near = {name: value * (1.0 + 1e-7) for name, value in best.items()}
+    solved = nd.optimize(STUDY, starts=1, warm=near)
+    assert solved.evaluations == nd.optimize(STUDY, starts=1).evaluations
+    assert solved.objective == pytest.approx(result.objective, rel=1e-12)
+
+
 BAD = {
     "number": 3,
     "text": "best",

@@ -32,12 +32,65 @@ constexpr double least_gain = 1e-10;
 /// Larger condition numbers differ from a singular design by rounding only.
 constexpr double largest_condition = 1e14;
 
-/// Whether Newton's method can start here.
-bool nearly_stationary(const PreparedProblem& p, const Eigen::VectorXd& y) {
-  DesignEvaluation design;
+/// Newton's method can start below this residual.
+constexpr double nearly_stationary = 1e-2;
+/// Smoothed singular values that coincide in the limit are within this many smoothings of the extreme one; without
+/// smoothing, those that another solver left equal are within `left_equal`.
+constexpr double group_width = 7.0, left_equal = 1e-5;
+constexpr int most_additions = 4;  // of what Newton's method came to violate
+
+ActiveSet active_near(const PreparedProblem& p, const Eigen::VectorXd& y, Contact contact, double smoothing,
+                      DesignEvaluation& design) {
   design.state.length_joint = p.pieces(y).front();
+  design.smoothing = smoothing;
   evaluate_design(p, y, design);
-  return stationarity(p, design, active_set(p, design, y, Contact::near)).residual < 1e-2;
+  return active_set(p, design, y, contact);
+}
+
+/// The point after Newton's method, or `y` where it cannot start.
+Eigen::VectorXd polished(const PreparedProblem& p, const Eigen::VectorXd& y) {
+  DesignEvaluation design;
+  const ActiveSet active = active_near(p, y, Contact::near, 0.0, design);
+  return stationarity(p, design, active).residual < nearly_stationary ? polish(p, y, active) : y;
+}
+
+/// Adds to an active set what is violated at `y`; whether that is anything.
+bool add_violated(const PreparedProblem& p, const Eigen::VectorXd& y, ActiveSet& active) {
+  DesignEvaluation design;
+  const ActiveSet there = active_near(p, y, Contact::near, 0.0, design);
+  Eigen::VectorXd level = Eigen::VectorXd::Constant(p.levels, -infinity);
+  const auto value = [&](int k) { return design.objective_rows[p.row_levels[at_index(k)].row]; };
+  for (const int k : active.row_levels) {
+    double& top = level[p.row_levels[at_index(k)].level];
+    top = std::max(top, value(k));
+  }
+  const std::size_t before = active.row_levels.size() + active.margins.size();
+  const auto add = [](std::vector<int>& list, int k) {
+    if (std::ranges::find(list, k) == list.end()) list.push_back(k);
+  };
+  for (const int k : there.row_levels)
+    if (value(k) > level[p.row_levels[at_index(k)].level] + clearly_feasible) add(active.row_levels, k);
+  for (const int k : there.margins)
+    if (design.margins[k] < -clearly_feasible) add(active.margins, k);
+  return active.row_levels.size() + active.margins.size() > before;
+}
+
+/// The same from a design of another solver, such as a warm start. What carries no weight may move until it violates.
+Eigen::VectorXd polished_support(const PreparedProblem& p, const Eigen::VectorXd& y) {
+  DesignEvaluation design;
+  const ActiveSet active = active_near(p, y, Contact::wide, 0.0, design);
+  const Stationarity found = stationarity(p, design, active);
+  if (!(found.residual < nearly_stationary)) return y;
+  ActiveSet support = found.support;
+  Eigen::VectorXd end = polish(p, y, support, left_equal);
+  for (int k = 0; k < most_additions && add_violated(p, end, support); ++k) end = polish(p, end, support, left_equal);
+  return end;
+}
+
+/// The same from a solution of the problem with smoothed singular values.
+Eigen::VectorXd polished_smoothed(const PreparedProblem& p, const Eigen::VectorXd& y, double smoothing) {
+  DesignEvaluation design;
+  return polish(p, y, active_near(p, y, Contact::near, smoothing, design), group_width * smoothing);
 }
 
 }  // namespace
@@ -124,12 +177,16 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
     return end;
   };
 
+  if (minimax && run_settings.polish) {
+    take(polished_support(p, y));
+    if (settled()) return run;
+  }
   Eigen::VectorXd from = y;
   for (int attempt = 0; attempt <= run_settings.restarts && !stop.stop_requested(); ++attempt) {
     bool better = take(solve(from, 0.0, attempt == 0 && minimax && run_settings.polish ? loose : tight));
     if (subproblem.best_seen() != y) better |= take(subproblem.best_seen());
     if (!minimax) return run;
-    if (run_settings.polish && run.end.feasible() && nearly_stationary(p, y)) take(polish(p, y));
+    if (run_settings.polish && run.end.feasible()) take(polished(p, y));
     if (settled()) break;
     if (run_settings.polish && p.has_kinks() && run.end.feasible()) {
       // Where singular values meet off the axis, the index has a kink that no row describes. Solve with decreasing
@@ -140,7 +197,7 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
         smoothed = solve(smoothed, epsilon, tight);
         take(smoothed);
       }
-      take(polish(p, smoothed, smoothings.back()));
+      take(polished_smoothed(p, smoothed, smoothings.back()));
       if (settled()) break;
     }
     // SLSQP stops at its start about once in a thousand runs. Continue a little way towards another start; bounds and

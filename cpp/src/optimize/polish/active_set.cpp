@@ -5,9 +5,8 @@
 namespace ninedof {
 namespace {
 
-constexpr double tie = 1e-6;            // of objective rows that count as equal
-constexpr double near_bound = 1e-7;     // of a coordinate that may be on its way to its bound
-constexpr double limit_contact = 1e-6;  // of a margin that counts as zero
+constexpr double close = 1e-6, wide = 1e-5;  // of objective rows that count as equal, of a margin that counts as zero
+constexpr double near_bound = 1e-7;  // of a coordinate that may be on its way to its bound
 constexpr double order_contact = 1e-9;  // of the logarithm of zp / zs; large robots come close to 0
 
 void add_once(std::vector<std::string>& list, const std::string& name) {
@@ -18,6 +17,7 @@ void add_once(std::vector<std::string>& list, const std::string& name) {
 
 ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y,
                      Contact contact) {
+  const double tie = contact == Contact::wide ? wide : close;
   const double bound_contact = contact == Contact::exact ? 1e-12 : near_bound;
   const Coordinates& c = p.coordinates;
   ActiveSet a;
@@ -25,7 +25,7 @@ ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, c
     if (design.levels[p.row_levels[k].level] - design.objective_rows[p.row_levels[k].row] <= tie)
       a.row_levels.push_back(static_cast<int>(k));
   for (Eigen::Index k = 0; k < design.margins.size(); ++k)
-    if (design.margins[k] <= limit_contact) a.margins.push_back(static_cast<int>(k));
+    if (design.margins[k] <= tie) a.margins.push_back(static_cast<int>(k));
   for (int k = 0; k < c.size(); ++k) {
     if (y[k] - c.low()[k] <= bound_contact) a.at_low.push_back(k);
     if (c.high()[k] - y[k] <= bound_contact) a.at_high.push_back(k);

@@ -17,7 +17,8 @@ struct ActiveSet {
 
 /// Which coordinates are on a bound: those exactly there, for checks, or those near it, which Newton's method moves
 /// there. A length of 1e-9 is not on its bound at 0; otherwise designs that keep shrinking would pass as optima.
-enum class Contact { exact, near };
+/// `wide`: rows and margins too, as at a design found by another solver.
+enum class Contact { exact, near, wide };
 
 ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y,
                      Contact contact = Contact::exact);
@@ -34,12 +35,13 @@ std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a);
 struct Stationarity {
   double residual = 0.0;
   std::map<std::string, double> prices;  ///< see Candidate::prices
+  ActiveSet support;                     ///< the active set without rows and margins of no weight
 };
 Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a);
 
-/// Newton's method on the first-order conditions of the active set at `y`: active rows and margins as equations, second
+/// Newton's method on the first-order conditions of an active set near `y`: its rows and margins as equations, second
 /// derivatives by differences of exact gradients. Returns the last point reached, inside the bounds; the caller judges
-/// it. Singular values about as close as `smoothing`, that of the problem `y` solves, are held equal.
-Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& y, double smoothing = 0.0);
+/// it. Singular values of an active pose no farther apart than `gap`, in logarithms, are held equal (0: none are).
+Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& y, const ActiveSet& active, double gap = 0.0);
 
 }  // namespace ninedof

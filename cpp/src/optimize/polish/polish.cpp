@@ -10,8 +10,6 @@ namespace ninedof {
 namespace {
 
 constexpr int newton_steps = 6;
-/// Smoothed singular values that coincide in the limit are within this many smoothings of the extreme one.
-constexpr double group_width = 7.0;
 constexpr double difference_step = 1e-6;  // of solver coordinates, which are of order one
 
 /// Values and derivatives of the equations; each value equals t of its `level`, or 0 where that is -1.
@@ -24,7 +22,6 @@ struct Equations {
 /// The equations of an active set: rows equal to their level, margins at zero, singular values that coincide.
 class ActiveEquations {
  public:
-  /// `gap`: singular values of an active pose no farther apart than this, in logarithms, are held equal; 0: none are.
   ActiveEquations(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a, double gap)
       : p_(&p), margins_(a.margins) {
     std::vector<int> poses;
@@ -127,15 +124,11 @@ Eigen::MatrixXd level_curvature(const PreparedProblem& p, const Eigen::VectorXd&
 
 }  // namespace
 
-Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, double smoothing) {
+Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, const ActiveSet& active, double gap) {
   const int n = p.coordinates.size();
   Eigen::VectorXd y = start;
   DesignEvaluation design, ahead;
   design.state.length_joint = ahead.state.length_joint = p.pieces(y).front();
-  design.smoothing = smoothing;
-  evaluate_design(p, y, design);
-  const ActiveSet active = active_set(p, design, y, Contact::near);
-  design.smoothing = 0.0;
   std::vector<bool> held(at_index(n), false);
   for (const int k : active.at_low) {
     held[at_index(k)] = true;
@@ -150,7 +143,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, d
   for (int k = 0; k < n; ++k)
     if (!held[at_index(k)]) moving.push_back(k);
   const auto m = static_cast<Eigen::Index>(moving.size());
-  const ActiveEquations equations(p, design, active, group_width * smoothing);
+  const ActiveEquations equations(p, design, active, gap);
   const Eigen::Index levels = p.levels, unknowns = m + levels;
   Eigen::VectorXd t = design.levels;
 

@@ -13,14 +13,16 @@ namespace {
 constexpr double cluster_tie = 1e-6;  // of logarithms of singular values that count as one
 constexpr int cluster_rounds = 40;    // directions added one by one; two or three settle a pair
 
-/// Columns of the least-squares problem: a derivative in solver coordinates and the level its weight counts for, or -1.
+/// Columns of the least-squares problem: a derivative in solver coordinates, the level its weight counts for, and the
+/// item of ActiveSet::row_levels it belongs to, or -1 each.
 struct Columns {
   std::vector<Eigen::VectorXd> gradient;
-  std::vector<int> level;
+  std::vector<int> level, row;
 
-  void add(Eigen::VectorXd g, int of_level = -1) {
+  void add(Eigen::VectorXd g, int of_level = -1, int of_row = -1) {
     gradient.push_back(std::move(g));
     level.push_back(of_level);
+    row.push_back(of_row);
   }
   Eigen::Index count() const { return static_cast<Eigen::Index>(gradient.size()); }
 };
@@ -59,35 +61,53 @@ Weights balance_clusters(const PreparedProblem& p, const DesignEvaluation& desig
                          const Eigen::VectorXd& slopes, Columns& columns) {
   const Eigen::Index n = p.coordinates.size();
   Weights now = balance(columns, slopes, n);
-  std::vector<std::pair<Cluster, int>> clusters;  // with the level they belong to
+  struct OfRow {
+    Cluster cluster;
+    int level, row;
+  };
+  std::vector<OfRow> clusters;
   const int poses = p.evaluated_poses();
   for (int pose = 0; pose < poses; ++pose) {
-    std::vector<int> levels;
-    for (const int k : a.row_levels) {
-      const RowLevel& u = p.row_levels[at_index(k)];
+    std::vector<std::pair<int, int>> levels;  // with the first active row
+    for (std::size_t k = 0; k < a.row_levels.size(); ++k) {
+      const RowLevel& u = p.row_levels[at_index(a.row_levels[k])];
       const bool of_pose = u.row >= p.first_row(pose) && u.row < p.first_row(pose + 1);
-      if (of_pose && std::ranges::find(levels, u.level) == levels.end()) levels.push_back(u.level);
+      const bool known = std::ranges::any_of(levels, [&](const auto& l) { return l.first == u.level; });
+      if (of_pose && !known) levels.emplace_back(u.level, static_cast<int>(k));
     }
     if (levels.empty()) continue;
     const Cluster cluster(p, design, pose, cluster_tie);
     if (!cluster.ambiguous()) continue;
-    for (const int level : levels) clusters.emplace_back(cluster, level);
+    for (const auto& [level, row] : levels) clusters.push_back({cluster, level, row});
   }
   for (int round = 0; round < cluster_rounds && !clusters.empty() && now.residual.norm() > 1e-10; ++round) {
     bool added = false;
-    for (const auto& [cluster, level] : clusters) {
+    for (const auto& [cluster, level, row] : clusters) {
       Eigen::VectorXd g = cluster.steepest(now.residual);
       double best = infinity;
       for (Eigen::Index k = 0; k < columns.count(); ++k)
         if (columns.level[at_index(k)] == level) best = std::min(best, columns.gradient[at_index(k)].dot(now.residual));
       if (g.dot(now.residual) >= best - 1e-9 * now.residual.norm()) continue;
-      columns.add(std::move(g), level);
+      columns.add(std::move(g), level, row);
       added = true;
     }
     if (!added) break;
     now = balance(columns, slopes, n);
   }
   return now;
+}
+
+/// The active set without the rows and margins of no weight; columns of margins begin at `first_margin`.
+ActiveSet carrying(const ActiveSet& a, const Columns& columns, const Eigen::VectorXd& w, std::size_t first_margin) {
+  std::vector<bool> carries(a.row_levels.size(), false);
+  for (Eigen::Index k = 0; k < columns.count(); ++k)
+    if (columns.row[at_index(k)] >= 0 && w[k] > 0.0) carries[at_index(columns.row[at_index(k)])] = true;
+  ActiveSet out{{}, {}, a.at_low, a.at_high, a.order};
+  for (std::size_t k = 0; k < carries.size(); ++k)
+    if (carries[k]) out.row_levels.push_back(a.row_levels[k]);
+  for (std::size_t k = 0; k < a.margins.size(); ++k)
+    if (w[static_cast<Eigen::Index>(first_margin + k)] > 0.0) out.margins.push_back(a.margins[k]);
+  return out;
 }
 
 /// Whether the index has its least possible value, 1 or, in the Frobenius norm, 6; it has no derivatives there.
@@ -109,12 +129,12 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
   const Eigen::Index n = p.coordinates.size();
   if (n == 0) return {};
   if (!design.objective_rows.allFinite() || !design.row_gradient.allFinite() || !design.margin_gradient.allFinite())
-    return {infinity, {}};
+    return {infinity, {}, {}};
   if (least_possible(p, design)) return {};
   Columns columns;
-  for (const int k : a.row_levels) {
-    const RowLevel& u = p.row_levels[at_index(k)];
-    columns.add(design.row_gradient.row(u.row), u.level);
+  for (std::size_t k = 0; k < a.row_levels.size(); ++k) {
+    const RowLevel& u = p.row_levels[at_index(a.row_levels[k])];
+    columns.add(design.row_gradient.row(u.row), u.level, static_cast<int>(k));
   }
   // Margins are relative to their limit: the price is the weight times 1, or 0 for rows of auxiliary variables.
   std::vector<std::pair<std::string, double>> named;  // and the factor from weight to price
@@ -143,6 +163,7 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
     if (!name.empty()) out.prices[name] += factor * settled.w[static_cast<Eigen::Index>(limited + k)];
   }
   std::erase_if(out.prices, [](const auto& price) { return !(price.second > 1e-9); });
+  out.support = carrying(a, columns, settled.w, limited);
   return out;
 }
 
