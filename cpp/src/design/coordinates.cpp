@@ -132,7 +132,12 @@ double Coordinates::to_x(int variable, double y) const {
 }
 
 double Coordinates::within_turn(int k, double y) const {
-  const double low = x_low_[variable(k)], high = x_high_[variable(k)];
+  double low = x_low_[variable(k)], high = x_high_[variable(k)];
+  if (low == -turn && high == turn) {
+    // Without bounds every value is as good: the one a reader expects.
+    low = -0.5 * full_turn;
+    high = 0.5 * full_turn;
+  }
   if (y >= low && y <= high) return y;
   return std::clamp(y - full_turn * std::floor((y - low) / full_turn), low, high);
 }

@@ -21,7 +21,7 @@ def short(value: float) -> str:
 def result_table(result: Result) -> Table:
     """Return the table of the best candidates, one per column, best first."""
     shown = result.candidates[:SHOWN]
-    table = Table(title=f"{_count(len(result.candidates))}, {result.starts_done} starts", title_justify="left")
+    table = Table(title=_count(len(result.candidates)), title_justify="left")
     table.add_column("", overflow="fold")
     for k in range(len(shown)):
         table.add_column("best" if k == 0 else f"no. {k + 1}", justify="right", overflow="fold")

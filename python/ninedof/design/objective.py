@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from ninedof.design import poses
 from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
-from ninedof.design.region import Region
+from ninedof.design.region import REGION_KEYS, Region
 from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
 from ninedof.support.short import short_repr
 
@@ -179,7 +179,9 @@ def _region(value: Any, **defaults: Any) -> Region | None:
     """Return a region, made from a table if one is given."""
     if value is None or isinstance(value, Region):
         return value
-    return _named("objective.region", Region.from_dict, defaults | dict(table("objective.region", value)))
+    entries = dict(table("objective.region", value))
+    known_keys("objective.region", entries, REGION_KEYS)
+    return _named("objective.region", Region.from_dict, defaults | entries)
 
 
 def _pose(index: int, value: Any, **defaults: Any) -> Pose:

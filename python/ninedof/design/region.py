@@ -13,6 +13,8 @@ from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
+ANGLES = ("tilt", "yaw")
+REGION_KEYS = (*SHAPES, *ANGLES, *(f"{name}_deg" for name in ANGLES), "internal_point", "unit")
 INTERNAL_POINTS = ("carried", "held", "best")
 
 
@@ -89,10 +91,9 @@ class Region:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Region:
         """Make a region from the table [objective.region] of a study file; angles may be in degrees."""
-        angles = ("tilt", "yaw")
-        known_keys("region", data, [*SHAPES, *angles, *(f"{name}_deg" for name in angles), "internal_point", "unit"])
+        known_keys("region", data, REGION_KEYS)
         entries = dict(data)
-        for name in angles:
+        for name in ANGLES:
             if f"{name}_deg" in entries:
                 if name in entries:
                     raise ValueError(f"{name}: got both {name} and {name}_deg, expected one of the two")
@@ -106,7 +107,7 @@ class Region:
             value = getattr(self, name)
             if value is not None:
                 out[name] = [list(p) for p in value] if name == "path" else value if name == "ball" else list(value)
-        for name in ("tilt", "yaw"):
+        for name in ANGLES:
             if angle := getattr(self, name):
                 degrees = exact_degrees(angle)
                 out |= {name: angle} if degrees is None else {f"{name}_deg": degrees[0]}

@@ -10,7 +10,7 @@ from ninedof import _core
 from ninedof.design.study import Study
 from ninedof.optimize.exchange import optimize_region
 from ninedof.optimize.exchange_placed import optimize_placed
-from ninedof.optimize.result import Candidate, Result, candidate_from, result_from
+from ninedof.optimize.result import Candidate, Result, Status, candidate_from, result_from
 from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.support.arrays import thread_argument
@@ -80,6 +80,8 @@ def optimize(
         begin = perf_counter()
         report = progress if rounds is None else rounds.begin(starts, len(posed.objective.poses))
         found = _core.optimize(posed.problem(), settings, report)
+        if found["status"] == Status.INFEASIBLE and posed.unit:
+            found["reason"] += f" (lengths in {posed.unit})"
         return result_from(posed, found | {"seconds": perf_counter() - begin})
 
     region = study.objective.region

@@ -33,4 +33,4 @@ def _rows(result: Any, shown: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
     length = with_unit("characteristic length", result.study.unit)
     yield length, *(c.characteristic_length for c in shown)
     yield "limits reached", *(", ".join(c.active) or "nothing" for c in shown)
-    yield "starts that ended here", *(f"{c.reached} of {result.starts_done}" for c in shown)
+    yield "starts that ended here", *(str(c.reached) for c in shown)

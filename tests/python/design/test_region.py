@@ -68,7 +68,7 @@ BAD = {
     "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt_deg: got"),
     "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
     "word": ({"internal_point": "stay"}, r"objective\.region\.internal_point: got 'stay'"),
-    "key": ({"bal": 1}, r"objective\.region\.region\.bal|did you mean"),
+    "key": ({"bal": 1}, r"^objective\.region: got the entry 'bal', .*did you mean 'ball'"),
     "corners": ({"path": [[0, 0, 0], [0, 0, 0]]}, r"objective\.region\.path: got 2 corners"),
     "cylinder": ({"cylinder": 1}, r"objective\.region\.cylinder: got 1"),
 }

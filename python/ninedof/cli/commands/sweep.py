@@ -100,6 +100,7 @@ def sweep(
         grid, indices = _grid(what, over or [], points), index or ("condition_number",)
         title = f"over {', '.join(grid)}"
         if all(plain_name(name) in COORDINATES for name in grid):
+            title += "" if absolute else ", from the neutral pose"
             design = with_length(_design(what, sides, theta_z_deg), lc)
             asked = partial(
                 sweep_poses,
