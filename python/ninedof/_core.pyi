@@ -238,6 +238,17 @@ def search_region_placed(
     threads: int,
     /,
 ) -> dict[str, Any]: ...
+def place_in_region(
+    problem: Problem,
+    region: dict[str, Any],
+    variables: Sequence[float],
+    log_index: float,
+    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    known: Sequence[Sequence[float]],
+    at: _Floats,
+    threads: int,
+    /,
+) -> tuple[_Floats, _Floats]: ...
 def optimize_placed(
     problem: Problem,
     given: Sequence[tuple[Sequence[float], Sequence[Sequence[float]]]],

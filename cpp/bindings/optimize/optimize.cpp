@@ -128,13 +128,8 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
-/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its limit).
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
-py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                            double log_index, const py::sequence& ranges, const py::sequence& known, long samples,
-                            std::uint64_t seed, int threads) {
-  const Region r = region_from(region);
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+/// `ranges`: (limit, low, high, size) of the lengths of the nine legs.
+PlacementGoal goal_from(double log_index, const py::sequence& ranges) {
   PlacementGoal goal{log_index, {}};
   for (const py::handle& range : ranges) {
     const auto [limit, low, high, size] =
@@ -143,6 +138,41 @@ py::dict worst_with_placing(const Problem& problem, const py::dict& region, cons
     for (Vec9* end : {&a, &b}) *end = size > 0.0 ? Vec9(*end / size) : Vec9(end->array().log());
     goal.ranges.push_back({limit, a, b, size});
   }
+  return goal;
+}
+
+/// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
+py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
+                           double log_index, const py::sequence& ranges,
+                           const std::vector<std::array<double, 3>>& known, const py::object& at, int threads) {
+  const Region r = region_from(region);
+  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+  const PlacementGoal goal = goal_from(log_index, ranges);
+  std::vector<Vec3> shifts;
+  for (const auto& shift : known) shifts.push_back(Vec3::Map(shift.data()));
+  const py::ssize_t count = py::len(at);
+  const Array given = array_of_shape("at", at, {count, 6});
+  std::vector<Vec6> poses;
+  for (py::ssize_t k = 0; k < count; ++k) poses.push_back(Vec6::Map(given.data(k, 0)));
+  const std::vector<PlacedEnd> found = interruptible(py::none(), [&](const Control& control) {
+    return place_in_region(problem, r, variables, goal, shifts, poses, threads, control);
+  });
+  Array near({count, py::ssize_t{6}}), moved({count, py::ssize_t{3}});
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Vec6::Map(near.mutable_data(static_cast<py::ssize_t>(k), 0)) = found[k].placed.at;
+    Vec3::Map(moved.mutable_data(static_cast<py::ssize_t>(k), 0)) = found[k].placed.shift;
+  }
+  return py::make_tuple(near, moved);
+}
+
+/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its limit).
+/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
+py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
+                            double log_index, const py::sequence& ranges, const py::sequence& known, long samples,
+                            std::uint64_t seed, int threads) {
+  const Region r = region_from(region);
+  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+  const PlacementGoal goal = goal_from(log_index, ranges);
   std::vector<Placed> places;
   for (const py::handle& place : known) {
     const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
@@ -214,6 +244,7 @@ void bind_optimize(py::module_& m) {
   m.def("search_region", &worst_of_region);
   m.def("search_region_placed", &worst_with_placing);
   m.def("optimize_placed", &placed_optima);
+  m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },

@@ -13,6 +13,7 @@ namespace ninedof {
 namespace {
 
 constexpr long samples_a_task = 256;        // of samples
+constexpr long poses_a_task = 16;
 constexpr double spare = 0.02;     // a sample with so much to spare is not looked at further
 constexpr double no_longer_held = 1e-7;    // excess from which O is placed from other starts too
 constexpr double apart = 0.2;      // of the region: samples nearer than that to a worse one begin no ascent
@@ -164,6 +165,30 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
   stop_here();
   out.poses = settings.samples;
   for (const long count : counts) out.poses += count;
+  return out;
+}
+
+std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
+                                       const PlacementGoal& goal, const std::vector<Vec3>& known,
+                                       const std::vector<Vec6>& at, int threads, const Control& control) {
+  problem.validate();
+  region.validate();
+  require_full("variables", problem, variables);
+  std::vector<Placed> others, none;
+  for (const Vec3& shift : known) others.push_back({Vec6::Zero(), shift});
+  const auto count = static_cast<long>(at.size());
+  std::vector<PlacedEnd> out(at.size());
+  parallel_for((count + poses_a_task - 1) / poses_a_task, 1, threads, [&](long task, long) {
+    if (control.stop.stop_requested()) return;
+    Placing plain(problem, region, variables, goal, none), placing(problem, region, variables, goal, others);
+    for (long k = task * poses_a_task; k < std::min(count, (task + 1) * poses_a_task); ++k) {
+      Placed placed{region.nearest(at[at_index(k)]), Vec3::Zero()};
+      const double excess = plain.anew(placed, infinity, -infinity);
+      if (excess > no_longer_held) placing.anew(placed, excess, no_longer_held);
+      out[at_index(k)] = placing.end(placed);
+    }
+  });
+  if (control.stop.stop_requested()) throw Stopped{};
   return out;
 }
 

@@ -84,9 +84,10 @@ def _joints(found: Sheet) -> Table:
 def region_words(found: Sheet) -> Iterator[str]:
     """Yield a sentence on how the region was looked over, if there is one."""
     if (look := found.region) is not None:
-        yield f"Region: {look.region}. Poses looked at: {look.looked_at}, a sample and descents from the worst of it."
-    elif found.leg_ranges is not None:
-        yield "O is placed anew at every pose of the region: extremes are those of the poses that ruled."
+        how = "a sample and descents from the worst of it" if found.leg_ranges is None else "a sample"
+        yield f"Region: {look.region}. Poses looked at: {look.looked_at}, {how}."
+    if found.leg_ranges is not None:
+        yield "O is placed anew at every pose, where the worst of the index and the limits is least."
         if found.leg_ranges:
             kept = (f"{leg.name} {a:.6g} to {b:.6g}" for leg, (a, b) in zip(found.legs, found.leg_ranges, strict=True))
             yield f"In all of the region each leg keeps to {amount(', '.join(kept), found.unit)}."

@@ -21,7 +21,7 @@ from ninedof.sheet.clearance import clearances
 from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
 from ninedof.sheet.legs import forces_of
 from ninedof.sheet.pose_limits import CONES, cone_angles
-from ninedof.sheet.region_search import Numbers, extreme_poses
+from ninedof.sheet.region_search import Numbers, extreme_poses, finite_or_high
 from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.singularity.singularity import singularity_margins
@@ -29,7 +29,12 @@ from ninedof.statics.accuracy import error_bounds
 from ninedof.support.arrays import Floats
 
 SAMPLES = 10_000
+PLACED = 2000  # the most where O is placed anew at every pose, which takes a thousand times as long
 PARTS = 8  # of the even sample, for the error of its mean
+
+
+Place = Callable[[Floats], tuple[Configuration, tuple[Pose, ...]]]
+"""From coordinates, shape (n, 6), to the poses with O placed."""
 
 
 class RegionLook(NamedTuple):
@@ -65,14 +70,30 @@ def look_over(
     region: Region = study.objective.region  # type: ignore[assignment]
     at = samples(region, count)
     worst, looked_at = extreme_poses(region, neutral, at, _numbers(study, g, neutral, asked))
-    kappa = np.full(count, np.inf)
+    even = configurations_at(region, neutral, at[:count])[1]
+    look = _look(region, study, g, asked, even, looked_at)
+    return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
+
+
+def look_over_placed(
+    study: Study, g: Geometry, neutral: Configuration, asked: Asked, place: Place, count: int
+) -> tuple[RegionLook, Configuration, tuple[Pose, ...]]:
+    """Return the same where O is placed anew at every pose: the worst of the sample, without descents."""
+    region: Region = study.objective.region  # type: ignore[assignment]
+    at = samples(region, count)
+    c, poses = place(at)
+    worst = {int(k) for numbers in _numbers(study, g, neutral, asked) for k in np.argmin(finite_or_high(numbers(c)), 0)}
+    rows = sorted(worst)
+    return _look(region, study, g, asked, c[:count], len(c)), c[rows], tuple(poses[k] for k in rows)
+
+
+def _look(region: Region, study: Study, g: Geometry, asked: Asked, even: Configuration, looked_at: int) -> RegionLook:
+    kappa = np.full(len(even), np.inf)
     if np.isfinite(asked.characteristic_length):
-        even = configurations_at(region, neutral, at[:count])[1]
         kappa = np.asarray(condition_number(g, even, asked.characteristic_length))
     means = np.array([part.mean() for part in np.array_split(kappa, PARTS) if len(part)])
     error = float(means.std(ddof=1) / np.sqrt(len(means))) if len(means) > 1 and np.isfinite(means).all() else np.inf
-    look = RegionLook(region.worded(study.unit), looked_at, float(kappa.mean()), error)
-    return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
+    return RegionLook(region.worded(study.unit), looked_at, float(kappa.mean()), error)
 
 
 def _numbers(study: Study, g: Geometry, neutral: Configuration, asked: Asked) -> list[Numbers]:

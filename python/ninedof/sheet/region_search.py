@@ -42,7 +42,7 @@ def extreme_poses(region: Region, neutral: Configuration, at: Floats, groups: Se
     near, c = configurations_at(region, neutral, at)
     found, looked_at, parts = [], len(near), _parts(region, near)
     for group in groups:
-        values = _numbers(group, c)
+        values = finite_or_high(group(c))
         numbers = np.arange(values.shape[1])
         worst = np.stack([part[np.argmin(values[part], axis=0)] for part in parts])  # (parts, numbers)
         order = np.argsort(values[worst, numbers], axis=0, kind="stable")[:STARTS]
@@ -83,7 +83,7 @@ def _descend(
         near, c = configurations_at(region, neutral, trial.reshape(-1, 6))
         count += len(near)
         moves = trial.shape[1]
-        values = _numbers(group, c)[np.arange(len(near)), np.repeat(which[active], moves)].reshape(-1, moves)
+        values = finite_or_high(group(c))[np.arange(len(near)), np.repeat(which[active], moves)].reshape(-1, moves)
         best = np.argmin(values, axis=1)
         least = values[np.arange(len(active)), best]
         with np.errstate(invalid="ignore"):  # infinite: there is nothing to lower
@@ -112,6 +112,6 @@ def _neighbours(region: Region, at: Floats, step: Floats) -> Floats:
     return np.concatenate(moves, axis=1)
 
 
-def _numbers(group: Numbers, c: Configuration) -> Floats:
-    values = group(c)
+def finite_or_high(values: Floats) -> Floats:
+    """Return the values with infinity in place of NaN."""
     return np.where(np.isnan(values), np.inf, values)

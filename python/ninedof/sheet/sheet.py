@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
@@ -22,7 +23,7 @@ from ninedof.sheet.leg_motion import Motion, shown_internal
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
-from ninedof.sheet.over_region import SAMPLES, Asked, RegionLook, look_over
+from ninedof.sheet.over_region import PLACED, SAMPLES, Asked, RegionLook, look_over, look_over_placed
 from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
@@ -120,7 +121,7 @@ class Sheet:
     """Name of the length unit; "" without one."""
     leg_ranges: tuple[tuple[float, float], ...] | None = None
     """Where O is placed anew at every pose of a region: the length that each leg keeps in all of it, empty if no limit
-    compares poses; the extremes are then those of the poses that ruled. None for others."""
+    compares poses. None for others."""
 
     @property
     def idle(self) -> tuple[str, ...]:
@@ -226,7 +227,9 @@ def sheet(
 
     Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
     result of a region study they are those over the region: a dense sample is looked at, with descents from the worst
-    of it for every number of the sheet.
+    of it for every number of the sheet. Where O is placed anew at every pose, the sample has 2000 even poses and as
+    many toward the boundary, O is at each where the worst of the index and the limits is least, and there are no
+    descents.
 
     Parameters
     ----------
@@ -305,8 +308,14 @@ def sheet(
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
     region = design.study.objective.region if poses is None and study is not None else None
-    if study is not None and region is not None and places_o(region):
-        look, worst, shifts = look_over(design.study, g, c[0], asked, count)
+    report = getattr(design, "region", None)
+    kept = None if region is None or places_o(region) or report is None else report.leg_ranges
+    if study is not None and region is not None and (places_o(region) or kept is not None):
+        if kept is None:
+            look, worst, shifts = look_over(design.study, g, c[0], asked, count)
+        else:
+            place = Placing(design.study, c[0], variables or {}, design.objective, kept)
+            look, worst, shifts = look_over_placed(design.study, g, c[0], asked, place, min(count, PLACED))
         c = _joined(c, worst)
         study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
     kappa = np.full(len(c), np.inf) if kind_without_value else np.asarray(condition_number(g, c, length))
@@ -330,7 +339,7 @@ def sheet(
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
         unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
-        leg_ranges=design.region.leg_ranges if look is None and region is not None and design.region else None,
+        leg_ranges=kept,
     )
 
 

@@ -1,0 +1,55 @@
+"""The poses of a region with O placed anew at each, as the solver of the study places it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from ninedof import _core
+from ninedof.design.pose import Pose
+from ninedof.design.region import Region
+from ninedof.design.region_stack import configurations_at
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arrays import Floats
+
+Ranges = Sequence[tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Placing:
+    """O where the worst of the index, of the limits and of the ranges of the legs is least."""
+
+    study: Study
+    neutral: Configuration
+    variables: Mapping[str, float]
+    """Of the design, with O at the poses that ruled."""
+    objective: float
+    leg_ranges: Ranges
+    """The least and greatest length of each leg; empty if no limit compares poses."""
+
+    def __call__(self, at: Floats) -> tuple[Configuration, tuple[Pose, ...]]:
+        """Return the configurations and poses at given coordinates, shape (n, 6)."""
+        region: Region = self.study.objective.region  # type: ignore[assignment]
+        plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
+        x = [self.variables[name] for name in plain.names]
+        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
+        ranges = [("", low, high, 0.0)] if self.leg_ranges else []
+        near, shift = _core.place_in_region(
+            plain, region.for_core(), x, math.log(self.objective), ranges, self._known(), at, 0
+        )
+        there = configurations_at(region, self.neutral, near)[1]
+        zp = float(self.neutral.position[2])
+        size = 1.0 if region.unit == "zp" else zp
+        rows = _core.region_poses(region.for_core(), near)
+        poses = tuple(
+            Pose(tuple(row[6:9]), tuple(row[9:12]), tuple(s), region.unit)
+            for row, s in zip(rows.tolist(), (size * shift).tolist(), strict=True)
+        )
+        return Configuration(there.position, there.rotation, self.neutral.internal_point + zp * shift), poses
+
+    def _known(self) -> list[tuple[float, ...]]:
+        """Return the shifts of O at the poses that ruled, in zp."""
+        names = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
+        return [tuple(self.variables[f"{name}.s_{axis}"] for axis in "xyz") for name in names]
