@@ -58,7 +58,10 @@ PYTHON_ROOMS = (
     "sweep",
     "atlas",
     "plot",
+    "export",
     "runs",
+    "report",
+    "viewer",
     "__init__",
     "cli",
     "__main__",
@@ -89,7 +92,7 @@ AT_RUN_TIME = {"plot": {"support", "robot"}}
 ORACLES = {"verify": {"__init__", "cli"}}
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
-HEAVY = {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "distributed"}
+HEAVY = {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "distributed", "viser"}
 
 # Tests lie in the rooms of the package; those of documents, examples and of the whole in a room of their own.
 TEST_ROOMS = {*PYTHON_ROOMS, "project"}

@@ -1,0 +1,1 @@
+"""Designs as files of other programs: simulators, CAD, documents; and designs read from such files."""

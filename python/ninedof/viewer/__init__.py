@@ -1,0 +1,1 @@
+"""A design to move by hand, in a browser."""
