@@ -1,7 +1,8 @@
-"""Links of the documents lead somewhere; the README runs as written. test_equations.py checks the tables."""
+"""Links of the documents lead somewhere; the tour runs as written. test_equations.py checks the tables."""
 
 import ast
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -32,17 +33,35 @@ SMALLER = {
 }
 
 
-def test_the_python_of_the_readme_runs_as_written(capsys):
+def blocks(page, language):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return re.findall(rf"```{language}\n(.*?)```", text, flags=re.DOTALL)
+
+
+def test_the_readme_is_short_and_its_python_is_of_the_tour():
+    assert (ROOT / "README.md").read_text(encoding="utf-8").count("\n") < 120
+    (code,) = blocks("README.md", "python")
+    of_tour = "\n".join(blocks("docs/tour.md", "python")).split("\n")
+    assert [line for line in code.split("\n") if line not in of_tour and "forward_position" not in line] == []
+
+
+def test_the_study_of_the_readme_is_an_example():
+    (text,) = blocks("README.md", "toml")
+    example = tomllib.loads((ROOT / "examples" / "18_requirement.toml").read_text(encoding="utf-8"))
+    del example["solver"]
+    assert tomllib.loads(text) == example
+
+
+def test_the_python_of_the_tour_runs_as_written(capsys):
     """Block after block, as a reader would type them; only sizes are smaller."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
-    assert len(blocks) >= 9
-    code = "\n".join(blocks)
+    found = blocks("docs/tour.md", "python")
+    assert len(found) >= 9
+    code = "\n".join(found)
     for large, small in SMALLER.items():
         assert large in code
         code = code.replace(large, small)
     known: dict[str, object] = {}
-    exec(compile(code, "README.md", "exec"), known)
+    exec(compile(code, "tour.md", "exec"), known)
     shown = capsys.readouterr().out
     assert "optimal" in shown
     assert round(known["found"].volume, 1) == 7.8
