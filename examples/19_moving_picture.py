@@ -25,7 +25,8 @@ curves = {"O half way up": nd.condition_number(g, half), "O at its best": nd.con
 for name, kappa in curves.items():
     print(f"{name}: condition number {kappa.min():.3f} to {kappa.max():.3f}")
 
-for file in (name for name in sys.argv[1:] if name.endswith(".gif")):
+
+def write(file: str) -> None:
     from matplotlib.animation import FuncAnimation, PillowWriter
     from matplotlib.figure import Figure
 
@@ -47,3 +48,8 @@ for file in (name for name in sys.argv[1:] if name.endswith(".gif")):
         dot.set_data([degrees[k]], [curves["O at its best"][k]])
 
     FuncAnimation(figure, draw, frames=FRAMES).save(file, writer=PillowWriter(fps=14), dpi=80)
+
+
+for name in sys.argv[1:]:
+    if name.endswith(".gif"):
+        write(name)
