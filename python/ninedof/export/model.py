@@ -1,0 +1,112 @@
+"""`Model`: what every file format needs to know of one design."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.support.arrays import Floats
+from ninedof.support.units import unit_argument
+
+LEGS = ("l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3")
+"""The legs in the order of `leg_lengths`."""
+
+Ranges = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """One design as the writers of files see it. Lengths in the unit of the design, angles in radians."""
+
+    geometry: Geometry
+    configuration: Configuration
+    """The neutral one: a single configuration."""
+    characteristic_length: float | str = 1.0
+    """A number, or a kind of `ninedof.characteristic_length`."""
+    unit: str = ""
+    """Name of the length unit, one of `ninedof.support.units.UNITS`; "" without one."""
+    name: str = "ninedof"
+    """Names the robot inside the file: letters, digits, "_" and "-"."""
+    study: Study | None = None
+    """The study that found the design."""
+    source: Any = None
+    """What was handed to `model_of`: a Result, a Design, ..."""
+
+    @cached_property
+    def length(self) -> float:
+        """The characteristic length as a number; NaN where its kind has no value, at a singular configuration."""
+        if isinstance(self.characteristic_length, str):
+            return float(length_of(self.geometry, self.configuration, self.characteristic_length))
+        return float(self.characteristic_length)
+
+    @cached_property
+    def neutral_lengths(self) -> Floats:
+        """The nine leg lengths at the neutral configuration, shape (9,)."""
+        return leg_lengths(self.geometry, self.configuration)
+
+    @cached_property
+    def sheet(self) -> Sheet | None:
+        """The engineering sheet over the poses or the region of the study; None without a study. May take seconds."""
+        return None if self.study is None else sheet(self.source)
+
+    @cached_property
+    def leg_ranges(self) -> Ranges | None:
+        """Shortest and longest length of each leg, in the order of `LEGS`; None where nothing limits them.
+
+        Those that placing O keeps in a region, or those of the sheet over the region or the listed poses; for a study
+        of the neutral pose alone its limits on leg lengths, if they limit all nine on both sides.
+        """
+        report = getattr(self.source, "region", None)
+        if report is not None and report.leg_ranges:
+            return tuple(report.leg_ranges)
+        found = self.sheet
+        if found is None or self.study is None:
+            return None
+        if len(found.configurations) > 1:
+            return tuple((leg.shortest, leg.longest) for leg in found.legs)
+        low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
+        limits = tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
+        return limits if all(0.0 < a < b < math.inf for a, b in limits) else None
+
+
+def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Model:
+    """Return the model of a design.
+
+    Parameters
+    ----------
+    design : Result, Candidate, DesignPoint, or a design of a file
+        Anything with a geometry, a configuration and a characteristic length.
+    name : str
+        Of the robot inside the file; other characters than letters, digits, "_" and "-" become "_".
+    unit : str, optional
+        Name of the length unit; that of the study or of the design file by default.
+
+    Raises
+    ------
+    ValueError
+        If there is no design (a result without a candidate), or it has a stack of configurations.
+
+    """
+    try:
+        g, c, length = design.geometry, design.configuration, design.characteristic_length
+    except AttributeError:
+        raise ValueError(f"design: got {type(design).__name__}, expected a result or a design") from None
+    if g is None or c is None:
+        raise ValueError("design: got a result without a design, expected one")
+    if np.shape(c.position) != (3,):
+        raise ValueError(f"design: got a stack of configurations of shape {c.shape}, expected a single one")
+    study = getattr(design, "study", None)
+    own = getattr(study or design, "unit", "") if unit is None else unit
+    clean = "".join(x if x.isascii() and (x.isalnum() or x in "_-") else "_" for x in name) or "ninedof"
+    return Model(g, c, length, unit_argument(own), clean, study, design)
