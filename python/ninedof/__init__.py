@@ -32,6 +32,7 @@ from ninedof.design.objective import Objective
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
+from ninedof.export.export import export
 from ninedof.kinematics.acceleration import forward_acceleration, inverse_acceleration, jacobian_rate
 from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_lengths, velocity_matrices
 from ninedof.kinematics.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
@@ -134,6 +135,7 @@ __all__ = [
     "error_bounds",
     "error_map",
     "error_samples",
+    "export",
     "follow",
     "force_ellipsoid",
     "forward_acceleration",

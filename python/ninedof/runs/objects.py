@@ -6,6 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
+from ninedof.export.reading import READERS, read_design
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
@@ -28,8 +29,9 @@ def load(path: str | os.PathLike[str]) -> Kept:
     Parameters
     ----------
     path : path
-        A run folder or its record.json; a design file (TOML); or "RUN#7", point 7 of the front in the folder RUN,
-        counted from 1 as its table numbers them. Of an optimization "RUN#2" is the second-best optimum.
+        A run folder or its record.json; a design file (TOML), or one that `export` wrote as MJCF (.xml) or as
+        coordinates (.csv); or "RUN#7", point 7 of the front in the folder RUN, counted from 1 as its table numbers
+        them. Of an optimization "RUN#2" is the second-best optimum.
 
     Returns
     -------
@@ -59,10 +61,10 @@ def load(path: str | os.PathLike[str]) -> Kept:
 
     """
     place, point = split(os.fspath(path))
-    if place.suffix == ".toml":
+    if place.suffix == ".toml" or place.suffix.lower() in READERS:
         if point:
             raise ValueError(f"{os.fspath(path)}: got a point of a design file, expected one of a run")
-        return load_design(place)
+        return load_design(place) if place.suffix == ".toml" else Design(*read_design(place))
     found = _run(place)
     return _point(found, point, os.fspath(path)) if point else found
 

@@ -1,0 +1,77 @@
+"""`ninedof export`: a design as a file of another program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ninedof.cli import options
+from ninedof.cli.chosen_design import named_design
+from ninedof.cli.screen import Screen
+from ninedof.export.export import export as write
+from ninedof.export.formats import FORMATS
+from ninedof.support.arguments import choice
+from ninedof.support.extras import MissingExtra
+from ninedof.support.units import unit_argument
+
+PLACE = 4
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof export runs/20260101-120000 --to mjcf
+
+  ninedof export runs/20260101-120000 --to urdf --out machine.urdf --platform-mass 12
+
+  ninedof export design.toml --out joints.csv"""
+
+WORDS = "; ".join(f"{name}: {row.words}" for name, row in FORMATS.items())
+
+
+def export(
+    design: options.Design,
+    to: Annotated[str | None, typer.Option(help=f"{WORDS}. Follows from the suffix of --out if that is given.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="The file; in this folder, with the name of the design, by default.")
+    ] = None,
+    leg_mass: Annotated[float | None, typer.Option(help="mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")] = None,
+    platform_mass: Annotated[
+        float | None, typer.Option(help="mjcf, urdf, sdf: mass of the platform, kg; 5 by default.")
+    ] = None,
+    gravity: Annotated[float | None, typer.Option(help="mjcf: downward, m/s²; 0 by default.")] = None,
+    unit: Annotated[
+        str | None, typer.Option(help="The length unit (mm, cm, m, in, ft); that of the study or file by default.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """Write a design as a file of another program: simulators, CAD, controllers, documents."""
+    screen = Screen(json)
+    name = _by_suffix(out) if to is None else choice("--to", to, FORMATS)
+    chosen = named_design(design)
+    file = out or Path(_stem(design) + FORMATS[name].suffix)
+    given = {"leg_mass": leg_mass, "platform_mass": platform_mass, "gravity": gravity}
+    kept = {key: value for key, value in given.items() if value is not None}
+    own = chosen.unit if unit is None else unit_argument(unit)
+    try:
+        written = write(chosen.result or chosen.design, name, file, unit=own, **kept)
+    except MissingExtra as error:
+        raise ValueError(str(error)) from None
+    screen.print(f"{FORMATS[name].words}: {written}")
+    screen.data({"format": name, "file": str(written)})
+
+
+def _by_suffix(out: Path | None) -> str:
+    """Return the format that the suffix of --out names."""
+    if out is None:
+        raise ValueError(f"--to: got nothing, expected one of {', '.join(FORMATS)}")
+    found = [name for name, row in FORMATS.items() if row.suffix == out.suffix.lower()]
+    if not found:
+        suffixes = ", ".join(row.suffix for row in FORMATS.values())
+        raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {suffixes}")
+    return found[0]
+
+
+def _stem(design: str) -> str:
+    """Return the name of a design: "front-7" for "runs/front#7"."""
+    path = Path(design)
+    return (path.resolve().name if path.is_dir() else path.stem).replace("#", "-")

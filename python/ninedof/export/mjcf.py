@@ -1,0 +1,154 @@
+"""MJCF: the whole mechanism for MuJoCo, nine prismatic actuators, 27 scalar constraints.
+
+Each leg is a cylinder on a ball joint and a rod that slides in it; upper internal legs hang on the platform, the others
+on the base. The tip of a rod is held at its joint by a constraint: 45 degrees of freedom less 27 are the nine of the
+robot and nine spins of the legs about themselves.
+"""
+
+from __future__ import annotations
+
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from ninedof.export.bodies import LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
+from ninedof.export.model import Model
+from ninedof.support.arguments import finite
+from ninedof.support.arrays import Floats
+
+MARK = "ninedof-mjcf-1"
+TIMESTEP = 5e-4
+# With h the time step and m the mass of a rod: a stiffness of 0.1 m / h^2 is stable where the integrator is explicit in
+# positions (0.4 is the most), and a damping of 3 m / h brings a leg to rest in some 0.1 s without oscillation.
+STIFFNESS, DAMPING = 0.1, 3.0
+SPIN_DECAY = 20.0  # 1/s: the free spin of a leg dies out in a twentieth of a second
+COLOURS = {"l": "0.12 0.47 0.71 1", "q": "0.84 0.37 0.05 1", "r": "0.17 0.55 0.30 1"}
+PLATE, JOINT = "0.62 0.66 0.70 0.55", "0.15 0.15 0.15 1"
+
+
+def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS, gravity: float = 0.0) -> str:
+    """Return the MJCF text of a design; masses in kg, gravity in m/s² downward."""
+    b = bodies_of(model, leg_mass, platform_mass)
+    down = finite("gravity", gravity)
+    hung = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
+    unit = "metres" if model.unit else "the design's own, without a unit"
+    across, normal = b.platform_inertia
+    ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
+    slides = "".join(
+        f"""
+      <joint name="O_{axis}" type="slide" axis="{direction}" ref="{numbers(at)}"/>"""
+        for axis, direction, at in zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), b.internal_point, strict=True)
+    )
+    ends = "\n".join(
+        f"""    <connect name="{leg.name}_end" site1="{leg.name}_tip" site2="{leg.tip_joint}"/>""" for leg in b.legs
+    )
+    return f"""<mujoco model={quoteattr(model.name)}>
+  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {unit}; masses: kilograms.
+       Controls are the lengths of the legs l1 l2 l3 q1 q2 q3 r1 r2 r3, their ranges the strokes. Start from the
+       keyframe "neutral": without it MuJoCo sets all controls to zero. Under gravity the actuators give way. -->
+  <compiler angle="radian" inertiafromgeom="false"/>
+  <option timestep="{TIMESTEP!r}" integrator="implicitfast" solver="Newton" tolerance="1e-14"
+    gravity="0 0 {numbers(-down) if down else 0}"/>
+  <visual><global offwidth="1280" offheight="960"/></visual>
+  <statistic center="{numbers(0.5 * b.position)}" extent="{numbers(_extent(b))}"/>
+  <custom>
+    <text name="format" data="{MARK}"/>
+    <text name="unit" data="{model.unit or "none"}"/>
+    <text name="characteristic_length" data="{_length(model)}"/>
+  </custom>
+  <default>
+    <geom contype="0" conaffinity="0" group="1"/>
+    <site size="{numbers(1.6 * b.radius)}" rgba="{JOINT}"/>
+    <equality solref="{2 * TIMESTEP!r} 1" solimp="0.9999 0.9999"/>
+  </default>
+  <asset>
+    {_plate("base", b.base, b.radius)}
+    {_plate("platform", b.platform, b.radius)}
+    <texture type="skybox" builtin="gradient" rgb1="1 1 1" rgb2="0.85 0.88 0.92" width="32" height="32"/>
+  </asset>
+  <worldbody>
+    <light pos="{numbers([*b.position[:2], 3 * _extent(b)])}" dir="0 0 -1" castshadow="false"/>
+    <geom name="base" type="mesh" mesh="base" rgba="{PLATE}"/>
+    {_sites(b.base)}{hung["base"]}
+    <body name="O" pos="{numbers(b.internal_point)}">{slides}
+      <inertial pos="0 0 0" mass="{numbers(b.point_mass)}" diaginertia="{numbers([ball] * 3)}"/>
+      <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{JOINT}"/>
+      <site name="O"/>
+    </body>
+    <body name="platform" pos="{numbers(b.position)}" xyaxes="{numbers(b.rotation[:, :2].T.ravel())}">
+      <freejoint name="platform"/>
+      <inertial pos="0 0 0" mass="{numbers(b.platform_mass)}" diaginertia="{numbers([across, across, normal])}"/>
+      <geom name="platform" type="mesh" mesh="platform" rgba="{PLATE}"/>
+      <site name="platform" size="{numbers(0.2 * b.radius)}"/>
+      {_sites(b.platform)}{hung["platform"]}
+    </body>
+  </worldbody>
+  <equality>
+{ends}
+  </equality>
+  <actuator>
+{_actuators(b)}
+  </actuator>
+  <sensor>
+    <framepos name="position" objtype="xbody" objname="platform"/>
+    <framequat name="rotation" objtype="xbody" objname="platform"/>
+    <framepos name="internal_point" objtype="xbody" objname="O"/>
+  </sensor>
+  <keyframe>
+    <key name="neutral" ctrl="{numbers(leg.length for leg in b.legs)}"/>
+  </keyframe>
+</mujoco>
+"""
+
+
+def _leg(b: Bodies, leg: Leg) -> str:
+    start, along = leg.start, leg.direction
+    if leg.root == "platform":
+        start, along = b.platform[leg.root_joint], along @ b.rotation
+    across, axial = b.part_inertia(leg)
+    mass = f'mass="{numbers(b.part_mass)}" diaginertia="{numbers([across, across, axial])}"'
+    drawn, half = COLOURS[leg.name[0]], 0.5 * leg.part
+    return f"""
+    <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
+      <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
+      <inertial pos="0 0 {numbers(half)}" {mass}/>
+      <geom type="cylinder" fromto="0 0 0 0 0 {numbers(leg.part)}" size="{numbers(1.5 * b.radius)}" rgba="{drawn}"/>
+      <body name="{leg.name}_rod" pos="0 0 {numbers(leg.length)}">
+        <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
+          range="{numbers([leg.shortest, leg.longest])}" limited="true"/>
+        <inertial pos="0 0 {numbers(-half)}" {mass}/>
+        <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="0.8 0.8 0.8 1"/>
+        <site name="{leg.name}_tip"/>
+      </body>
+    </body>"""
+
+
+def _actuators(b: Bodies) -> str:
+    kp, kv = STIFFNESS * b.part_mass / TIMESTEP**2, DAMPING * b.part_mass / TIMESTEP
+    return "\n".join(
+        f'    <position name="{leg.name}" joint="{leg.name}" kp="{kp:.6g}" kv="{kv:.6g}" '
+        f'ctrlrange="{numbers([leg.shortest, leg.longest])}" ctrllimited="true"/>'
+        for leg in b.legs
+    )
+
+
+def _sites(joints: dict[str, Floats]) -> str:
+    return "\n    ".join(f'<site name="{name}" pos="{numbers(at)}"/>' for name, at in joints.items())
+
+
+def _plate(name: str, joints: dict[str, Floats], radius: float) -> str:
+    """Return a plate as a mesh: MuJoCo takes the convex hull of the vertices."""
+    thick = 0.5 * radius * np.array([0.0, 0.0, 1.0])
+    corners = np.concatenate([[at - thick, at + thick] for at in joints.values()])
+    return f'<mesh name="{name}" vertex="{numbers(corners.ravel())}"/>'
+
+
+def _extent(b: Bodies) -> float:
+    points = [*b.base.values(), b.position, b.internal_point]
+    return float(np.ptp(points, axis=0).max())
+
+
+def _length(model: Model) -> str:
+    """Return the characteristic length, a kind or a number, in the design's unit."""
+    length = model.characteristic_length
+    return length if isinstance(length, str) else repr(float(length))
