@@ -23,6 +23,14 @@ LEG_MASS, PLATFORM_MASS = 1.0, 5.0
 FREE = (0.5, 1.5)  # of the neutral length: the range of a leg that nothing limits
 LEAST_STROKE = 0.01  # of the neutral length: simulators take no range that is a point
 ROOTS = {"l": ("base", "base_external"), "q": ("platform", "platform_internal"), "r": ("base", "base_internal")}
+COLOURS = {
+    "l": "0 0.447 0.698 1",  # the legs as in the figures
+    "q": "0.835 0.369 0 1",
+    "r": "0 0.62 0.451 1",
+    "rod": "0.8 0.8 0.8 1",
+    "plate": "0.55 0.6 0.65 1",
+    "joint": "0.15 0.15 0.15 1",
+}
 RADIUS = 0.012  # of a rod, by the mean length of the legs; for the eye and for its inertia about its axis
 
 

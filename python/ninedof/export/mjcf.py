@@ -11,7 +11,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ninedof.export.bodies import LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
+from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
 from ninedof.export.model import Model
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
@@ -22,8 +22,7 @@ TIMESTEP = 5e-4
 # positions (0.4 is the most), and a damping of 3 m / h brings a leg to rest in some 0.1 s without oscillation.
 STIFFNESS, DAMPING = 0.1, 3.0
 SPIN_DECAY = 20.0  # 1/s: the free spin of a leg dies out in a twentieth of a second
-COLOURS = {"l": "0.12 0.47 0.71 1", "q": "0.84 0.37 0.05 1", "r": "0.17 0.55 0.30 1"}
-PLATE, JOINT = "0.62 0.66 0.70 0.55", "0.15 0.15 0.15 1"
+PLATE = "0.62 0.66 0.70 0.55"
 
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS, gravity: float = 0.0) -> str:
@@ -58,7 +57,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
   </custom>
   <default>
     <geom contype="0" conaffinity="0" group="1"/>
-    <site size="{numbers(1.6 * b.radius)}" rgba="{JOINT}"/>
+    <site size="{numbers(1.6 * b.radius)}" rgba="{COLOURS["joint"]}"/>
     <equality solref="{2 * TIMESTEP!r} 1" solimp="0.9999 0.9999"/>
   </default>
   <asset>
@@ -72,7 +71,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
     {_sites(b.base)}{hung["base"]}
     <body name="O" pos="{numbers(b.internal_point)}">{slides}
       <inertial pos="0 0 0" mass="{numbers(b.point_mass)}" diaginertia="{numbers([ball] * 3)}"/>
-      <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{JOINT}"/>
+      <geom name="O" type="sphere" size="{numbers(2.2 * b.radius)}" rgba="{COLOURS["joint"]}"/>
       <site name="O"/>
     </body>
     <body name="platform" pos="{numbers(b.position)}" xyaxes="{numbers(b.rotation[:, :2].T.ravel())}">
@@ -107,7 +106,7 @@ def _leg(b: Bodies, leg: Leg) -> str:
         start, along = b.platform[leg.root_joint], along @ b.rotation
     across, axial = b.part_inertia(leg)
     mass = f'mass="{numbers(b.part_mass)}" diaginertia="{numbers([across, across, axial])}"'
-    drawn, half = COLOURS[leg.name[0]], 0.5 * leg.part
+    drawn, rod, half = COLOURS[leg.name[0]], COLOURS["rod"], 0.5 * leg.part
     return f"""
     <body name="{leg.name}_cylinder" pos="{numbers(start)}" zaxis="{numbers(along)}">
       <joint name="{leg.name}_ball" type="ball" damping="{numbers(SPIN_DECAY * axial)}"/>
@@ -117,7 +116,7 @@ def _leg(b: Bodies, leg: Leg) -> str:
         <joint name="{leg.name}" type="slide" axis="0 0 1" ref="{numbers(leg.length)}"
           range="{numbers([leg.shortest, leg.longest])}" limited="true"/>
         <inertial pos="0 0 {numbers(-half)}" {mass}/>
-        <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="0.8 0.8 0.8 1"/>
+        <geom type="cylinder" fromto="0 0 0 0 0 {numbers(-leg.part)}" size="{numbers(b.radius)}" rgba="{rod}"/>
         <site name="{leg.name}_tip"/>
       </body>
     </body>"""

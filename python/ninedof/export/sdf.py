@@ -1,0 +1,122 @@
+"""SDFormat: the mechanism with its loops closed, as links and joints, for Gazebo and what else reads the format.
+
+Each leg is a cylinder on a universal joint and a rod that slides in it; a ball joint holds the tip of the rod at the
+platform or at O. O is fixed to the rod of leg q1, so that nine degrees of freedom are left and nothing spins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from xml.sax.saxutils import quoteattr
+
+from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
+from ninedof.export.model import Model
+from ninedof.export.rpy import Angles, angles, bars, pointing
+from ninedof.support.arrays import Floats
+
+VERSION = "1.9"
+LEVEL = (0.0, 0.0, 0.0)
+CARRIER = "q1"  # the leg whose rod O is fixed to
+
+
+def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
+    """Return the SDFormat text of a design; masses in kg."""
+    b = bodies_of(model, leg_mass, platform_mass)
+    unit = "metres" if model.unit else "the design's own, without a unit"
+    ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
+    legs = "".join(_leg(b, leg) for leg in b.legs)
+    return f"""<?xml version="1.0"?>
+<sdf version="{VERSION}">
+  <!-- The nine-degree-of-freedom manipulator, written by ninedof. Lengths: {unit}; masses: kilograms.
+       The joints l1 to r3 are the actuators; they read the length of the leg less the neutral one. -->
+  <model name={quoteattr(model.name)}>
+    <link name="base">
+      {_bars(b, b.base.values())}
+    </link>
+    <joint name="base_fixed" type="fixed">
+      <parent>world</parent>
+      <child>base</child>
+    </joint>
+    <link name="platform">
+      {_pose(b.position, angles(b.rotation))}
+      {_inertial(LEVEL, b.platform_mass, b.platform_inertia)}
+      {_bars(b, b.platform.values())}
+    </link>
+    <link name="O">
+      {_pose(b.internal_point)}
+      {_inertial(LEVEL, b.point_mass, (ball, ball))}
+      {_visual("O", LEVEL, LEVEL, f"<sphere><radius>{numbers(2.0 * b.radius)}</radius></sphere>", COLOURS["joint"])}
+    </link>{legs}
+  </model>
+</sdf>
+"""
+
+
+def _leg(b: Bodies, leg: Leg) -> str:
+    """Return cylinder, rod and their three joints; the frame of the rod is at its tip. Joints are in their child."""
+    n, rpy, inertia, half = leg.name, pointing(leg.direction), b.part_inertia(leg), 0.5 * leg.part
+    cylinder = _cylinder("cylinder", (0.0, 0.0, half), LEVEL, 1.5 * b.radius, leg.part, COLOURS[n[0]])
+    rod = _cylinder("rod", (0.0, 0.0, -half), LEVEL, b.radius, leg.part, COLOURS["rod"])
+    low, high = numbers(leg.shortest - leg.length), numbers(leg.longest - leg.length)
+    return f"""
+    <link name="{n}_cylinder">
+      {_pose(leg.start, rpy)}
+      {_inertial((0.0, 0.0, half), b.part_mass, inertia)}
+      {cylinder}
+    </link>
+    <link name="{n}_rod">
+      {_pose(leg.end, rpy)}
+      {_inertial((0.0, 0.0, -half), b.part_mass, inertia)}
+      {rod}
+    </link>
+    <joint name="{n}_start" type="universal">
+      <parent>{leg.root}</parent>
+      <child>{n}_cylinder</child>
+      <axis><xyz>1 0 0</xyz></axis>
+      <axis2><xyz>0 1 0</xyz></axis2>
+    </joint>
+    <joint name="{n}" type="prismatic">
+      <parent>{n}_cylinder</parent>
+      <child>{n}_rod</child>
+      <axis>
+        <xyz>0 0 1</xyz>
+        <limit><lower>{low}</lower><upper>{high}</upper></limit>
+      </axis>
+    </joint>
+    <joint name="{n}_end" type="{"fixed" if n == CARRIER else "ball"}">
+      <parent>{leg.tip}</parent>
+      <child>{n}_rod</child>
+    </joint>"""
+
+
+def _pose(at: Iterable[float], rpy: Angles = LEVEL) -> str:
+    return f"<pose>{numbers(at)} {numbers(rpy)}</pose>"
+
+
+def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
+    across, axial = (numbers(moment) for moment in inertia)
+    return f"""<inertial>
+        {_pose(centre)}
+        <mass>{numbers(mass)}</mass>
+        <inertia><ixx>{across}</ixx><iyy>{across}</iyy><izz>{axial}</izz></inertia>
+      </inertial>"""
+
+
+def _bars(b: Bodies, joints: Iterable[Floats]) -> str:
+    return "\n      ".join(
+        _cylinder(f"bar{i}", middle, rpy, b.radius, length, COLOURS["plate"])
+        for i, (middle, rpy, length) in enumerate(bars(joints), start=1)
+    )
+
+
+def _cylinder(name: str, middle: Iterable[float], rpy: Angles, radius: float, length: float, colour: str) -> str:
+    shape = f"<cylinder><radius>{numbers(radius)}</radius><length>{numbers(length)}</length></cylinder>"
+    return _visual(name, middle, rpy, shape, colour)
+
+
+def _visual(name: str, at: Iterable[float], rpy: Angles, shape: str, colour: str) -> str:
+    return f"""<visual name="{name}">
+        {_pose(at, rpy)}
+        <geometry>{shape}</geometry>
+        <material><ambient>{colour}</ambient><diffuse>{colour}</diffuse></material>
+      </visual>"""
