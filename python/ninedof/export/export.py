@@ -27,9 +27,9 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     unit : str, optional
         Name of the length unit; that of the study or of the design file by default. "mjcf", "urdf" and "sdf" are in
         metres where it is known, and in the numbers of the design where it is not.
-    **options
+    options : keywords
         Of the format. "mjcf", "urdf" and "sdf": `leg_mass` (1 by default) and `platform_mass` (5 by default), in kg.
-        "mjcf" and "sdf": `gravity`, 0 by default, m/s² downward.
+        "mjcf": `gravity`, 0 by default, m/s² downward.
 
     Returns
     -------

@@ -1,0 +1,86 @@
+"""`nd.export`, the table of formats, and what a writer knows of a design."""
+
+from dataclasses import replace
+
+import exported
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import ninedof as nd
+from ninedof.export.formats import FORMATS, format_named
+from ninedof.export.model import model_of
+
+SIMULATORS = ("mjcf", "urdf", "sdf")
+
+
+@pytest.mark.parametrize("name", SIMULATORS)
+def test_the_file_is_the_path_given_and_is_replaced(name, tmp_path):
+    file = tmp_path / f"my robot{FORMATS[name].suffix}"
+    assert nd.export(exported.general(), name, file) == file
+    first = file.read_bytes()
+    assert nd.export(exported.general(), name, str(file)) == file
+    assert file.read_bytes() == first  # nothing in it depends on the day
+    assert b'"my_robot"' in first
+    assert len(list(tmp_path.iterdir())) == (2 if name == "urdf" else 1)
+
+
+def test_bad_arguments_are_named(tmp_path):
+    design = exported.general()
+    with pytest.raises(ValueError, match=r"format: got 'mjfc', .*did you mean 'mjcf'"):
+        nd.export(design, "mjfc", tmp_path / "a.xml")
+    with pytest.raises(ValueError, match="options: got the entry 'gravity', expected only leg_mass, platform_mass"):
+        nd.export(design, "urdf", tmp_path / "a.urdf", gravity=9.81)
+    with pytest.raises(ValueError, match="expected a file in a folder that exists"):
+        nd.export(design, "mjcf", tmp_path / "none" / "a.xml")
+    for name, value in (("leg_mass", 0.0), ("platform_mass", -1.0), ("leg_mass", np.nan), ("gravity", "much")):
+        with pytest.raises(ValueError, match=f"{name}: got"):
+            nd.export(design, "mjcf", tmp_path / "a.xml", **{name: value})
+    with pytest.raises(ValueError, match="unit: got 'mile'"):
+        nd.export(design, "mjcf", tmp_path / "a.xml", unit="mile")
+    with pytest.raises(ValueError, match="design: got int, expected a result or a design"):
+        nd.export(3, "mjcf", tmp_path / "a.xml")
+    stack = design._replace(configuration=nd.Configuration.neutral([4.0, 5.0], 2.0))
+    with pytest.raises(ValueError, match="got a stack of configurations"):
+        nd.export(stack, "mjcf", tmp_path / "a.xml")
+    infeasible = replace(exported.machine(), candidates=())
+    with pytest.raises(ValueError, match="got a result without a design"):
+        nd.export(infeasible, "mjcf", tmp_path / "a.xml")
+    no_leg = nd.Design(nd.Geometry.hexagonal(0.0, 5.0, 2.5, 0.0), nd.Configuration.neutral(4.0, 4.0))
+    s = no_leg.configuration.position + no_leg.geometry.platform_internal[0]
+    at_joint = no_leg._replace(configuration=nd.Configuration(no_leg.configuration.position, np.eye(3), s))
+    with pytest.raises(ValueError, match="leg q1 has the length 0"):
+        nd.export(at_joint, "mjcf", tmp_path / "a.xml")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_row_has_a_suffix_of_its_own():
+    suffixes = [row.suffix for row in FORMATS.values()]
+    assert len(set(suffixes)) == len(suffixes)
+    assert [format_named(name).load().__name__ for name in SIMULATORS] == [f"ninedof.export.{n}" for n in SIMULATORS]
+
+
+def test_ranges_of_legs_are_those_that_are_known():
+    machine = exported.machine()
+    ranges = model_of(machine).leg_ranges
+    lengths = nd.leg_lengths(machine.geometry, machine.best.configurations)
+    assert_allclose(np.transpose(ranges), [lengths.min(axis=0), lengths.max(axis=0)], rtol=1e-15)
+    assert model_of(exported.general()).leg_ranges is None
+    neutral_alone = nd.Study(starts=2, constraints={"radius_ratio": (None, 2.0)})
+    assert model_of(nd.optimize(neutral_alone)).leg_ranges is None
+    limited = nd.Study(starts=2, constraints={"radius_ratio": (None, 2.0), "leg_length": (1.0, 30.0)})
+    assert model_of(nd.optimize(limited)).leg_ranges == ((1.0, 30.0),) * 9
+    kept = machine.region or type("Report", (), {"leg_ranges": ((1.0, 2.0),) * 9})()
+    placed = type("Placed", (), {"region": kept, "geometry": machine.geometry, "study": None})
+    placed.configuration, placed.characteristic_length = machine.configuration, 1.0
+    assert model_of(placed()).leg_ranges == kept.leg_ranges
+
+
+def test_what_a_model_says_of_a_design():
+    model = model_of(exported.machine(), "a b/ü")
+    assert (model.name, model.unit, model.length) == ("a_b__", "mm", 150.0)
+    assert model_of(exported.machine(), unit="m").unit == "m"
+    general = model_of(exported.general())
+    expected = nd.characteristic_length(general.geometry, general.configuration, "optimal")
+    assert general.length == expected
+    assert general.sheet is None

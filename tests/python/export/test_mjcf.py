@@ -1,0 +1,121 @@
+"""The MJCF file in MuJoCo: it settles in the poses of commanded leg lengths, and its loops have the Jacobian J'."""
+
+import exported
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import ninedof as nd
+
+mujoco = pytest.importorskip("mujoco")
+
+DESIGNS = {"machine in mm": (exported.machine, 1e-3, 40.0), "general, no unit": (exported.general, 1.0, 0.1)}
+EVERY = pytest.mark.parametrize("kind", DESIGNS)
+AT_REST = 1e-8
+
+
+def written(kind, folder, **options):
+    """The design, metres of its unit, size of a path, and the model at its neutral keyframe."""
+    design, metre, size = DESIGNS[kind]
+    file = nd.export(design(), "mjcf", folder / "robot.xml", **options)
+    engine = mujoco.MjModel.from_xml_path(str(file))
+    data = mujoco.MjData(engine)
+    mujoco.mj_resetDataKeyframe(engine, data, engine.key("neutral").id)
+    mujoco.mj_forward(engine, data)
+    return design(), metre, size, engine, data
+
+
+def settle(engine, data, controls):
+    data.ctrl[:] = controls
+    assert (engine.actuator_ctrlrange[:, 0] <= controls).all()
+    assert (controls <= engine.actuator_ctrlrange[:, 1]).all()
+    for _ in range(200):
+        mujoco.mj_step(engine, data, 100)
+        if np.abs(data.qvel).max() < AT_REST:
+            return
+    pytest.fail("still moving after 10 s")
+
+
+def errors(data, target, metre, size):
+    """Of position and O by the size of the robot, of the rotation in radians."""
+    found = [data.body(name).xpos / metre for name in ("platform", "O")]
+    apart = [np.abs(a - b).max() / size for a, b in zip(found, (target.position, target.internal_point), strict=True)]
+    return [*apart, np.abs(data.body("platform").xmat.reshape(3, 3) - target.rotation).max()]
+
+
+def slides(engine):
+    joints = [engine.joint(leg) for leg in exported.LEGS]
+    return [j.qposadr[0] for j in joints], [j.dofadr[0] for j in joints]
+
+
+def slide_to_twist(engine, data, lc):
+    """(lc omega, pdot) for nine slide rates: all velocities that the 27 constraints allow, sorted by what they do."""
+    constraints = data.efc_J.reshape(data.nefc, engine.nv)
+    assert constraints.shape == (27, 45)
+    _, sigma, rows = np.linalg.svd(constraints)
+    assert sigma[-1] > 1e-3 * sigma[0]  # the 27 constraints are independent
+    allowed = rows[27:].T
+    at = engine.joint("platform").dofadr[0]
+    turned = data.body("platform").xmat.reshape(3, 3)
+    twist = np.concatenate([lc * turned @ allowed[at + 3 : at + 6], allowed[at : at + 3]])
+    rates = allowed[slides(engine)[1]]
+    found = twist @ np.linalg.pinv(rates, rcond=1e-9)
+    assert_allclose(found @ rates, twist, rtol=0.0, atol=1e-12)  # the slides determine the twist
+    return found
+
+
+@EVERY
+def test_the_neutral_keyframe_is_the_neutral_configuration(kind, tmp_path):
+    design, metre, _, engine, data = written(kind, tmp_path)
+    assert max(errors(data, design.configuration, metre, 1.0 / metre)) < 1e-15
+    assert np.abs(data.efc_pos).max() < 1e-14  # no loop is open
+    expected = nd.leg_lengths(design.geometry, design.configuration) * metre
+    assert_allclose(data.qpos[slides(engine)[0]], expected, rtol=1e-14)
+    assert_allclose(data.ctrl, expected, rtol=1e-14)
+    assert [engine.actuator(k).name for k in range(9)] == exported.LEGS
+
+
+@EVERY
+def test_the_model_follows_a_path_of_leg_lengths(kind, tmp_path):
+    """The figure to reach is 1e-6 of the size; what is left is the velocity at which the wait ends."""
+    design, metre, size, engine, data = written(kind, tmp_path)
+    path = exported.path(design, size)
+    for target in path:
+        settle(engine, data, nd.leg_lengths(design.geometry, target) * metre)
+        assert max(errors(data, target, metre, np.ptp(design.geometry.base_external))) < 1e-8
+        assert data.warning.number.sum() == 0
+
+
+@EVERY
+def test_slides_move_the_platform_as_the_jacobian_says(kind, tmp_path):
+    design, metre, _, engine, data = written(kind, tmp_path)
+    lc = float(np.linalg.norm(design.geometry.platform_external, axis=-1).mean())
+    expected = nd.jacobian(design.geometry, design.configuration, lc)
+    assert_allclose(slide_to_twist(engine, data, lc * metre), expected, rtol=0.0, atol=1e-11 * np.abs(expected).max())
+
+
+def test_ranges_are_the_strokes_of_the_sheet(tmp_path):
+    design, metre, _, engine, _ = written("machine in mm", tmp_path)
+    for leg in design.sheet().legs:
+        ends = np.array([leg.shortest, leg.longest]) * metre
+        if leg.stroke < 0.01 * leg.neutral:  # carried with the platform: a range that is a point is widened
+            assert np.ptp(engine.joint(leg.name).range) == pytest.approx(0.01 * leg.neutral * metre, rel=1e-6)
+        else:
+            assert_allclose(engine.joint(leg.name).range, ends, rtol=1e-14)
+        assert_allclose(engine.actuator(leg.name).ctrlrange, engine.joint(leg.name).range)
+
+
+def test_a_design_without_a_study_has_half_to_one_and_a_half_of_its_lengths(tmp_path):
+    design, _, _, engine, _ = written("general, no unit", tmp_path)
+    neutral = nd.leg_lengths(design.geometry, design.configuration)
+    assert_allclose(engine.actuator_ctrlrange, neutral[:, None] * [0.5, 1.5], rtol=1e-14)
+
+
+def test_masses_and_gravity_are_those_asked_for(tmp_path):
+    _, _, _, engine, data = written("machine in mm", tmp_path, leg_mass=2.0, platform_mass=7.0, gravity=9.81)
+    assert engine.body_mass.sum() == pytest.approx(9 * 2.0 + 7.0 + 0.2)
+    assert engine.body("platform").mass[0] == 7.0
+    assert engine.opt.gravity.tolist() == [0.0, 0.0, -9.81]
+    height = data.body("platform").xpos[2]
+    settle(engine, data, data.ctrl.copy())
+    assert 0.0 < height - data.body("platform").xpos[2] < 1e-3
