@@ -20,7 +20,7 @@ METRES = {"mm": (1, 1000), "cm": (1, 100), "m": (1, 1), "in": (254, 10000), "ft"
 """A unit in metres as a fraction, so that 850 mm is 0.85 and not 0.8500000000000001; none is taken as it is."""
 
 LEG_MASS, PLATFORM_MASS = 1.0, 5.0
-FREE = (0.5, 1.5)  # of the neutral length: the range of a leg that nothing limits
+FREE = (0.7, 1.3)  # of the neutral length: the range of a leg that nothing limits, which one stage can have
 LEAST_STROKE = 0.01  # of the neutral length: simulators take no range that is a point
 ROOTS = {"l": ("base", "base_external"), "q": ("platform", "platform_internal"), "r": ("base", "base_internal")}
 COLOURS = {
