@@ -51,9 +51,12 @@ def closed(engine, data, table, lengths):
             ends = [point(loop[f"link_{k}"], np.array(loop[f"point_{k}"])) for k in (1, 2)]
             gaps.append(ends[0][0] - ends[1][0])
             rows.append(ends[0][1] - ends[1][1])
-        data.qpos -= np.linalg.solve(np.concatenate(rows), np.concatenate(gaps))
+        step = np.linalg.solve(np.concatenate(rows), np.concatenate(gaps))
+        data.qpos -= step
+        if np.abs(step).max() < 1e-13:
+            break
     mujoco.mj_forward(engine, data)
-    assert max(np.abs(gap).max() for gap in gaps) < 1e-13
+    assert max(np.abs(gap).max() for gap in gaps) < 1e-12
 
 
 def test_the_tree_with_its_loops_closed_has_the_poses_of_the_robot(robot):
@@ -80,7 +83,7 @@ def test_the_tree_with_its_loops_closed_has_the_poses_of_the_robot(robot):
                 assert_allclose(placed[:3, :3], turned, rtol=0.0, atol=1e-12)
 
 
-def test_all_joints_at_zero_is_the_neutral_configuration(robot):
+def test_all_joints_at_zero_is_the_neutral_configuration_and_limits_are_about_it(robot):
     design, metre, _, file, table = robot
     tree, c = in_yourdfpy(file), design.configuration
     assert_allclose(tree.get_transform("platform", "base")[:3, :3], c.rotation, rtol=0.0, atol=1e-14)
@@ -91,11 +94,6 @@ def test_all_joints_at_zero_is_the_neutral_configuration(robot):
     for loop in table["loops"]:
         one, two = (tree.get_transform(loop[f"link_{k}"], "base") @ [*loop[f"point_{k}"], 1.0] for k in (1, 2))
         assert_allclose(one, two, rtol=0.0, atol=1e-14)
-
-
-def test_limits_of_slides_are_those_of_the_table(robot):
-    _, _, _, file, table = robot
-    tree = in_yourdfpy(file)
     for leg in table["legs"]:
         limit = tree.joint_map[leg["joint"]].limit
         ends = [leg["shortest"] - leg["length_at_zero"], leg["longest"] - leg["length_at_zero"]]

@@ -5,6 +5,7 @@ import functools
 import numpy as np
 import numpy_model as model
 from scipy.spatial.transform import Rotation
+from sizes import size
 
 import ninedof as nd
 
@@ -31,11 +32,12 @@ def general():
     return nd.Design(m.geometry(), m.configuration(), "optimal")
 
 
-def path(design, size, count=3):
-    """Poses around a circle, with tilts, O carried with the platform; `size` is its radius."""
+def path(design, radius):
+    """Poses around a circle, with tilts, O carried with the platform."""
     c = design.configuration
-    t = 2.0 * np.pi * np.arange(count) / count
-    shift = size * np.stack([np.cos(t), np.sin(t), 0.5 * np.sin(2.0 * t)], axis=-1)
+    count = size(2, 6)
+    t = 0.7 + 2.0 * np.pi * np.arange(count) / count
+    shift = radius * np.stack([np.cos(t), np.sin(t), 0.5 * np.sin(2.0 * t)], axis=-1)
     turn = Rotation.from_rotvec(0.06 * np.stack([np.sin(t), np.cos(t), 0.0 * t], axis=-1)).as_matrix()
     arm = turn @ (c.internal_point - c.position)
     return nd.Configuration(c.position + shift, turn @ c.rotation, c.position + shift + arm)
