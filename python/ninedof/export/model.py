@@ -64,17 +64,19 @@ class Model:
     def leg_ranges(self) -> Ranges | None:
         """Shortest and longest length of each leg, in the order of `LEGS`; None where nothing limits them.
 
-        Those that placing O keeps in a region, or those of the sheet over the region or the listed poses; for a study
-        of the neutral pose alone its limits on leg lengths, if they limit all nine on both sides.
+        Those that placing O keeps in a region, those of the sheet over a region, or those at the listed poses; for a
+        study of the neutral pose alone its limits on leg lengths, if they limit all nine on both sides.
         """
-        report = getattr(self.source, "region", None)
+        report, poses = (getattr(self.source, name, None) for name in ("region", "configurations"))
         if report is not None and report.leg_ranges:
             return tuple(report.leg_ranges)
-        found = self.sheet
-        if found is None or self.study is None:
+        if self.study is not None and self.study.objective.region is not None and self.sheet is not None:
+            return tuple((leg.shortest, leg.longest) for leg in self.sheet.legs)
+        if poses is not None and len(poses) > 1:
+            lengths = leg_lengths(self.geometry, poses)
+            return tuple(zip(lengths.min(axis=0).tolist(), lengths.max(axis=0).tolist(), strict=True))
+        if self.study is None:
             return None
-        if len(found.configurations) > 1:
-            return tuple((leg.shortest, leg.longest) for leg in found.legs)
         low, high = leg_limits_of(self.study, float(self.configuration.position[2]))
         limits = tuple((float(a), float(b)) for a, b in zip(low, high, strict=True))
         return limits if all(0.0 < a < b < math.inf for a, b in limits) else None
