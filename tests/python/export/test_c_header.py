@@ -1,0 +1,91 @@
+"""C: the header compiles without a warning and gives the leg lengths of the package."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from written_designs import HEXAGON, PAPER, general, limited, text_of
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.export import c_header
+
+COMPILER = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+needs_compiler = pytest.mark.skipif(COMPILER is None, reason="no C compiler (cc, gcc or clang)")
+STRICT = "-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wshadow -Wconversion".split()
+POSES = 200
+
+LENGTHS = r"""
+#include <stdio.h>
+#include "robot.h"
+
+int main(void) {
+  ninedof_pose pose = ninedof_neutral;
+  double lengths[9];
+  do {
+    int k;
+    ninedof_leg_lengths(&pose, lengths);
+    for (k = 0; k < 9; ++k) printf("%.17g ", lengths[k]);
+    printf("\n");
+  } while (scanf("%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &pose.p[0], &pose.p[1], &pose.p[2],
+                 &pose.Q[0][0], &pose.Q[0][1], &pose.Q[0][2], &pose.Q[1][0], &pose.Q[1][1], &pose.Q[1][2],
+                 &pose.Q[2][0], &pose.Q[2][1], &pose.Q[2][2], &pose.O[0], &pose.O[1], &pose.O[2]) == 15);
+  return 0;
+}
+"""
+RANGES = r"""
+#include <stdio.h>
+#include "robot.h"
+
+int main(void) {
+  double lengths[9];
+  int k;
+  for (k = 0; k < 9; ++k) lengths[k] = ninedof_neutral_lengths[k];
+  printf("%s %s %d", NINEDOF_NAME, NINEDOF_UNIT, ninedof_first_out_of_range(lengths));
+  lengths[4] = 9.5;
+  printf(" %d", ninedof_first_out_of_range(lengths));
+  lengths[1] = 0.0 / (lengths[0] - lengths[0]);
+  printf(" %d\n", ninedof_first_out_of_range(lengths));
+  return 0;
+}
+"""
+
+
+def run(folder, design, program, given=""):
+    """Compile a program that includes the header of a design; return what it prints."""
+    (folder / "robot.h").write_text(text_of(c_header, design))
+    (folder / "main.c").write_text(program)
+    command = [COMPILER, *STRICT, "main.c", "-o", "main", "-lm"]
+    built = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stderr
+    return subprocess.run(folder / "main", input=given, capture_output=True, text=True, check=True).stdout
+
+
+@needs_compiler
+@pytest.mark.parametrize("design", [PAPER, HEXAGON, general(2)], ids=["paper", "hexagon", "general"])
+def test_leg_lengths_are_those_of_the_package(design, tmp_path):
+    rng = np.random.default_rng(5)
+    size = float(design.configuration.position[2])
+    p, s = size * (rng.normal(size=(2, POSES, 3)) + np.array([0.0, 0.0, 2.0]))
+    poses = nd.Configuration(p, Rotation.random(POSES, random_state=6), s)
+    rows = [
+        np.r_[p, q.ravel(), s] for p, q, s in zip(poses.position, poses.rotation, poses.internal_point, strict=True)
+    ]
+    printed = run(tmp_path, design, LENGTHS, "\n".join(" ".join(map(repr, row.tolist())) for row in rows))
+    neutral, *found = np.array([line.split() for line in printed.splitlines()], dtype=float)
+    np.testing.assert_allclose(neutral, nd.leg_lengths(design.geometry, design.configuration), rtol=1e-15, atol=0.0)
+    np.testing.assert_allclose(found, nd.leg_lengths(design.geometry, poses), rtol=1e-15, atol=0.0)
+
+
+@needs_compiler
+def test_the_range_of_the_legs(tmp_path):
+    assert run(tmp_path, limited(), RANGES) == "robot mm 0 5 2\n"
+
+
+def test_constants_read_back_to_the_same_bits():
+    text = text_of(c_header, general(3))
+    rows = text.partition("ninedof_base_external[3][3] = {")[2].partition("};")[0]
+    numbers = [float(x) for x in rows.replace("{", " ").replace("}", " ").replace(",", " ").split()]
+    assert numbers == general(3).geometry.base_external.ravel().tolist()
+    assert "shortest" not in text
