@@ -1,0 +1,125 @@
+"""LaTeX: tables of the joints, the neutral pose, the legs and the limits. They need booktabs alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from ninedof.export.model import Model
+from ninedof.export.points import JOINTS, LEGS, O, P, base_frame, own_frame
+from ninedof.sheet.limit_rows import LimitRow
+from ninedof.support.units import amount, with_unit
+
+HEAD = r"""% {title}: joints, neutral pose, legs and limits, written by ninedof.
+% In the preamble: \usepackage{{booktabs}}. Each table is a tabular: put it in a table with a caption of yours.
+"""
+SYMBOLS = {
+    "base_external": r"\mathbf{r}",
+    "base_internal": r"\hat{\mathbf{r}}",
+    "platform_external": r"\mathbf{u}",
+    "platform_internal": r"\tilde{\mathbf{u}}",
+}
+"""The joints as in the paper, vectors bold: the letter r is a joint there and the length of a leg."""
+SPECIAL = {c: "\\" + c for c in "&%$#_{}"} | {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+}
+AXES = ("$x$", "$y$", "$z$")
+DIGITS = 6  # of the largest number of a column
+
+
+def text(model: Model) -> str:
+    """Return the file."""
+    tables = [_joints(model), _pose(model), _legs(model)]
+    if model.sheet is not None and model.sheet.limits:
+        tables.append(_limits(model.sheet.limits, model.unit))
+    return "\n".join([HEAD.format(title=model.name), *tables])
+
+
+def escaped(words: str) -> str:
+    """Return words with the characters that LaTeX treats as commands written so that it prints them."""
+    return "".join(SPECIAL.get(c, c) for c in words)
+
+
+def _joints(model: Model) -> str:
+    own = own_frame(model.geometry)
+    rows = [[_joint_words(name), *row] for name, row in zip(JOINTS, _columns([*own.values()]), strict=True)]
+    heads = [with_unit("joint", model.unit), *AXES]
+    return _tabular("Joints in the frame of their plate", "lrrr", [_row(heads)], rows, after=(3, 6, 9))
+
+
+def _joint_words(name: str) -> str:
+    kind, _, number = name.rpartition("_")
+    return f"{kind.replace('_', ' ')} ${SYMBOLS[kind]}_{number}$"
+
+
+def _pose(model: Model) -> str:
+    """Return p, O, the joints of the platform and the rotation; base joints are where the first table has them."""
+    at = base_frame(model.geometry, model.configuration)
+    words = {P: r"platform origin $\mathbf{p}$", O: "internal point $O$"}
+    words |= {name: _joint_words(name) for name in JOINTS if name.startswith("platform")}
+    labels = [*words.values(), *(rf"row {i} of $\mathbf{{Q}}$" for i in (1, 2, 3))]
+    numbers = [*_columns([at[name] for name in words]), *_columns(list(model.configuration.rotation))]
+    rows = [[label, *row] for label, row in zip(labels, numbers, strict=True)]
+    heads = [with_unit("point", model.unit), *AXES]
+    return _tabular("Neutral pose in the base frame", "lrrr", [_row(heads)], rows, after=(2, 5, 8))
+
+
+def _legs(model: Model) -> str:
+    heads = ["neutral"]
+    lengths = [[float(x)] for x in model.neutral_lengths]
+    if model.leg_ranges:
+        heads += ["shortest", "longest", "stroke"]
+        lengths = [[x, a, b, b - a] for (x,), (a, b) in zip(lengths, model.leg_ranges, strict=True)]
+    numbers = _columns(lengths)
+    rows = [
+        [f"${leg[0]}_{leg[1]}$", _end_symbol(a), _end_symbol(b), *row]
+        for (leg, a, b), row in zip(LEGS, numbers, strict=True)
+    ]
+    header = _row([with_unit("leg", model.unit), "from", "to", *heads])
+    return _tabular("Legs: lengths", "lll" + "r" * len(heads), [header], rows, after=(3, 6))
+
+
+def _end_symbol(name: str) -> str:
+    kind, _, number = name.rpartition("_")
+    return f"${SYMBOLS[kind]}_{number}$" if kind else f"${name}$"
+
+
+def _limits(limits: Sequence[LimitRow], unit: str) -> str:
+    rows = []
+    for one in limits:
+        margin = f"${one.margin:.4f}$" if one.unit == "sign" else rf"${round(100.0 * one.margin, 2) + 0.0:.2f}\,\%$"
+        sign = r"$\geq$" if one.side == "min" else r"$\leq$"
+        rows.append([escaped(one.name), sign, *(_measure(one, x, unit) for x in (one.limit, one.value)), margin])
+    return _tabular("Limits of the study", "lcrrr", [_row(["limit", "", "allowed", "here", "margin"])], rows)
+
+
+def _measure(row: LimitRow, value: float, unit: str) -> str:
+    if row.unit == "angle":
+        return rf"${math.degrees(value):.2f}^\circ$"
+    return amount(f"${value:.{DIGITS}g}$", unit if row.unit == "length" else "")
+
+
+def _columns(rows: Sequence[Iterable[float]]) -> list[list[str]]:
+    """Return numbers of one kind with the same decimals, so that right-aligned columns align at the point."""
+    table = np.array([list(row) for row in rows], dtype=float)
+    largest = float(np.abs(table).max()) or 1.0
+    decimals = min(max(DIGITS - 1 - math.floor(math.log10(largest)), 0), 9)
+    return [[f"${x + 0.0:.{decimals}f}$" for x in np.round(row, decimals)] for row in table]
+
+
+def _row(entries: Sequence[str]) -> str:
+    return " & ".join(entries) + r" \\"
+
+
+def _tabular(
+    title: str, columns: str, header: Sequence[str], rows: Sequence[Sequence[str]], after: Sequence[int] = ()
+) -> str:
+    """Return a table, with space after the rows of the given counts."""
+    lines = [f"% {title}", rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *header, r"\midrule"]
+    for count, row in enumerate(rows, start=1):
+        lines += [_row(row), *[r"\addlinespace"] * (count in after)]
+    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
