@@ -20,9 +20,10 @@ from ninedof.support.units import with_unit
 
 INSUNITS = {"": 0, "in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6}
 IMPERIAL = ("in", "ft")
-LAYERS = {"OUTLINE": 7, "JOINTS": 1, "CENTRE": 8, "DIMENSIONS": 5, "TEXT": 7}
-"""Names and colour numbers: black on white, red, grey, blue."""
+LAYERS = {"OUTLINE": (7, 50), "JOINTS": (1, 25), "CENTRE": (8, 13), "DIMENSIONS": (5, 18), "TEXT": (7, 25)}
+"""Names, colour numbers (black on white, red, grey, blue) and line widths in 0.01 mm."""
 STYLE = "NINEDOF"
+BY_LAYER = -1  # width of lines
 FONT = "arial.ttf"
 DIGITS = 6  # of the largest length in dimensions and tables
 PURPOSE = "the DXF drawing of the plates"
@@ -36,8 +37,9 @@ def text(model: Model) -> str:
     document.header["$INSUNITS"] = INSUNITS[model.unit]
     document.header["$MEASUREMENT"] = 0 if model.unit in IMPERIAL else 1
     document.styles.get("Standard").dxf.font = FONT
-    for name, color in LAYERS.items():
-        document.layers.add(name, color=color, linetype="CENTER" if name == "CENTRE" else "CONTINUOUS")
+    for name, (color, width) in LAYERS.items():
+        kind = "CENTER" if name == "CENTRE" else "CONTINUOUS"
+        document.layers.add(name, color=color, linetype=kind, lineweight=width)
     base, platform = plates_of(model.geometry)
     size = max(base.size, platform.size)
     height = 0.03 * size
@@ -65,13 +67,14 @@ def _dimension_style(document: Any, height: float, decimals: int) -> None:
         "dimclrt": 7,
         "dimdsep": ord("."),
     }
+    words |= {"dimlwd": BY_LAYER, "dimlwe": BY_LAYER}
     document.dimstyles.new(STYLE, dxfattribs=sizes | words)
 
 
 def _round_up(value: float) -> float:
-    """Return the next multiple of half a power of ten, so that the shift is easy to undo."""
-    step = 0.5 * 10.0 ** math.floor(math.log10(value))
-    return step * math.ceil(value / step)
+    """Return the next number of two digits, so that the shift is easy to undo."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{step * math.ceil(value / step):.2g}")
 
 
 class _Drawing:

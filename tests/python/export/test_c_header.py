@@ -5,8 +5,8 @@ import subprocess
 
 import numpy as np
 import pytest
-from written_designs import HEXAGON, PAPER, general, limited, text_of
 from scipy.spatial.transform import Rotation
+from written_designs import HEXAGON, PAPER, general, limited, text_of
 
 import ninedof as nd
 from ninedof.export import c_header

@@ -67,6 +67,14 @@ def test_what_is_written_beside_the_joints(tmp_path):
     assert load(tmp_path, text).geometry == g
 
 
+def test_pandas_reads_the_joints_as_a_table(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    (tmp_path / "joints.csv").write_text(text_of(written, HEXAGON))
+    table = pandas.read_csv(tmp_path / "joints.csv", nrows=12, index_col="joint")
+    own = np.vstack([getattr(HEXAGON.geometry, name) for name in ("platform_external", "platform_internal")])
+    np.testing.assert_allclose(table[["x (mm)", "y (mm)", "z (mm)"]].to_numpy()[6:], own, rtol=1e-15)
+
+
 def test_a_file_written_by_hand(tmp_path):
     found = load(tmp_path, BY_HAND)
     assert found.unit == "mm"
