@@ -106,7 +106,7 @@ class _Drawing:
             self._text(name, self.origin + (length + 0.8 * self.height) * axis, "CENTRE", "MIDDLE_CENTER")
 
     def _joints(self, plate: Plate) -> None:
-        """Draw a circle at each centre and its name toward the origin; one circle for joints that coincide."""
+        """Draw a circle at each centre, one where joints coincide, and its name, toward the origin if there is room."""
         shared: dict[tuple[float, ...], list[str]] = {}
         for name, joint in plate.joints.items():
             near = next((at for at in shared if np.linalg.norm(joint - at) <= 1e-9 * plate.size), None)
@@ -114,9 +114,10 @@ class _Drawing:
         for at, names in shared.items():
             centre, label = np.array(at[:2]), " ".join(names)
             self.space.add_circle(self.origin + centre, 0.4 * self.height, dxfattribs={"layer": "JOINTS"})
-            inward = -centre / (np.linalg.norm(centre) or 1.0)
-            reach = self.height * (1.2 + 0.75 * len(label))
-            self._text(label, self.origin + centre + reach * inward, "TEXT", "MIDDLE_CENTER")
+            reach, radius = self.height * (1.2 + 0.75 * len(label)), float(np.linalg.norm(centre))
+            away = centre / radius if radius > 0.0 else np.array([0.0, 1.0])
+            step = -reach if reach < 0.4 * radius else reach
+            self._text(label, self.origin + centre + step * away, "TEXT", "MIDDLE_CENTER")
 
     def _side(self, side: Side) -> None:
         """Dimension a side, on the side away from the origin."""

@@ -6,14 +6,14 @@ import subprocess
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from written_designs import HEXAGON, PAPER, general, limited, text_of
+from written_designs import PAPER, general, limited, text_of
 
 import ninedof as nd
 from ninedof.export import c_header
 
 COMPILER = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="no C compiler (cc, gcc or clang)")
-STRICT = "-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wshadow -Wconversion".split()
+STRICT = "-std=c99 -O1 -Wall -Wextra -Werror -pedantic -Wshadow -Wconversion".split()
 POSES = 200
 
 LENGTHS = r"""
@@ -63,7 +63,7 @@ def run(folder, design, program, given=""):
 
 
 @needs_compiler
-@pytest.mark.parametrize("design", [PAPER, HEXAGON, general(2)], ids=["paper", "hexagon", "general"])
+@pytest.mark.parametrize("design", [PAPER, general(2)], ids=["paper", "general"])
 def test_leg_lengths_are_those_of_the_package(design, tmp_path):
     rng = np.random.default_rng(5)
     size = float(design.configuration.position[2])

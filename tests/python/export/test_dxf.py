@@ -1,5 +1,6 @@
 """DXF: ezdxf reads the file without a complaint, and finds joints, outlines and dimensions where they belong."""
 
+import functools
 import io
 import re
 import sys
@@ -30,7 +31,13 @@ CASES = {
 }
 
 
-def drawn(design):
+@functools.cache
+def drawn(name):
+    """The drawing of a case; tests look and do not touch."""
+    return drawing(CASES[name][0])
+
+
+def drawing(design):
     return ezdxf.read(io.StringIO(text_of(dxf, design)))
 
 
@@ -48,7 +55,7 @@ def shift(document):
 @pytest.mark.parametrize("name", CASES)
 def test_joints_where_they_are_and_no_complaint(name):
     design, code = CASES[name]
-    document = drawn(design)
+    document = drawn(name)
     audit = document.audit()
     assert (audit.errors, audit.fixes) == ([], [])
     assert document.header["$INSUNITS"] == code
@@ -69,7 +76,7 @@ def test_joints_where_they_are_and_no_complaint(name):
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_outline_goes_around_all_joints(name):
-    document = drawn(CASES[name][0])
+    document = drawn(name)
     circles = np.array([circle.dxf.center for circle in on(document, "JOINTS", "CIRCLE")])[:, :2]
     outlines = on(document, "OUTLINE", "LWPOLYLINE")
     assert len(outlines) == 2
@@ -85,30 +92,30 @@ def test_the_outline_goes_around_all_joints(name):
     assert inside == len(circles)
 
 
-def dimensions(design):
+def dimensions(name):
     found = {}
-    for one in on(drawn(design), "DIMENSIONS", "DIMENSION"):
+    for one in on(drawn(name), "DIMENSIONS", "DIMENSION"):
         found.setdefault(one.dxf.text.partition(" =")[0], []).append(one.get_measurement())
     return found
 
 
 def test_sides_of_hexagons_are_dimensioned():
-    found = dimensions(HEXAGON)
+    found = dimensions("hexagon")
     assert {name: found[name][0] for name in ("a1", "a2", "b1", "b2")} == pytest.approx(
         {"a1": 120.0, "a2": 480.0, "b1": 300.0, "b2": 30.0}, rel=1e-12
     )
     radii = [np.sqrt((a * a + a * b + b * b) / 3.0) for a, b in ((120.0, 480.0), (300.0, 30.0))]
     assert found["<>"] == pytest.approx(radii, rel=1e-12)
-    assert {name for name in dimensions(PAPER) if name != "<>"} == {"a2", "b1"}  # the others are 0
+    assert {name for name in dimensions("paper") if name != "<>"} == {"a2", "b1"}  # the others are 0
 
 
 def test_other_plates_have_the_radii_that_they_have():
-    assert dimensions(CASES["threefold"][0])["<>"] == pytest.approx([500.0, 300.0, 150.0, 90.0], rel=1e-12)
-    assert dimensions(general(1)) == {}
+    assert dimensions("threefold")["<>"] == pytest.approx([500.0, 300.0, 150.0, 90.0], rel=1e-12)
+    assert dimensions("general") == {}
 
 
 def test_a_dimension_shows_what_it_measures():
-    document = drawn(HEXAGON)
+    document = drawn("hexagon")
     shown = []
     for one in on(document, "DIMENSIONS", "DIMENSION"):
         shown += [text.text for text in document.blocks.get(one.dxf.geometry).query("MTEXT")]
@@ -118,7 +125,7 @@ def test_a_dimension_shows_what_it_measures():
 def test_a_plate_on_edge_has_no_outline():
     upright = np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, -1.0, -1.0]])
     design = PAPER._replace(geometry=nd.Geometry(upright, 2.0 * upright, *plates_of_paper()))
-    document = drawn(design)
+    document = drawing(design)
     assert len(on(document, "OUTLINE", "LWPOLYLINE")) == 1
     assert not len(plates_of(design.geometry)[0].outline)
 
