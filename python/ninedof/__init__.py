@@ -66,6 +66,7 @@ from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellip
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
 from ninedof.verify import check
+from ninedof.viewer.view import view
 from ninedof.workspace import (
     WorkspaceCells,
     WorkspaceMap,
@@ -174,6 +175,7 @@ __all__ = [
     "uncontrolled_motions",
     "velocity_ellipsoid",
     "velocity_matrices",
+    "view",
     "workspace",
 ]
 

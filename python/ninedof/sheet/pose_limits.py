@@ -50,7 +50,12 @@ class PoseLimit(NamedTuple):
 
 
 def pose_limits(
-    study: Study, g: Geometry, c: Configuration, neutral: Configuration, characteristic_length: float
+    study: Study,
+    g: Geometry,
+    c: Configuration,
+    neutral: Configuration,
+    characteristic_length: float,
+    beside: Floats | None = None,
 ) -> list[PoseLimit]:
     """Return every limit that a study has at its poses.
 
@@ -67,6 +72,9 @@ def pose_limits(
         A single one, for the axes of cones, signs of determinants and units of zp.
     characteristic_length : float
         For `condition_limit`.
+    beside : array_like, shape (m, 9), optional
+        Leg lengths at other poses: with them the spread at a pose is over these and that pose alone, whatever the order
+        of the stack.
 
     """
     found = list[PoseLimit]()
@@ -75,7 +83,7 @@ def pose_limits(
         if given["at"] != "poses":
             continue
         unit = float(neutral.position[2]) if given["of"] == "zp" else 1.0
-        for part, values in _values(name, given["axis"], g, c, neutral):
+        for part, values in _values(name, given["axis"], g, c, neutral, beside):
             for side, limit in (("min", unit * given["low"]), ("max", unit * given["high"])):
                 if side in ROWS[name].sides and math.isfinite(limit) and limit > 0.0:
                     found.append(PoseLimit(name, part, side, limit, values, _margin(name, side, limit, values)))
@@ -86,7 +94,7 @@ def pose_limits(
 
 
 def _values(
-    name: str, axis: Sequence[float], g: Geometry, c: Configuration, neutral: Configuration
+    name: str, axis: Sequence[float], g: Geometry, c: Configuration, neutral: Configuration, beside: Floats | None
 ) -> Iterator[tuple[str, Floats]]:
     """Yield the numbers that a constraint limits at each pose, by leg or determinant; none for limits of the design."""
     if name in OF_LENGTHS:
@@ -94,7 +102,10 @@ def _values(
         yield from ((LEGS[k], lengths[:, k]) for k in OF_LENGTHS[name])
     elif name in SPREADS:
         lengths = leg_lengths(g, c)
-        long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
+        if beside is None:
+            long, short = np.maximum.accumulate(lengths, axis=0), np.minimum.accumulate(lengths, axis=0)
+        else:
+            long, short = np.maximum(lengths, beside.max(axis=0)), np.minimum(lengths, beside.min(axis=0))
         if name == "leg_ratio":
             yield "", long.max(axis=1) / short.min(axis=1)
         else:

@@ -1,0 +1,50 @@
+"""`ninedof view`: a design in the browser, to move by hand."""
+
+from __future__ import annotations
+
+import webbrowser
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ninedof.cli import options
+from ninedof.support.extras import MissingExtra
+from ninedof.viewer.view import view as view_of
+
+PLACE = 3
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof view runs/20260101-120000                   the best design of a run, with the limits of its study
+
+  ninedof view design.toml --path path.csv --port 0   with a path to play, at any free port
+
+  ninedof view                                        the published design"""
+
+
+def view(
+    design: options.DesignOrPublished = None,
+    path: Annotated[Path | None, typer.Option(help="Poses to play: a CSV file as of `ninedof path`.")] = None,
+    host: Annotated[
+        str, typer.Option(help="Address to listen at; 0.0.0.0 is reached from the whole network, without a password.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port; 0 takes any free one.")] = 8080,
+    dark: Annotated[bool, typer.Option("--dark", help="Dark colours.")] = False,
+    browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """Show a design in the browser, to move by hand: platform, O, variables; numbers and limits follow.
+
+    Needs the extra `viewer`. Ctrl-C ends it.
+    """
+    try:
+        viewer = view_of(design, host=host, port=port, path=path, dark=dark)
+    except MissingExtra as error:
+        raise ValueError(str(error)) from None
+    with viewer:
+        try:
+            typer.echo(f"{viewer.url}  (Ctrl-C ends the viewer)")
+            if browser:
+                webbrowser.open(viewer.url)
+            viewer.wait()
+        except KeyboardInterrupt:
+            typer.echo("closed", err=True)

@@ -1,0 +1,326 @@
+"""The viewer: a server, the scene and the panel, and one thread that brings both up to date."""
+
+from __future__ import annotations
+
+import io
+import math
+import tempfile
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from matplotlib.image import imsave
+
+from ninedof.motion.rotations import from_quaternions
+from ninedof.motion.trajectory import Trajectory
+from ninedof.runs.design_file import Design, save_design
+from ninedof.viewer.body import body
+from ninedof.viewer.html import number
+from ninedof.viewer.panel import ELLIPSOIDS, Panel
+from ninedof.viewer.player import Player
+from ninedof.viewer.scene import EXTENT, Scene
+from ninedof.viewer.server import started, stopped
+from ninedof.viewer.state import State
+from ninedof.viewer.subject import Subject
+
+FRAME = 1.0 / 40.0  # seconds between two poses of a path that is played
+SETTLED = 0.5  # seconds without a change after which all sliders are set to the model
+BRAND = (0, 114, 178)
+
+
+class Viewer:
+    """A machine in a browser, until `close`. Made by `ninedof.view`."""
+
+    def __init__(self, subject: Subject, host: str, port: int, dark: bool) -> None:
+        self.subject = subject
+        self.state = State(subject)
+        self.player: Player | None = None
+        self._pending: dict[str, Callable[[], object]] = {"first": lambda: None}
+        self._wake = threading.Condition()
+        self._lock = threading.RLock()
+        self._closed = threading.Event()
+        self._body_run = 0
+        self._modes: Any = None
+        self._server = started(host, port)
+        self.host, self.port = host, int(self._server.get_port())
+        self._theme(dark)
+        self.scene = Scene(self._server, subject.size, dark)
+        self.panel = Panel(self, self._server.gui, dark)
+        self._camera()
+        for name in ("platform", "O"):
+            self._server_handle(name)
+        self._worker = threading.Thread(target=self._work, name="ninedof-viewer", daemon=True)
+        self._worker.start()
+
+    # --- for Python -----------------------------------------------------------------------------------------------
+
+    @property
+    def url(self) -> str:
+        """The address to open in a browser."""
+        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(
+            self.host, f"[{self.host}]" if ":" in self.host else self.host
+        )
+        return f"http://{host}:{self.port}"
+
+    @property
+    def design(self) -> Design:
+        """What is shown: a design whose neutral pose is the pose shown."""
+        with self._lock:
+            return self.state.design
+
+    def play(self, path: Any) -> None:
+        """Play a path: a Trajectory, or a CSV file of poses as `ninedof.Trajectory.load` reads it."""
+        if isinstance(path, Trajectory):
+            self.submit("path", lambda: self._open_path("path", path))
+            return
+        found = Trajectory.load(path, self.state.home, self.subject.unit)
+        self.submit("path", lambda: self._open_path(Path(path).name, found))
+
+    def wait(self) -> None:
+        """Return when the viewer is closed; Ctrl-C interrupts it."""
+        while not self._closed.wait(0.5):
+            pass
+
+    def close(self) -> None:
+        """Stop the threads and the server. A second call does nothing."""
+        if self._closed.is_set():
+            return
+        self._closed.set()
+        with self._wake:
+            self._wake.notify_all()
+        if threading.current_thread() is not self._worker:
+            self._worker.join(timeout=10.0)
+        stopped(self._server)
+
+    def __enter__(self) -> Self:
+        """Return the viewer."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """Close the viewer."""
+        self.close()
+
+    def __repr__(self) -> str:
+        """Show the address."""
+        return f"<Viewer: closed, was {self.url}>" if self._closed.is_set() else f"<Viewer: {self.url}>"
+
+    # --- changes, each by the thread that works ---------------------------------------------------------------------
+
+    def submit(self, key: str, change: Callable[[], object]) -> None:
+        """Let a change of the state be made soon; it replaces one of the same key that still waits."""
+        with self._wake:
+            self._pending.pop(key, None)
+            self._pending[key] = change
+            self._wake.notify()
+
+    def move(self, axis: int, value: float) -> None:
+        """Move the platform along one axis."""
+        position = self.state.configuration.position.copy()
+        position[axis] = value
+        self.state.set_pose(position=position)
+
+    def turn(self, axis: int, value: float) -> None:
+        """Set one component of the rotation vector, degrees."""
+        turn = list(self.state.turn_deg)
+        turn[axis] = value
+        self.state.set_pose(turn_deg=turn)
+
+    def move_internal_point(self, axis: int, value: float) -> None:
+        """Move O along one axis."""
+        point = self.state.configuration.internal_point.copy()
+        point[axis] = value
+        self.state.set_internal_point(point)
+
+    def find_modes(self) -> None:
+        """List the assembly modes of the leg lengths shown."""
+        found, kappa = self.state.modes()
+        order = np.argsort(kappa)
+        names = [f"{k + 1}: condition number {number(float(kappa[n]))}" for k, n in enumerate(order)]
+        self._modes = found[order] if len(order) else None
+        here = self.state.configuration
+        shown = 0
+        if self._modes is not None:
+            away = np.abs(self._modes.position - here.position).max(axis=1) / self.subject.size
+            away += np.abs(self._modes.rotation - here.rotation).max(axis=(1, 2))
+            shown = int(np.argmin(away + np.abs(self._modes.internal_point - here.internal_point).max(axis=1)))
+        self.panel.list_modes(names, f"none: {found.status}", shown)
+
+    def show_mode(self, k: int) -> None:
+        """Show one of the modes found."""
+        if self._modes is not None and k < len(self._modes):
+            self.state.set_configuration(self._modes[k])
+
+    def read_path(self, file: Any) -> None:
+        """Open a path that the browser has sent."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "path.csv"
+            path.write_bytes(file.content)
+            try:
+                found = Trajectory.load(path, self.state.home, self.subject.unit)
+            except ValueError as error:
+                raise ValueError(str(error).replace(str(path), file.name)) from None
+        self._open_path(file.name, found)
+
+    def _open_path(self, name: str, found: Trajectory) -> None:
+        self.player = Player(found)
+        self.panel.offer_path(name, self.player.duration, len(found))
+        points = found.position
+        self.scene.draw_line("/path", np.stack([points[:-1], points[1:]], axis=1), "#AA3377")
+        self.seek(0.0)
+
+    def toggle_play(self) -> None:
+        """Play or pause the path."""
+        if self.player is not None:
+            self.player.playing = not self.player.playing
+
+    def set_speed(self, speed: float) -> None:
+        """Set how much faster than its own times the path is played."""
+        if self.player is not None:
+            self.player.speed = speed
+
+    def seek(self, at: float) -> None:
+        """Show the pose of the path at a time."""
+        if self.player is not None:
+            self.player.time = at
+            p, q = self.player.pose()
+            self.state.set_pose(position=p, rotation=q)
+
+    # --- the workspace, in a thread of its own --------------------------------------------------------------------
+
+    def compute_body(self, condition_limit: float) -> None:
+        """Draw the workspace as soon as it is known; one that is still sought is given up."""
+        with self._lock:
+            self._body_run += 1
+            run = self._body_run
+            question = self.state.body_question(condition_limit if condition_limit >= 1.0 else math.inf)
+        self.panel.tell_body("Computing ...")
+
+        def given_up() -> bool:
+            return self._closed.is_set() or run != self._body_run
+
+        def work() -> None:
+            try:
+                found = body(question, given_up)
+            except ValueError as error:
+                self.panel.tell_body(f"Not found: {error}")
+                return
+            if found is not None and not given_up():
+                self.submit("body", lambda: self.scene.draw_body(found.vertices, found.faces))
+                self.panel.tell_body(self.panel.body_words(found.volume, found.open))
+
+        threading.Thread(target=work, name="ninedof-viewer-workspace", daemon=True).start()
+
+    def remove_body(self) -> None:
+        """Remove the workspace."""
+        self._body_run += 1
+        self.panel.tell_body("")
+        self.submit("body", lambda: self.scene.draw_body(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.uint32)))
+
+    # --- what the browser asks for --------------------------------------------------------------------------------
+
+    def show(self, part: str, visible: bool) -> None:
+        """Show or hide a part of the scene."""
+        self.submit(f"show {part}", lambda: self.scene.show(part, visible))
+
+    def set_dark(self, dark: bool) -> None:
+        """Choose dark or light."""
+        self._theme(dark)
+        self.submit("dark", lambda: self.scene.set_dark(dark))
+
+    def send_design(self, event: Any) -> None:
+        """Send the design file of what is shown."""
+        with tempfile.TemporaryDirectory() as folder:
+            content = save_design(self.design, Path(folder) / "design.toml").read_bytes()
+        event.client.send_file_download("design.toml", content)
+
+    def send_picture(self, event: Any) -> None:
+        """Send the scene as a PNG."""
+        client = event.client
+        image = client.get_render(height=client.camera.image_height, width=client.camera.image_width)
+        stream = io.BytesIO()
+        imsave(stream, image, format="png")
+        client.send_file_download("ninedof.png", stream.getvalue())
+
+    # --- within ---------------------------------------------------------------------------------------------------
+
+    def update(self, settled: bool = False) -> None:
+        """Bring scene and panel up to date."""
+        with self._lock:
+            state = self.state
+            found = state.numbers()
+            with self._server.atomic():
+                self.scene.draw(state.geometry, state.configuration, found)
+                if (kind := ELLIPSOIDS[self.panel.ellipsoid]) is None:
+                    self.scene.hide_ellipsoid()
+                else:
+                    shape = kind[0](state.geometry, state.configuration, kind[1], state.yardstick.length)
+                    self.scene.draw_ellipsoid(state.configuration, *shape)
+                self.panel.refresh(found, settled)
+
+    def _work(self) -> None:
+        settled, last = True, time.monotonic()
+        while not self._closed.is_set():
+            playing = self.player is not None and self.player.playing
+            with self._wake:
+                if not self._pending:
+                    self._wake.wait(FRAME if playing else None if settled else SETTLED)
+                changes, self._pending = list(self._pending.values()), {}
+            now = time.monotonic()
+            passed, last = now - last, now
+            if self._closed.is_set() or (settled and not changes and not playing):
+                continue
+            try:
+                self._apply(changes, passed if playing else 0.0)
+                settled = not changes and not playing
+                self.update(settled)
+            except ValueError as error:
+                self.state.note = str(error)
+                settled = False
+            except Exception:  # the viewer goes on; a mistake of the program is shown where it was started
+                traceback.print_exc()
+                settled = True
+
+    def _apply(self, changes: list[Callable[[], object]], passed: float) -> None:
+        with self._lock:
+            for change in changes:
+                change()
+            if passed > 0.0 and self.player is not None:
+                self.player.advance(min(passed, 0.2))
+                p, q = self.player.pose()
+                self.state.set_pose(position=p, rotation=q)
+
+    def _server_handle(self, name: str) -> None:
+        handle = self.scene.gizmo(name)
+
+        async def dragged(event: Any) -> None:  # not in a pool of threads, so that drags keep their order
+            position = np.asarray(event.target.position) / self.scene.scale
+            turn = from_quaternions(np.asarray(event.target.wxyz, dtype=np.float64)[None])[0]
+            self.scene.hold(name, event.phase != "end")
+            if name == "O":
+                self.submit("O", lambda: self.state.set_internal_point(position))
+            else:
+                self.submit("pose", lambda: self.state.set_pose(position=position, rotation=turn))
+
+        handle.on_update(dragged)
+
+    def _theme(self, dark: bool) -> None:
+        self._server.gui.configure_theme(
+            dark_mode=dark,
+            control_width="large",
+            control_layout="collapsible",
+            show_logo=False,
+            show_share_button=False,
+            brand_color=BRAND,
+        )
+
+    def _camera(self) -> None:
+        middle = 0.5 * self.scene.scale * self.state.home.position * np.array([0.0, 0.0, 1.0])
+        camera = self._server.initial_camera
+        camera.look_at = middle
+        camera.position = middle + 1.55 * EXTENT * np.array([0.42, -0.80, 0.36])
+        camera.fov = math.radians(40.0)

@@ -1,0 +1,75 @@
+"""Start and stop of the web server."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+from ninedof.support.arguments import shown
+from ninedof.support.extras import optional
+
+
+def started(host: str, port: int) -> Any:
+    """Return a server of viser at a port; 0 takes any free one.
+
+    Raises
+    ------
+    MissingExtra
+        Without viser.
+    ValueError
+        If the port is in use or the host is no address of this machine.
+
+    """
+    viser = optional("viser", "viewer", "the viewer")
+    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
+        raise ValueError(f"port: got {shown(port)}, expected a number from 0 to 65535")
+    _require_free(host, port)
+    with _silence():
+        server = viser.ViserServer(host=host, port=port, label="ninedof", verbose=False)
+    if port not in (0, server.get_port()):  # taken a moment ago: viser goes on to the next ones
+        stopped(server)
+        raise ValueError(_in_use(port))
+    return server
+
+
+def stopped(server: Any) -> None:
+    """Stop a server."""
+    with _silence():
+        server.stop()
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Leave out what viser prints."""
+    import rich
+
+    console = rich.get_console()
+    quiet, console.quiet = console.quiet, True
+    try:
+        yield
+    finally:
+        console.quiet = quiet
+
+
+def _in_use(port: int) -> str:
+    return f"port: got {port}, which is in use, expected a free one, or 0 for any"
+
+
+def _require_free(host: str, port: int) -> None:
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except (OSError, UnicodeError) as error:
+        raise ValueError(f"host: got {host!r}, expected an address of this machine ({error})") from None
+    with socket.socket(family, kind) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as the server does: a port just left is free
+        try:
+            probe.bind(address)
+        except PermissionError:
+            raise ValueError(f"port: got {port}, which needs the rights of root, expected one above 1023") from None
+        except OSError as error:
+            if error.errno == errno.EADDRINUSE:
+                raise ValueError(_in_use(port)) from None
+            raise ValueError(f"host: got {host!r}, expected an address of this machine ({error.strerror})") from None

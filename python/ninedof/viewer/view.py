@@ -1,0 +1,75 @@
+"""`ninedof.view`."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ninedof.motion.trajectory import Trajectory
+    from ninedof.viewer.app import Viewer
+
+
+def view(
+    design: Any = None,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 8080,
+    path: Trajectory | str | os.PathLike[str] | None = None,
+    dark: bool = False,
+) -> Viewer:
+    """Show a design in a browser, to move it by hand.
+
+    Platform and O are moved by handles or sliders, and so are the variables of the design. Legs, condition number,
+    singular values, leg lengths, determinants and the margins of the study follow. The page is at `Viewer.url` until
+    `Viewer.close`; the call returns at once.
+
+    Parameters
+    ----------
+    design : Design, Result or path, optional
+        A Design; a Result, shown with the limits of its study; or a path as `ninedof.load` takes it: a design file, a
+        run folder, "RUN#7". The published design by default.
+    host : str
+        Address to listen at. The default is reached from this machine alone; "0.0.0.0" from the whole network, and
+        nothing asks for a password.
+    port : int
+        0 takes any free port.
+    path : Trajectory or path, optional
+        Poses of the platform to play, as `ninedof.Trajectory.load` reads them.
+    dark : bool
+        Dark colours.
+
+    Returns
+    -------
+    Viewer
+        With `url`, `design` (what is shown, as a Design), `play(path)`, `wait()` and `close()`; also a context manager.
+
+    Raises
+    ------
+    ninedof.support.extras.MissingExtra
+        Without viser: pip install 'ninedof[viewer]'.
+    ValueError
+        If there is no such design or path, or the port is in use.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> with nd.view(port=0) as viewer:  # doctest: +SKIP
+    ...     print(viewer.url)
+    ...     viewer.wait()
+
+    """
+    from ninedof.support.extras import optional
+
+    optional("viser", "viewer", "the viewer")
+    from ninedof.viewer.app import Viewer
+    from ninedof.viewer.subject import subject_of
+
+    shown = Viewer(subject_of(design), host, port, dark)
+    if path is not None:
+        try:
+            shown.play(path)
+        except BaseException:
+            shown.close()
+            raise
+    return shown
