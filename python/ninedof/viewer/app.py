@@ -48,14 +48,22 @@ class Viewer:
         self._modes: Any = None
         self._server = started(host, port)
         self.host, self.port = host, int(self._server.get_port())
+        try:
+            self._build(dark)
+        except BaseException:
+            stopped(self._server)
+            raise
+        self._worker = threading.Thread(target=self._work, name="ninedof-viewer", daemon=True)
+        self._worker.start()
+
+    def _build(self, dark: bool) -> None:
         self._theme(dark)
-        self.scene = Scene(self._server, subject.size, dark)
+        self._server.gui.main_panel.dock_right()
+        self.scene = Scene(self._server, self.subject.size, dark)
         self.panel = Panel(self, self._server.gui, dark)
         self._camera()
         for name in ("platform", "O"):
             self._server_handle(name)
-        self._worker = threading.Thread(target=self._work, name="ninedof-viewer", daemon=True)
-        self._worker.start()
 
     # --- for Python -----------------------------------------------------------------------------------------------
 
@@ -312,7 +320,6 @@ class Viewer:
         self._server.gui.configure_theme(
             dark_mode=dark,
             control_width="large",
-            control_layout="collapsible",
             show_logo=False,
             show_share_button=False,
             brand_color=BRAND,

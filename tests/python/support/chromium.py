@@ -9,8 +9,16 @@ import time
 import urllib.request
 from pathlib import Path
 
-PROGRAM = next((found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None)
-OPTIONS = ["--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+PROGRAM = next(
+    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
+)
+OPTIONS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
 
 
 class Page:
@@ -65,7 +73,9 @@ def page(url, profile, width=1280, height=800):
 
     where = [f"--user-data-dir={profile}", "--remote-debugging-port=0", f"--window-size={width},{height}"]
     browser = subprocess.Popen(
-        [PROGRAM, *OPTIONS, *where, "--no-first-run", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        [PROGRAM, *OPTIONS, *where, "--no-first-run", "about:blank"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
     try:
         note = Path(profile) / "DevToolsActivePort"
@@ -81,7 +91,9 @@ def page(url, profile, width=1280, height=800):
             made = Page(socket)
             made.call("Runtime.enable")
             made.call("Page.enable")
-            made.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+            made.call(
+                "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
+            )
             made.call("Page.navigate", url=url)
             yield made
             with contextlib.suppress(Exception):

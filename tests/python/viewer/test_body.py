@@ -1,0 +1,70 @@
+"""The workspace of the viewer: its surface, and its volume beside the search of the package."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.viewer.body import body
+from ninedof.viewer.state import State
+from ninedof.viewer.subject import subject_of
+from ninedof.viewer.surface import surface, volume
+
+
+def test_the_surface_of_a_ball():
+    x, y, z = (np.linspace(-end, end, 31) for end in (1.0, 1.2, 1.1))
+    grid = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
+    vertices, faces = surface(0.8 - np.linalg.norm(grid, axis=-1), grid[0, 0, 0], grid[-1, -1, -1])
+    np.testing.assert_allclose(np.linalg.norm(vertices, axis=1), 0.8, atol=5e-3)
+    assert volume(vertices, faces) == pytest.approx(4.0 / 3.0 * np.pi * 0.8**3, rel=0.02)  # positive: normals outward
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    there, back = ({tuple(pair) for pair in way} for way in (sides.tolist(), sides[:, ::-1].tolist()))
+    assert there == back  # closed: each side once in either direction
+    assert len(there) == len(sides)
+
+
+def test_a_surface_is_closed_where_the_grid_ends():
+    vertices, faces = surface(np.ones((3, 4, 5)), np.zeros(3), np.array([2.0, 3.0, 4.0]))
+    assert volume(vertices, faces) == pytest.approx(24.0, rel=1e-6)
+
+
+def test_the_volume_is_that_of_the_workspace_search():
+    state = State(subject_of())
+    limits = np.full(9, 2.0), np.full(9, 5.6)
+    question = state.body_question(condition_limit=6.0)
+    question = replace(question, yardstick=replace(question.yardstick, leg_low=limits[0], leg_high=limits[1]))
+    shown = body(question)
+    home = state.home
+    held = {"platform": home.internal_point - home.position}
+    criteria = {"leg_limits": limits, "condition_number": 6.0, "singularity_free": True}
+    reach = 0.75 * state.subject.size
+    searched = nd.workspace(
+        state.geometry,
+        (home.position - reach, home.position + reach),
+        criteria=criteria,
+        internal_point=held,
+        home=home,
+        tolerance=0.01,
+    )
+    assert not shown.open
+    assert shown.volume == pytest.approx(searched.volume, rel=0.05)
+
+
+def test_a_search_is_given_up():
+    assert body(State(subject_of()).body_question(5.0), lambda: True) is None
+
+
+def test_the_spread_of_a_study_bounds_the_body():
+    """Every position inside keeps the stroke ratio, which the poses of the study already use up."""
+    study = nd.Study(constraints={"stroke_ratio": (None, 1.3)}, objective={"poses": nd.poses.box((0.3, 0.3, 0.3))})
+    result = nd.optimize(study, starts=2)
+    state = State(subject_of(result))
+    shown = body(state.body_question())
+    assert shown.volume > 0.0
+    lengths = nd.leg_lengths(result.geometry, result.configurations)
+    for vertex in shown.vertices[::40]:
+        p = state.home.position + 0.98 * (vertex - state.home.position)
+        at = nd.Configuration(p, state.home.rotation, p + state.home.internal_point - state.home.position)
+        legs = np.vstack([lengths, nd.leg_lengths(result.geometry, at)])
+        assert (legs.max(axis=0) / legs.min(axis=0)).max() < 1.3 * 1.02

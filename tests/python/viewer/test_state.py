@@ -1,0 +1,215 @@
+"""The model of the viewer, without a screen: what goes in, what comes out."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.viewer.player import Player
+from ninedof.viewer.state import State
+from ninedof.viewer.subject import subject_of
+
+
+@pytest.fixture(scope="module")
+def found():
+    """A small study with a limit of every kind that the viewer shows."""
+    study = nd.Study(
+        constraints={
+            "stroke_ratio": (None, 1.9),
+            "base_cone": {"max_deg": 60},
+            "leg_clearance": {"min": 0.05},
+            "radius_ratio": (None, 3.0),
+            "external_length": (0.5, 8.0),
+        },
+        objective={"poses": [{"position": (0.2, 0.1, 0.2)}, {"position": (-0.2, 0.0, -0.1)}]},
+    )
+    result = nd.optimize(study, starts=2, seed=1)
+    assert result.best is not None
+    return result
+
+
+def shifted(point, by):
+    return point + np.array(by)
+
+
+def moved(c):
+    return nd.Configuration(
+        shifted(c.position, [0.3, -0.2, 0.1]), c.rotation, shifted(c.internal_point, [0.3, -0.2, 0.1])
+    )
+
+
+def test_numbers_are_those_of_the_public_functions():
+    state = State(subject_of())
+    g, c = state.geometry, state.configuration
+    assert state.numbers().condition_number == nd.condition_number(g, c)
+    state.set_pose(position=shifted(c.position, [0.3, -0.2, 0.1]))
+    there = moved(c)
+    shown = state.numbers()
+    np.testing.assert_allclose(state.configuration.internal_point, there.internal_point, atol=1e-12)
+    np.testing.assert_allclose(shown.condition_number, nd.condition_number(g, there), rtol=1e-12)
+    np.testing.assert_allclose(shown.leg_lengths, nd.leg_lengths(g, there), rtol=1e-12)
+    np.testing.assert_allclose(shown.singular_values, nd.singular_values(g, there), rtol=1e-12)
+    np.testing.assert_allclose(shown.determinants, nd.singularity_margins(g, there), rtol=1e-10)
+    assert shown.limits == ()
+
+
+@pytest.mark.parametrize("turn", [(10.0, 0.0, 0.0), (5.0, -12.0, 30.0)])
+def test_o_follows_its_rule(turn):
+    state = State(subject_of())
+    home = state.home
+    away = {}
+    for rule in ("carried", "shifted", "held"):
+        state.go_home()
+        state.set_rule(rule)
+        state.set_pose(position=shifted(home.position, [0.4, 0.1, 0.0]), turn_deg=turn)
+        np.testing.assert_allclose(state.turn_deg, turn, atol=1e-9)
+        away[rule] = state.configuration
+    q = away["carried"].rotation
+    own = q.T @ (away["carried"].internal_point - away["carried"].position)
+    np.testing.assert_allclose(own, home.internal_point - home.position, atol=1e-12)  # Q is the identity at home
+    np.testing.assert_allclose(
+        away["shifted"].internal_point, shifted(home.internal_point, [0.4, 0.1, 0.0]), atol=1e-12
+    )
+    np.testing.assert_array_equal(away["held"].internal_point, home.internal_point)
+
+
+def test_the_best_o_is_the_best_and_a_hand_takes_it_away():
+    state = State(subject_of())
+    state.set_pose(position=shifted(state.home.position, [0.8, 0.0, 0.0]))
+    before = state.numbers().condition_number
+    state.set_rule("best")
+    best = nd.best_internal_point(state.geometry, state.configuration.position)
+    assert state.numbers().condition_number == pytest.approx(best.value, rel=1e-9)
+    assert best.value < before
+    state.set_internal_point(shifted(state.configuration.internal_point, [0.0, 0.0, 0.1]))
+    assert state.rule == "held"
+
+
+def test_limits_are_those_of_the_study(found):
+    state = State(subject_of(found))
+    shown = {(one.name.split(" ")[0], one.side): one for one in state.numbers().limits}
+    assert {name for name, _ in shown} == {
+        "stroke_ratio",
+        "base_cone",
+        "leg_clearance",
+        "radius_ratio",
+        "external_length",
+    }
+    margins = found.study.evaluate(found.variables).margins
+    assert shown["radius_ratio", ""].margin == pytest.approx(margins["radius_ratio"], abs=1e-12)
+    # At home the legs stretch the spread of the poses of the study no further.
+    assert shown["stroke_ratio", "max"].margin == pytest.approx(margins["stroke_ratio"], abs=1e-9)
+    for one in shown.values():
+        assert one.passed == (one.margin < -1e-9)
+
+
+def test_a_leg_beyond_its_length_is_told(found):
+    state = State(subject_of(found))
+    assert not any(state.numbers().legs_out)
+    state.set_pose(position=shifted(state.home.position, [0.0, 0.0, 6.0]))
+    shown = state.numbers()
+    lengths = nd.leg_lengths(state.geometry, state.configuration)
+    assert (lengths[:3] > 8.0).all()
+    assert shown.legs_out[:3] == (True, True, True)
+    assert any(one.passed and one.name.startswith("external_length") for one in shown.limits)
+    state.set_pose(position=[9.0, 0.0, float(state.home.position[2])])
+    assert ("base", 0) in state.numbers().cones_passed
+
+
+def test_variables_make_the_design_of_the_family(found):
+    state = State(subject_of(found))
+    state.set_pose(position=shifted(state.home.position, [0.1, 0.0, 0.0]))
+    wider = {"a2": 1.1 * found.variables["a2"]}
+    state.set_variables(wider)
+    point = found.study.evaluate(found.variables | wider)
+    assert state.geometry == point.geometry
+    np.testing.assert_allclose(state.configuration.position, shifted(point.configuration.position, [0.1, 0.0, 0.0]))
+    of_design = next(one for one in state.numbers().limits if one.name == "radius_ratio")
+    assert of_design.margin == pytest.approx(point.margins["radius_ratio"])
+    state.reset_design()
+    assert state.geometry == found.geometry
+
+
+def test_a_design_that_does_not_exist_changes_nothing():
+    state = State(subject_of())
+    before = state.geometry
+    state.set_variables({"a1": 0.0, "a2": 0.0})
+    assert state.note.startswith("no such design")
+    assert state.geometry == before
+
+
+def test_modes_have_the_lengths_shown():
+    state = State(subject_of())
+    modes, kappa = state.modes()
+    lengths = nd.leg_lengths(state.geometry, state.configuration)
+    assert modes.count == len(kappa) >= 2
+    state.set_configuration(modes[1])
+    np.testing.assert_allclose(state.numbers().leg_lengths, lengths, rtol=1e-9)
+
+
+def test_what_is_shown_is_a_design_file(tmp_path):
+    state = State(subject_of())
+    state.set_pose(turn_deg=(0.0, 8.0, 0.0))
+    path = nd.save(state.design, tmp_path / "design.toml")
+    again = State(subject_of(path))
+    assert again.numbers().condition_number == pytest.approx(state.numbers().condition_number, rel=1e-12)
+
+
+def test_a_general_machine_has_its_own_sliders():
+    rng = np.random.default_rng(3)
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    shaken = nd.Geometry(*(getattr(g, n) + 0.1 * rng.normal(size=(3, 3)) for n in nd_triples()))
+    state = State(subject_of(nd.Design(shaken, nd.Configuration.neutral(3.98, 2.44))))
+    assert state.subject.family == "general"
+    assert {v.name for v in state.subject.sliders} == set(state.variables)
+    assert all(v.low <= v.value <= v.high and v.low < v.high for v in state.subject.sliders)
+
+
+def nd_triples():
+    return "base_external", "base_internal", "platform_external", "platform_internal"
+
+
+def test_a_machine_without_a_family_is_shown_without_sliders():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    state = State(subject_of(nd.Design(g, nd.Configuration([0.1, 0, 3.98], internal_point=[0.0, 0.2, 2.4]))))
+    assert state.subject.sliders == []
+    assert math.isfinite(state.numbers().condition_number)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (3, "design: got 3, expected a design file"),
+        ("nowhere.toml", "nowhere.toml: cannot be read"),
+        (nd.Study.paper(), "expected a design file, a Design or a run"),
+    ],
+)
+def test_bad_designs_are_named(given, words):
+    with pytest.raises(ValueError, match=words):
+        subject_of(given)
+
+
+def test_a_path_is_played_at_its_own_times_and_between_its_poses():
+    home = nd.Configuration.neutral(3.98, 2.44)
+    turned = nd.Configuration.neutral(3.98, 2.44, theta_z=[0.0, 0.4, 0.4]).rotation
+    player = Player(nd.Trajectory([1.0, 2.0, 4.0], shifted(home.position, [[0, 0, 0], [1, 0, 0], [1, 1, 0]]), turned))
+    assert player.duration == 3.0
+    player.advance(1.0)
+    assert player.time == 0.0  # not playing
+    player.playing, player.speed = True, 0.5
+    player.advance(1.0)
+    p, q = player.pose()
+    np.testing.assert_allclose(p - home.position, [0.5, 0, 0])
+    np.testing.assert_allclose(math.atan2(q[1, 0], q[0, 0]), 0.2)
+    player.advance(6.0)
+    assert player.time == pytest.approx(0.5)  # begun again
+
+
+def test_the_model_needs_no_screen():
+    folder = Path(nd.__file__).parent / "viewer"
+    for name in ("state", "numbers", "subject", "player", "body", "surface"):
+        text = (folder / f"{name}.py").read_text(encoding="utf-8")
+        assert "viser" not in text
+        assert "plot" not in text

@@ -1,0 +1,130 @@
+"""The viewer as a program: what it says when something is missing, how it ends, and a browser that uses it."""
+
+import shutil
+import socket
+import sys
+import threading
+import time
+
+import chromium
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.support.extras import MissingExtra
+
+NUMBER = "document.getElementById('ninedof-{}')?.textContent"
+
+
+def free_of_threads(before):
+    end = time.monotonic() + 10.0
+    while time.monotonic() < end:
+        left = [t for t in threading.enumerate() if t not in before and not t.name.startswith("asyncio")]
+        if not left:
+            return True
+        time.sleep(0.05)
+    return left
+
+
+def test_without_viser_one_line_names_the_extra(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "viser", None)
+    with pytest.raises(MissingExtra, match=r"the viewer needs viser.*pip install 'ninedof\[viewer\]'"):
+        nd.view()
+    with pytest.raises(SystemExit) as ended:
+        main(["view"])
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "ninedof[viewer]" in said
+
+
+def test_a_port_in_use_is_one_line(capsys):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        with pytest.raises(SystemExit) as ended:
+            main(["view", "--port", str(port)])
+    assert ended.value.code == 2
+    assert capsys.readouterr().err == f"ninedof: port: got {port}, which is in use, expected a free one, or 0 for any\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"host": "203.0.113.7"}, "host: got '203.0.113.7', expected an address of this machine"),
+        ({"port": 70000}, "port: got 70000, expected a number from 0 to 65535"),
+        ({"design": "nowhere.toml"}, "nowhere.toml"),
+        ({"path": "nowhere.csv"}, "nowhere.csv"),
+    ],
+)
+def test_bad_arguments_are_named_and_leave_nothing_running(options, words):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    before = set(threading.enumerate())
+    with pytest.raises(ValueError, match=words):
+        nd.view(**{"port": 0} | options)
+    assert free_of_threads(before) is True
+
+
+def test_it_listens_at_home_and_closes_cleanly(capfd):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    before = set(threading.enumerate())
+    with nd.view(port=0) as viewer:
+        assert viewer.url == f"http://127.0.0.1:{viewer.port}"
+        viewer.submit("pose", lambda: viewer.state.set_pose(position=[0.5, 0.0, 3.98]))
+        end = time.monotonic() + 10.0
+        while viewer.design.configuration.position[0] != 0.5:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        with socket.socket() as same, pytest.raises(OSError, match="in use"):
+            same.bind(("127.0.0.1", viewer.port))
+    viewer.close()  # a second time: nothing
+    assert free_of_threads(before) is True
+    assert repr(viewer).startswith("<Viewer: closed")
+    with socket.socket() as same:
+        same.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        same.bind(("127.0.0.1", viewer.port))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_only_what_changed_is_sent():
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    with nd.view(port=0) as viewer, viewer._lock:
+        viewer.update(settled=True)
+        sent = []
+        interface = viewer._server._websock_server
+        queue, interface.queue_message = interface.queue_message, sent.append
+        try:
+            viewer.update(settled=True)
+            assert sent == []
+            viewer.state.set_internal_point(viewer.state.configuration.internal_point + np.array([0.0, 0.0, 0.1]))
+            viewer.update(settled=True)
+        finally:
+            interface.queue_message = queue
+    named = {getattr(one, "name", "") for one in sent}
+    assert {"/legs", "/O"} <= named
+    assert not named & {"/base", "/platform", "/labels/l1", "/labels/l2", "/ground"}
+
+
+@pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
+def test_a_browser_moves_a_slider_and_the_number_changes(tmp_path):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    with nd.view(port=0) as viewer, chromium.page(viewer.url, tmp_path / "profile") as page:
+        assert page.wait_for(NUMBER.format("condition-number")) == "3.9071"
+        leg = page.run(NUMBER.format("leg-l1"))
+        page.wait_for("document.querySelectorAll('[role=slider]').length >= 9")
+        page.run("document.querySelectorAll('[role=slider]')[0].focus()")
+        page.key("ArrowRight", times=20)
+        page.wait_for(NUMBER.format("condition-number") + " !== '3.9071'")
+        end = time.monotonic() + 20.0
+        while abs(viewer.design.configuration.position[0] - 0.2) > 1e-9:  # 20 steps of 0.01
+            assert time.monotonic() < end
+            time.sleep(0.02)
+        c = viewer.design.configuration
+        expected = f"{nd.condition_number(viewer.design.geometry, c):.4f}"
+        page.wait_for(NUMBER.format("condition-number") + f" === '{expected}'")
+        assert page.run(NUMBER.format("leg-l1")) == f"{nd.leg_lengths(viewer.design.geometry, c)[0]:.4f}" != leg
+        assert page.errors == []
+    assert shutil.rmtree(tmp_path / "profile", ignore_errors=True) is None
