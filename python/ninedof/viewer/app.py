@@ -244,15 +244,19 @@ class Viewer:
         """Send the design file of what is shown."""
         with tempfile.TemporaryDirectory() as folder:
             content = save_design(self.design, Path(folder) / "design.toml").read_bytes()
-        event.client.send_file_download("design.toml", content)
+        event.client.send_file_download("design.toml", content, save_immediately=True)
 
     def send_picture(self, event: Any) -> None:
         """Send the scene as a PNG."""
         client = event.client
-        image = client.get_render(height=client.camera.image_height, width=client.camera.image_width)
+        height, width = client.camera.image_height, client.camera.image_width
+        try:
+            image = client.get_render(height=height, width=width, transport_format="png")
+        except RuntimeError:  # the page was closed before it was drawn
+            return
         stream = io.BytesIO()
         imsave(stream, image, format="png")
-        client.send_file_download("ninedof.png", stream.getvalue())
+        client.send_file_download("ninedof.png", stream.getvalue(), save_immediately=True)
 
     # --- within ---------------------------------------------------------------------------------------------------
 

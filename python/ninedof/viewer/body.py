@@ -19,10 +19,10 @@ from ninedof.sheet.pose_limits import SPREADS, PoseLimit
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.viewer.numbers import Yardstick, margins_at
-from ninedof.viewer.surface import Faces, surface, volume
+from ninedof.viewer.surface import Faces, smoothed, surface, volume
 from ninedof.workspace.study_criteria import EASE
 
-COARSE, FINE = 15, 36  # points along each side: to find the body, and to draw it
+COARSE, FINE = 17, 33  # points along each side: to find the body, and to draw it
 COARSE_SEARCHED, FINE_SEARCHED = 9, 15  # where the best O is sought at each of them
 WIDENED = 5  # times that the box of the drawing grows, where the body leaves it
 REACH = 0.75  # of the size of the machine: half the side of the box first looked at
@@ -100,7 +100,7 @@ def _room(one: PoseLimit, lengths: Floats, beside: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A closed surface, and the volume within it."""
+    """A closed surface, smoothed, and the volume within it before."""
 
     vertices: Floats
     faces: Faces
@@ -123,15 +123,22 @@ def body(question: BodyQuestion, stopped: Callable[[], bool] = lambda: False) ->
         small = 0.15 * np.array([[-reach], [reach]])
         ends = np.clip(question.shown.position + small, whole[0], whole[1])
     for _ in range(WIDENED):
-        found = _sampled(question, ends, fine, stopped)
+        found = _sampled(question, ends, coarse, stopped)
         if found is None:
             return None
         field = found
         drawn, ends = ends, _widened(field > 0.0, ends, whole)
         if (ends == drawn).all():
             break
+    is_open = bool(_touches(field > 0.0).any())
+    tight = _about(field > 0.0, drawn)
+    if tight is not None:
+        found = _sampled(question, tight, fine, stopped)
+        if found is None:
+            return None
+        field, drawn = found, tight
     vertices, faces = surface(field, drawn[0], drawn[1])
-    return Body(vertices, faces, volume(vertices, faces), bool(_touches(field > 0.0).any()))
+    return Body(smoothed(vertices, faces), faces, volume(vertices, faces), is_open)
 
 
 def _about(inside: NDArray[np.bool_], whole: Floats) -> Floats | None:

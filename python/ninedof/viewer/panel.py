@@ -9,7 +9,7 @@ from ninedof.motion.internal_point import RULES
 from ninedof.statics.ellipsoid import force_ellipsoid, velocity_ellipsoid
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.controls import Slider
-from ninedof.viewer.html import limits_html, number, numbers_html
+from ninedof.viewer.html import limits_html, numbers_html
 
 if TYPE_CHECKING:
     from ninedof.viewer.app import Viewer
@@ -166,8 +166,8 @@ class Panel:
     def _workspace(self) -> None:
         gui, viewer = self._gui, self._viewer
         limited = viewer.subject.study is not None
-        hint = "Least condition number that is left out; the limits of the study hold besides"
-        self._most = gui.add_number("condition number ≤", 0.0 if limited else 6.0, min=0.0, step=0.5, hint=hint)
+        hint = "Greatest condition number; 0 for none. The limits of the study hold besides"
+        self._most = gui.add_number("cond. no. ≤", 0.0 if limited else 6.0, min=0.0, step=0.5, hint=hint)
         button = gui.add_button("Compute", icon="cube", hint="Positions in the orientation shown, a coarse picture")
         button.on_click(lambda _: viewer.compute_body(float(self._most.value)))
         clear = gui.add_button("Remove", icon="trash")
@@ -184,7 +184,8 @@ class Panel:
             return "No position keeps all limits here."
         more = ", and more beyond what was looked at" if is_open else ""
         cubed = f"{self._unit}³" if self._unit else ""
-        return f"Volume about {amount(number(size, 3), cubed)}{more}. The orientation and O are those at the start."
+        when = "with the orientation and the rule for O of the moment it was asked for"
+        return f"Volume about {amount(f'{size:.3g}', cubed)}{more}, {when}."
 
     def _path(self) -> None:
         gui, viewer = self._gui, self._viewer

@@ -21,8 +21,10 @@ EXTENT = 4.0  # of any machine in the scene, whose lights and clipping planes ar
 RED = "#E0202F"
 SLEEVE = 0.42  # share of a leg that is the wider cylinder
 RADIUS = {"l": 0.030, "q": 0.023, "r": 0.023}  # of a rod, in the scene
+LABEL_AT = {"l": 0.5, "q": 0.4, "r": 0.5}  # of the length of a leg
 THICK = 0.045  # of a plate
 O_COLOUR = "#FFC22E"
+EDGES_DARK = "#C8D0D8"
 GIZMO = 0.62
 
 
@@ -52,7 +54,7 @@ class Scene:
         pose = self.scale * c.position, to_quaternions(c.rotation[None])[0]
         self._plate("/base", self.scale * np.vstack([g.base_external, g.base_internal]))
         self._plate("/platform", self.scale * np.vstack([g.platform_external, g.platform_internal]))
-        for name in ("/platform", "/platform/edges", "/platform gizmo", "/platform axes"):
+        for name in ("/platform", "/platform gizmo", "/platform axes"):
             if name not in self.held:
                 self._set(name, position=pose[0], wxyz=pose[1])
         points = self.scale * robot_points(g, c)
@@ -63,13 +65,13 @@ class Scene:
                 self._set(name, position=points[12])
 
     def draw_ellipsoid(self, c: Configuration, directions: Floats, semi_axes: Floats) -> None:
-        """Show an ellipsoid about the platform, its longest axis a fifth of the machine; none where it is infinite."""
+        """Show an ellipsoid about the platform, its longest axis an eighth of the machine; none if infinite."""
         longest = float(semi_axes.max())
         if not np.isfinite(longest) or longest <= 0.0:
             self._set("/ellipsoid", visible=False)
             return
         turn = directions * np.sign(np.linalg.det(directions))
-        size = 0.2 * EXTENT * np.maximum(semi_axes / longest, 1e-3)
+        size = 0.125 * EXTENT * np.maximum(semi_axes / longest, 1e-3)
         quaternion = to_quaternions(turn[None])[0]
         self._set("/ellipsoid", position=self.scale * c.position, wxyz=quaternion, scale=tuple(size.tolist()))
         self._set("/ellipsoid", visible=True)
@@ -116,7 +118,7 @@ class Scene:
         self._set("/ground", cell_color=cells, section_color=sections)
         for name in ("/base/edges", "/platform/edges"):
             if name in self._nodes:
-                self._nodes[name].colors = np.array(rgb("#C8D0D8" if dark else style.INK), dtype=np.uint8)
+                self._nodes[name].colors = np.array(rgb(EDGES_DARK if dark else style.INK), dtype=np.uint8)
         self._dark = dark
 
     # --- parts ----------------------------------------------------------------------------------------------------
@@ -134,20 +136,21 @@ class Scene:
         rods, balls = shapes.rod(), shapes.ball()
         still = {"batched_wxyzs": np.tile([1.0, 0.0, 0.0, 0.0], (18, 1)), "batched_positions": np.zeros((18, 3))}
         some = {name: values[:12] for name, values in still.items()}
+        plain = {"cast_shadow": False, "receive_shadow": False}  # shadows here are a few large triangles
         grey = np.zeros((18, 3), dtype=np.uint8)
         self._nodes: dict[str, Any] = {
             "/legs": api.add_batched_meshes_simple(
-                "/legs", *rods, **still, batched_scales=np.ones((18, 3)), batched_colors=grey, lod="off"
+                "/legs", *rods, **still, batched_scales=np.ones((18, 3)), batched_colors=grey, lod="off", **plain
             ),
             "/joints": api.add_batched_meshes_simple(
-                "/joints", *balls, **some, batched_scales=np.ones((12, 3)), batched_colors=grey[:12], lod="off"
+                "/joints", *balls, **some, batched_scales=np.ones((12, 3)), batched_colors=grey[:12], lod="off", **plain
             ),
-            "/O": api.add_mesh_simple("/O", 0.062 * balls[0], balls[1], color=rgb(O_COLOUR)),
+            "/O": api.add_mesh_simple("/O", 0.062 * balls[0], balls[1], color=rgb(O_COLOUR), **plain),
             "/ellipsoid": api.add_mesh_simple(
-                "/ellipsoid", *balls, color=rgb(O_COLOUR), opacity=0.55, visible=False, cast_shadow=False
+                "/ellipsoid", *balls, color=rgb(O_COLOUR), opacity=0.45, visible=False, **plain
             ),
             "/ground": api.add_grid("/ground", 3.0 * EXTENT, 3.0 * EXTENT, cell_size=0.25, section_size=1.0),
-            "/base axes": api.add_frame("/base axes", axes_length=0.4, axes_radius=0.008, origin_radius=0.012),
+            "/base axes": api.add_frame("/base axes", axes_length=0.4, axes_radius=0.012, origin_radius=0.018),
             "/platform axes": api.add_frame("/platform axes", axes_length=0.25, axes_radius=0.007, origin_radius=0.01),
             "/platform gizmo": api.add_transform_controls(
                 "/platform gizmo", scale=GIZMO, line_width=2.0, depth_test=False, opacity=0.85
@@ -168,26 +171,35 @@ class Scene:
         if self._sent.get((name, "joints")) == key:
             return
         self._sent[name, "joints"] = key
-        vertices, faces = shapes.plate(joints, THICK)
-        colour = style.BASE if name == "/base" else style.PLATFORM
-        lines = shapes.edges(joints, THICK)
+        thickness, colour = (THICK, style.MUTED) if name == "/base" else (-THICK, style.PLATFORM)
+        vertices, faces = shapes.plate(joints, thickness)
+        lines = shapes.edges(joints, thickness)
         if name == "/base":
             self._set("/ground", position=np.array([0.0, 0.0, float(vertices[:, 2].min()) - 0.01]))
+        outline = f"{name}/edges"  # a child: it moves with its plate
         if name in self._nodes and len(self._nodes[name].vertices) == len(vertices):
             self._nodes[name].vertices = vertices.astype(np.float32)
             self._nodes[name].faces = faces
-            self._nodes[f"{name}/edges"].points = lines.astype(np.float32)
+            self._nodes[outline].points = lines.astype(np.float32)
             return
-        for old in (name, f"{name}/edges"):
+        for old in (outline, name):
             if old in self._nodes:
                 self._nodes.pop(old).remove()
-                self._sent = {k: v for k, v in self._sent.items() if k[0] != old or k[1] == "joints"}
+        self._sent = {k: v for k, v in self._sent.items() if k[0] != name or k[1] == "joints"}
         self._nodes[name] = self._api.add_mesh_simple(
-            name, vertices.astype(np.float32), faces, color=rgb(colour), flat_shading=True, side="double", opacity=0.93
+            name,
+            vertices.astype(np.float32),
+            faces,
+            color=rgb(colour),
+            flat_shading=True,
+            side="double",
+            opacity=0.93,
+            cast_shadow=False,
+            receive_shadow=False,
         )
-        outline = f"{name} outline"
-        self._nodes[f"{name}/edges"] = self._api.add_line_segments(
-            outline, lines.astype(np.float32), colors=rgb("#C8D0D8" if self._dark else style.INK), thickness=0.009
+        edge = rgb(EDGES_DARK if self._dark else style.INK)
+        self._nodes[outline] = self._api.add_line_segments(
+            outline, lines.astype(np.float32), colors=edge, thickness=0.009
         )
 
     def _legs(self, g: Geometry, c: Configuration, found: Numbers) -> None:
@@ -213,8 +225,8 @@ class Scene:
             batched_scales=sizes.astype(np.float32),
             batched_colors=np.concatenate([rods, light]).astype(np.uint8),
         )
-        for name, a, b in zip(LEGS, start, end, strict=True):
-            self._set(f"/labels/{name}", position=0.45 * a + 0.55 * b)
+        for name, a, arm in zip(LEGS, start, arms, strict=True):
+            self._set(f"/labels/{name}", position=a + LABEL_AT[name[0]] * arm)
 
     def _joints(self, points: Floats, found: Numbers) -> None:
         colours = np.tile(rgb(style.INK), (12, 1))

@@ -50,16 +50,31 @@ def ball(rings: int = 14) -> Mesh:
 
 
 def plate(joints: Floats, thickness: float) -> Mesh:
-    """Return the hull of six joints: a slab of the given thickness if they lie in a plane, else a solid."""
+    """Return the hull of six joints: a slab if they lie in a plane, else a solid.
+
+    The joints lie on the upper face of a slab of positive thickness, on the lower face of one of negative thickness.
+    """
     sides = outlines(joints)
     if len(sides) != 1:
         return _fans(sides)
-    (face,) = sides
-    normal = np.cross(face[1] - face[0], face[2] - face[1])
-    normal *= 0.5 * thickness / np.linalg.norm(normal)
-    top, bottom = face + normal, face - normal
-    walls = [np.array([bottom[i - 1], bottom[i], top[i], top[i - 1]]) for i in range(len(face))]
+    top, bottom = _slab(sides[0], thickness)
+    walls = [np.array([bottom[i - 1], bottom[i], top[i], top[i - 1]]) for i in range(len(top))]
     return _fans([top, bottom[::-1], *walls])
+
+
+def edges(joints: Floats, thickness: float) -> Floats:
+    """Return the edges of a plate as segments, shape (n, 2, 3)."""
+    sides = outlines(joints)
+    if len(sides) == 1:
+        sides = list(_slab(sides[0], thickness))
+    return np.concatenate([np.stack([side, np.roll(side, -1, axis=0)], axis=1) for side in sides])
+
+
+def _slab(face: Floats, thickness: float) -> tuple[Floats, Floats]:
+    """Return the face of the joints, and the one that is so far below it."""
+    normal = np.cross(face[1] - face[0], face[2] - face[1])
+    normal *= (1.0 if normal[2] >= 0.0 else -1.0) * thickness / np.linalg.norm(normal)
+    return face, face - normal
 
 
 def _fans(sides: list[Floats]) -> Mesh:
@@ -71,17 +86,6 @@ def _fans(sides: list[Floats]) -> Mesh:
     return vertices, np.array(faces, dtype=np.uint32)
 
 
-def edges(joints: Floats, thickness: float) -> Floats:
-    """Return the edges of a plate as segments, shape (n, 2, 3)."""
-    sides = outlines(joints)
-    if len(sides) == 1:
-        (face,) = sides
-        normal = np.cross(face[1] - face[0], face[2] - face[1])
-        normal *= 0.5 * thickness / np.linalg.norm(normal)
-        sides = [face + normal, face - normal]
-    return np.concatenate([np.stack([side, np.roll(side, -1, axis=0)], axis=1) for side in sides])
-
-
 def along(directions: Floats) -> Floats:
     """Return the quaternions (w, x, y, z) that turn z into unit vectors, shapes (n, 3) to (n, 4)."""
     x, y, z = directions.T
@@ -89,11 +93,3 @@ def along(directions: Floats) -> Floats:
     opposite = w < 1e-12
     found = np.column_stack([np.where(opposite, 0.0, w), np.where(opposite, 1.0, -y), x, np.zeros(len(z))])
     return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
-
-
-def box_edges(low: Floats, high: Floats) -> Floats:
-    """Return the twelve edges of a box, shape (12, 2, 3)."""
-    bits = np.array([[(k >> axis) & 1 for axis in range(3)] for k in range(8)])
-    corners = np.where(bits == 1, high, low)
-    pairs = [(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(bits[a] - bits[b]).sum() == 1]
-    return np.asarray(corners[np.array(pairs)])
