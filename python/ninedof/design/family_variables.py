@@ -14,6 +14,11 @@ from ninedof.robot.geometry import TRIPLES, Geometry, triples
 SAME = 1e-12  # of the largest coordinate
 
 
+def variable_kinds(family: str) -> dict[str, str]:
+    """Return the variables of a family by name: "length", "coordinate" or "angle"."""
+    return {name: kind for name, kind, *_ in _core.family_variables(family)}
+
+
 def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dict[str, float] | None:
     """Return the variables of a family whose design is a given robot at its neutral pose; None if there are none.
 

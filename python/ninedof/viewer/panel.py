@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ninedof.motion.internal_point import RULES
 from ninedof.statics.ellipsoid import force_ellipsoid, velocity_ellipsoid
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.controls import Slider
 from ninedof.viewer.html import limits_html, numbers_html
-
-if TYPE_CHECKING:
-    from ninedof.viewer.app import Viewer
-    from ninedof.viewer.numbers import Numbers
+from ninedof.viewer.numbers import Numbers
 
 TURN = 60.0  # degrees: end of the sliders of the rotation
 REACH = 0.35  # of the size of the machine: end of the sliders of positions, from home
@@ -33,9 +30,9 @@ ELLIPSOIDS = {
 
 
 class Panel:
-    """Builds the controls of a viewer, and shows the numbers of its state."""
+    """Builds the controls of a `Viewer`, and shows the numbers of its state."""
 
-    def __init__(self, viewer: Viewer, gui: Any, dark: bool) -> None:
+    def __init__(self, viewer: Any, gui: Any, dark: bool) -> None:
         self._viewer, self._gui, self._state = viewer, gui, viewer.state
         self._unit = viewer.subject.unit
         self._numbers = gui.add_html("")

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -195,14 +194,14 @@ class State:
             return carried
         return found.configuration.internal_point
 
-    def _problem_of(self, subject: Subject) -> _core.Problem | None:
+    def _problem_of(self, subject: Subject) -> Any:
         if not subject.family:
             return None
         if subject.study is not None:
             return subject.study.problem()
         return Study(subject.family, variables=subject.variables).problem()
 
-    def _checked_problem(self) -> _core.Problem:
+    def _checked_problem(self) -> Any:
         if self._problem is None:
             raise ValueError("this machine belongs to no family of designs")
         return self._problem

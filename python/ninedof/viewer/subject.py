@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length
-from ninedof.design.family_variables import variables_of
+from ninedof.design.family_variables import variable_kinds, variables_of
 from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
@@ -83,7 +82,7 @@ class Subject:
         plus or minus half the size about a coordinate, a full turn of an angle.
         """
         found = []
-        for name, kind, *_ in _core.family_variables(self.family) if self.family else ():
+        for name, kind in variable_kinds(self.family).items() if self.family else ():
             value, reach = self.variables[name], 0.5 * self.size
             low, high = self._bounds(name)
             if kind == "angle":
