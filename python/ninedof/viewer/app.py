@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import tempfile
 import threading
@@ -14,12 +13,13 @@ from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
-from matplotlib.image import imsave
 
 from ninedof.motion.rotations import from_quaternions
 from ninedof.motion.trajectory import Trajectory
-from ninedof.runs.design_file import Design, save_design
-from ninedof.viewer.body import body
+from ninedof.runs.design_file import Design
+from ninedof.viewer.body import Body
+from ninedof.viewer.body_job import BodyJob
+from ninedof.viewer.downloads import send_design, send_picture
 from ninedof.viewer.html import number
 from ninedof.viewer.panel import ELLIPSOIDS, Panel
 from ninedof.viewer.player import Player
@@ -44,7 +44,7 @@ class Viewer:
         self._wake = threading.Condition()
         self._lock = threading.RLock()
         self._closed = threading.Event()
-        self._body_run = 0
+        self._job = BodyJob(self._show_body, lambda why: self.panel.tell_body(f"Not found: {why}"))
         self._modes: Any = None
         self._server = started(host, port)
         self.host, self.port = host, int(self._server.get_port())
@@ -103,6 +103,7 @@ class Viewer:
             self._wake.notify_all()
         if threading.current_thread() is not self._worker:
             self._worker.join(timeout=10.0)
+        self._job.close()
         stopped(self._server)
 
     def __enter__(self) -> Self:
@@ -203,31 +204,19 @@ class Viewer:
     def compute_body(self, condition_limit: float) -> None:
         """Draw the workspace as soon as it is known; one that is still sought is given up."""
         with self._lock:
-            self._body_run += 1
-            run = self._body_run
             question = self.state.body_question(condition_limit if condition_limit >= 1.0 else math.inf)
         self.panel.tell_body("Computing ...")
-
-        def given_up() -> bool:
-            return self._closed.is_set() or run != self._body_run
-
-        def work() -> None:
-            try:
-                found = body(question, given_up)
-            except ValueError as error:
-                self.panel.tell_body(f"Not found: {error}")
-                return
-            if found is not None and not given_up():
-                self.submit("body", lambda: self.scene.draw_body(found.vertices, found.faces))
-                self.panel.tell_body(self.panel.body_words(found.volume, found.open))
-
-        threading.Thread(target=work, name="ninedof-viewer-workspace", daemon=True).start()
+        self._job.begin(question)
 
     def remove_body(self) -> None:
         """Remove the workspace."""
-        self._body_run += 1
+        self._job.cancel()
         self.panel.tell_body("")
-        self.submit("body", lambda: self.scene.draw_body(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.uint32)))
+        self.submit("body", self.scene.remove_body)
+
+    def _show_body(self, found: Body) -> None:
+        self.submit("body", lambda: self.scene.draw_body(found.vertices, found.faces))
+        self.panel.tell_body(self.panel.body_words(found.volume, found.open))
 
     # --- what the browser asks for --------------------------------------------------------------------------------
 
@@ -242,21 +231,11 @@ class Viewer:
 
     def send_design(self, event: Any) -> None:
         """Send the design file of what is shown."""
-        with tempfile.TemporaryDirectory() as folder:
-            content = save_design(self.design, Path(folder) / "design.toml").read_bytes()
-        event.client.send_file_download("design.toml", content, save_immediately=True)
+        send_design(event.client, self.design)
 
     def send_picture(self, event: Any) -> None:
         """Send the scene as a PNG."""
-        client = event.client
-        height, width = client.camera.image_height, client.camera.image_width
-        try:
-            image = client.get_render(height=height, width=width, transport_format="png")
-        except RuntimeError:  # the page was closed before it was drawn
-            return
-        stream = io.BytesIO()
-        imsave(stream, image, format="png")
-        client.send_file_download("ninedof.png", stream.getvalue(), save_immediately=True)
+        send_picture(event.client)
 
     # --- within ---------------------------------------------------------------------------------------------------
 
@@ -299,12 +278,18 @@ class Viewer:
 
     def _apply(self, changes: list[Callable[[], object]], passed: float) -> None:
         with self._lock:
+            wrong = ""
             for change in changes:
-                change()
+                try:
+                    change()
+                except ValueError as error:  # the others are made
+                    wrong = str(error)
             if passed > 0.0 and self.player is not None:
                 self.player.advance(min(passed, 0.2))
                 p, q = self.player.pose()
                 self.state.set_pose(position=p, rotation=q)
+            if wrong:
+                self.state.note = wrong
 
     def _server_handle(self, name: str) -> None:
         handle = self.scene.gizmo(name)

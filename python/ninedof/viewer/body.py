@@ -28,6 +28,10 @@ WIDENED = 5  # times that the box of the drawing grows, where the body leaves it
 REACH = 0.75  # of the size of the machine: half the side of the box first looked at
 
 
+class GivenUp(Exception):
+    """A search is no longer wanted."""
+
+
 @dataclass(frozen=True, eq=False)
 class BodyQuestion:
     """What a workspace is asked of. Immutable: it is computed while the viewer goes on."""
@@ -42,11 +46,14 @@ class BodyQuestion:
     size: float
     condition_limit: float = math.inf
 
-    def field(self, p: Floats) -> Floats:
-        """Return the least margin at positions of shape (..., 3), between -1 and 1: positive where all limits hold."""
+    def field(self, p: Floats, stopped: Callable[[], bool] = lambda: False) -> Floats:
+        """Return the least margin at positions of shape (..., 3), between -1 and 1: positive where all limits hold.
+
+        Raises `GivenUp` if `stopped` says so while O is searched.
+        """
         flat = p.reshape(-1, 3)
         q = np.broadcast_to(self.shown.rotation, (len(flat), 3, 3))
-        s = self._internal_points(p).reshape(-1, 3)
+        s = self._internal_points(p, stopped).reshape(-1, 3)
         known = ~np.isnan(s).any(axis=1)
         c = Configuration(flat[known], q[known], s[known])
         found = np.full(len(flat), -1.0)
@@ -68,17 +75,27 @@ class BodyQuestion:
         found[known] = np.clip(np.nan_to_num(least, nan=-1.0), -1.0, 1.0)
         return found.reshape(p.shape[:-1])
 
-    def _internal_points(self, p: Floats) -> Floats:
+    def _internal_points(self, p: Floats, stopped: Callable[[], bool]) -> Floats:
         q = self.shown.rotation
         if self.rule == "held":
             return np.broadcast_to(self.shown.internal_point, p.shape)
         carried: Floats = p + q @ self.carried
         if self.rule != "best":
             return carried
-        limits = self.yardstick.leg_low, self.yardstick.leg_high
-        length = self.yardstick.length
+
+        def progress(_done: int, _of: int, _value: float | None) -> None:
+            if stopped():
+                raise GivenUp
+
         found = best_internal_map(
-            self.geometry, p, q, limits=limits, characteristic_length=length, start=carried, threads=1
+            self.geometry,
+            p,
+            q,
+            limits=(self.yardstick.leg_low, self.yardstick.leg_high),
+            characteristic_length=self.yardstick.length,
+            start=carried,
+            threads=1,
+            progress=progress,
         )
         return found.configuration.internal_point
 
@@ -170,5 +187,8 @@ def _sampled(question: BodyQuestion, ends: Floats, n: int, stopped: Callable[[],
         if stopped():
             return None
         grid = np.stack(np.meshgrid(axes[0][layer], axes[1], axes[2], indexing="ij"), axis=-1)
-        found.append(question.field(grid))
+        try:
+            found.append(question.field(grid, stopped))
+        except GivenUp:
+            return None
     return None if stopped() else np.concatenate(found)

@@ -82,8 +82,7 @@ class Scene:
 
     def draw_body(self, vertices: Floats, faces: shapes.Faces) -> None:
         """Show a workspace, in the unit of the machine; none without faces."""
-        if "/workspace" in self._nodes:
-            self._nodes.pop("/workspace").remove()
+        self.remove_body()
         if len(faces):
             self._nodes["/workspace"] = self._api.add_mesh_simple(
                 "/workspace",
@@ -95,6 +94,11 @@ class Scene:
                 cast_shadow=False,
                 receive_shadow=False,
             )
+
+    def remove_body(self) -> None:
+        """Show no workspace."""
+        if "/workspace" in self._nodes:
+            self._nodes.pop("/workspace").remove()
 
     def draw_line(self, name: str, segments: Floats, colour: str) -> None:
         """Show segments of shape (n, 2, 3) in the unit of the machine, such as a path; none where n is 0."""

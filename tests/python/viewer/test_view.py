@@ -89,6 +89,17 @@ def test_it_listens_at_home_and_closes_cleanly(capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_closing_ends_a_search_for_a_workspace():
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    before = set(threading.enumerate())
+    with nd.view(port=0) as viewer:
+        with viewer._lock:
+            viewer.state.set_rule("best")
+        viewer.compute_body(6.0)
+        assert any(t.name == "ninedof-viewer-workspace" for t in threading.enumerate())
+    assert free_of_threads(before) is True
+
+
 def test_only_what_changed_is_sent():
     pytest.importorskip("viser", reason="the viewer needs viser")
     with nd.view(port=0) as viewer, viewer._lock:
