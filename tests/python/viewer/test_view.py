@@ -1,10 +1,10 @@
 """The viewer as a program: what it says when something is missing, how it ends, and a browser that uses it."""
 
-import shutil
 import socket
 import sys
 import threading
 import time
+from types import SimpleNamespace
 
 import chromium
 import numpy as np
@@ -13,6 +13,7 @@ import pytest
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.support.extras import MissingExtra
+from ninedof.viewer.panel import ELLIPSOIDS
 
 NUMBER = "document.getElementById('ninedof-{}')?.textContent"
 
@@ -119,6 +120,41 @@ def test_only_what_changed_is_sent():
     assert not named & {"/base", "/platform", "/labels/l1", "/labels/l2", "/ground"}
 
 
+def until(condition, seconds=20.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    home = nd.Configuration.neutral(3.98, 2.44)
+    with nd.view(port=0, path=nd.Trajectory.circle(home, radius=0.5, duration=2.0, points=21), dark=True) as viewer:
+        viewer.submit("play", viewer.toggle_play)
+        until(lambda: viewer.player is not None and viewer.player.time > 0.05)
+        p = viewer.design.configuration.position
+        assert np.hypot(*(p - home.position)[:2]) > 0.0
+        viewer.submit("play", viewer.toggle_play)
+        viewer.submit("modes", viewer.find_modes)
+        viewer.submit("mode", lambda: viewer.show_mode(1))
+        for kind in ELLIPSOIDS:
+            viewer.panel.ellipsoid = kind
+            viewer.submit(kind, lambda: None)
+        viewer.submit("variable", lambda: viewer.state.set_variables({"a1": 0.3}))
+        until(lambda: viewer.state.variables["a1"] == 0.3)
+        for part in ("labels", "handles", "axes"):
+            viewer.show(part, False)
+        viewer.set_dark(False)
+        viewer.compute_body(6.0)
+        until(lambda: viewer.panel._body.content.startswith("Volume about"))
+        viewer.remove_body()
+        bad = SimpleNamespace(name="mine.csv", content=b"t,x,y\n")
+        viewer.submit("path", lambda: viewer.read_path(bad))
+        until(lambda: viewer.state.note.startswith("mine.csv"))
+    assert capfd.readouterr() == ("", "")
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
 def test_a_browser_moves_a_slider_and_the_number_changes(tmp_path):
@@ -139,4 +175,3 @@ def test_a_browser_moves_a_slider_and_the_number_changes(tmp_path):
         page.wait_for(NUMBER.format("condition-number") + f" === '{expected}'")
         assert page.run(NUMBER.format("leg-l1")) == f"{nd.leg_lengths(viewer.design.geometry, c)[0]:.4f}" != leg
         assert page.errors == []
-    assert shutil.rmtree(tmp_path / "profile", ignore_errors=True) is None
