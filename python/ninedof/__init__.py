@@ -45,6 +45,7 @@ from ninedof.position.forward_position import AssemblyModes, PositionStatus, for
 from ninedof.position.tracking import Tracked, TrackStatus, track
 from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
+from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
@@ -159,6 +160,7 @@ __all__ = [
     "pareto",
     "path_limits",
     "reciprocal_condition_number",
+    "report",
     "save",
     "self_stress",
     "sheet",

@@ -10,10 +10,10 @@ import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import Chosen
-from ninedof.cli.pose_words import pose_words
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
 from ninedof.support.arrays import Floats
 

@@ -8,25 +8,14 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from rich.table import Table
 
-from ninedof.cli.pose_words import pose_words, vector_words
 from ninedof.cli.result_table import short
 from ninedof.sheet.limit_rows import LimitRow
+from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Extreme, Sheet
+from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
 from ninedof.support.units import amount, heading, per, times, with_unit
 
 ROUNDING = 1e-11  # of the largest number of a column
-MECHANISMS = {
-    "det_b": "O in the plane of the lower internal joints",
-    "det_c": "O in the plane of the upper internal joints",
-    "det_n": "the platform turns about a line through O",
-}
-INTERNAL = {
-    "least": "O moves for the least leg rates",
-    "rest": "O at rest",
-    "shifted": "O shifted with the platform's origin",
-    "carried": "O carried with the platform",
-}
-MOTIONS = {"shift": "shift of the platform", "turn": "turn about its origin", "internal": "O alone"}
 
 
 def sheet_tables(found: Sheet) -> Iterator[Table | str]:
@@ -35,7 +24,7 @@ def sheet_tables(found: Sheet) -> Iterator[Table | str]:
     yield from region_words(found)
     yield _lengths(found)
     yield _motions(found)
-    yield from _words(found)
+    yield from motion_words(found)
     if found.motion.twist is not None:
         yield _twist(found)
     if len(found.loads):
@@ -47,7 +36,7 @@ def sheet_tables(found: Sheet) -> Iterator[Table | str]:
 
 def poses_table(found: Sheet) -> Table:
     """Return the condition numbers and the legs over the poses, in short."""
-    table = _table(_over(found).capitalize() + ", the neutral pose included", "", "")
+    table = _table(over(found).capitalize() + ", the neutral pose included", "", "")
     table.show_header = False
     worst = found.condition_number
     table.add_row("worst condition number", f"{worst.value:.6f}")
@@ -81,28 +70,9 @@ def _joints(found: Sheet) -> Table:
     return table
 
 
-def region_words(found: Sheet) -> Iterator[str]:
-    """Yield a sentence on how the region was looked over, if there is one."""
-    if (look := found.region) is not None:
-        how = "a sample and descents from the worst of it" if found.leg_ranges is None else "a sample"
-        yield f"Region: {look.region}. Poses looked at: {look.looked_at}, {how}."
-    if found.leg_ranges is not None:
-        yield "O is placed anew at every pose, where the worst of the index and the limits is least."
-        if found.leg_ranges:
-            kept = (f"{leg.name} {a:.6g} to {b:.6g}" for leg, (a, b) in zip(found.legs, found.leg_ranges, strict=True))
-            yield f"In all of the region each leg keeps to {amount(', '.join(kept), found.unit)}."
-
-
-def _over(found: Sheet) -> str:
-    if found.region is not None:
-        return "over the region"
-    count = len(found.configurations)
-    return f"over {count} poses" if count > 1 else "at the neutral pose"
-
-
 def _lengths(found: Sheet) -> Table:
     lengths = (heading(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke"))
-    table = _table(f"Legs {_over(found)}: lengths", "leg", *lengths, "ratio")
+    table = _table(f"Legs {over(found)}: lengths", "leg", *lengths, "ratio")
     for k, leg in enumerate(found.legs):
         numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio)
         table.add_row(leg.name, *(short(x) for x in numbers), end_section=k % 3 == 2)
@@ -112,7 +82,7 @@ def _lengths(found: Sheet) -> Table:
 def _motions(found: Sheet) -> Table:
     speeds = heading("speed", per(found.unit, "s")), heading("acceleration", per(found.unit, "s²"))
     columns = (*speeds, "base cone", "platform cone")
-    table = _table(f"Legs {_over(found)}: speeds and cones", "leg", *columns)
+    table = _table(f"Legs {over(found)}: speeds and cones", "leg", *columns)
     for k, leg in enumerate(found.legs):
         cones = ("-" if a is None else f"{math.degrees(a):.2f}°" for a in (leg.base_cone, leg.platform_cone))
         table.add_row(leg.name, f"{leg.speed:.5g}", f"{leg.acceleration:.5g}", *cones, end_section=k % 3 == 2)
@@ -122,7 +92,7 @@ def _motions(found: Sheet) -> Table:
 def _twist(found: Sheet) -> Table:
     """Return the rates and accelerations for the given twist."""
     heads = heading("speed", per(found.unit, "s")), heading("acceleration", per(found.unit, "s²"))
-    table = _table(f"Legs {_over(found)}: least to largest for the twist", "leg", *heads)
+    table = _table(f"Legs {over(found)}: least to largest for the twist", "leg", *heads)
     columns = [[getattr(leg, name) for leg in found.legs] for name in ("twist_speed", "twist_acceleration")]
     for k, leg in enumerate(found.legs):
         table.add_row(leg.name, *(_ends(column[k], column) for column in columns), end_section=k % 3 == 2)
@@ -141,23 +111,10 @@ def _ends(ends: tuple[float, float], column: Sequence[tuple[float, float]]) -> s
     return low if low == high else f"{low} to {high}"
 
 
-def _words(found: Sheet) -> Iterator[str]:
-    linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
-    most = "no more than that" if linear * angular else "the largest"
-    yield (
-        f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
-        f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, "
-        f"{INTERNAL[found.motion.internal]}. Acceleration: {most} while both are constant. Cones: from the direction "
-        "at the neutral pose."
-    )
-    if found.idle:
-        yield f"{', '.join(found.idle)} never move {_over(found)}."
-
-
 def _forces(found: Sheet) -> Table:
     count = range(1, len(found.loads) + 1)
     table = _table(
-        f"Leg forces, least to largest {_over(found)}, pushing positive", "leg", *(f"load {k}" for k in count)
+        f"Leg forces, least to largest {over(found)}, pushing positive", "leg", *(f"load {k}" for k in count)
     )
     columns = [list(column) for column in zip(*(leg.forces for leg in found.legs), strict=True)]
     for k, leg in enumerate(found.legs):
@@ -177,7 +134,7 @@ def _forces(found: Sheet) -> Table:
 
 
 def _worst(found: Sheet) -> Table:
-    title = "At the neutral pose" if len(found.configurations) == 1 else f"Worst {_over(found)}"
+    title = "At the neutral pose" if len(found.configurations) == 1 else f"Worst {over(found)}"
     table = _table(title, "", "value", "pose", "")
     used: set[int] = set()
 
@@ -204,7 +161,7 @@ def _worst(found: Sheet) -> Table:
         distance = f"{math.degrees(near.distance):.2f}°" if name == "turn" else amount(short(near.distance), found.unit)
         det = f"det {near.mechanism.upper()} = 0" if near.mechanism else "none"
         where = f"{det} {'about' if name == 'turn' else 'toward'} {vector_words(np.round(near.direction, 3))}"
-        add(f"nearest singularity: {MOTIONS[name]}", distance, near.pose, where if near.mechanism else det)
+        add(f"nearest singularity: {WAYS[name]}", distance, near.pose, where if near.mechanism else det)
     table.add_section()
     if found.accuracy is not None:
         a = found.accuracy

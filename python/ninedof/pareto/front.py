@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -147,3 +147,13 @@ def objective_of(result: Result) -> float:
     if result.best is None or result.status not in (Status.OPTIMAL, Status.STOPPED):
         return math.nan
     return result.best.objective
+
+
+def row_words(front: Front, row: Mapping[str, Any]) -> str:
+    """Return what a row of the table of a front reached, or why it has no design."""
+    if row["objective"] is None or row["status"] != Status.OPTIMAL:
+        return f"{row['status']}: {row['reason']}"
+    reached = ", ".join(row["active"]) or "nothing"
+    if row["dominated"]:
+        return f"{reached} (no better than a tighter limit)"
+    return f"{reached} ({front.limit_name} without effect)" if row["price"] == 0.0 else reached

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 from ninedof.sheet.limit_rows import LimitRow
@@ -11,6 +12,18 @@ from ninedof.support.units import amount, per, times
 HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "accel.", "base cone", "platf. cone")
 WIDTH = 12
 MOTIONS = {"shift": "shift", "internal": "O alone"}
+WAYS = {"shift": "shift of the platform", "turn": "turn about its origin", "internal": "O alone"}
+MECHANISMS = {
+    "det_b": "O in the plane of the lower internal joints",
+    "det_c": "O in the plane of the upper internal joints",
+    "det_n": "the platform turns about a line through O",
+}
+INTERNAL = {
+    "least": "O moves for the least leg rates",
+    "rest": "O at rest",
+    "shifted": "O shifted with the platform's origin",
+    "carried": "O carried with the platform",
+}
 
 
 def sheet_words(found: Any) -> list[str]:
@@ -61,6 +74,40 @@ def sheet_words(found: Any) -> list[str]:
         f"margin {_margin(row)}"
         for row in found.limits
     ]
+
+
+def region_words(found: Any) -> Iterator[str]:
+    """Yield a sentence on how the region was looked over, if there is one; takes a Sheet."""
+    if (look := found.region) is not None:
+        how = "a sample and descents from the worst of it" if found.leg_ranges is None else "a sample"
+        yield f"Region: {look.region}. Poses looked at: {look.looked_at}, {how}."
+    if found.leg_ranges is not None:
+        yield "O is placed anew at every pose, where the worst of the index and the limits is least."
+        if found.leg_ranges:
+            kept = (f"{leg.name} {a:.6g} to {b:.6g}" for leg, (a, b) in zip(found.legs, found.leg_ranges, strict=True))
+            yield f"In all of the region each leg keeps to {amount(', '.join(kept), found.unit)}."
+
+
+def over(found: Any) -> str:
+    """Return which poses a sheet is over."""
+    if found.region is not None:
+        return "over the region"
+    count = len(found.configurations)
+    return f"over {count} poses" if count > 1 else "at the neutral pose"
+
+
+def motion_words(found: Any) -> Iterator[str]:
+    """Yield how speeds, accelerations and cones of a sheet are meant, and which legs never move."""
+    linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
+    most = "no more than that" if linear * angular else "the largest"
+    yield (
+        f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
+        f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, "
+        f"{INTERNAL[found.motion.internal]}. Acceleration: {most} while both are constant. Cones: from the direction "
+        "at the neutral pose."
+    )
+    if found.idle:
+        yield f"{', '.join(found.idle)} never move {over(found)}."
 
 
 def _det(name: str) -> str:

@@ -14,12 +14,12 @@ from rich.table import Table
 
 from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.pose_words import decimals_of, fixed, vector_words
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.redundancy.redundancy import InternalPoint, best_internal_point
 from ninedof.redundancy.search_arguments import CRITERIA
 from ninedof.robot.configuration import Configuration
+from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, unit_entry, with_unit

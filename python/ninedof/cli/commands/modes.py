@@ -12,12 +12,12 @@ from rich.table import Table
 
 from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.pose_words import decimals_of, fixed
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.position.forward_position import AssemblyModes, forward_position
 from ninedof.robot.configuration import Configuration
+from ninedof.sheet.pose_words import decimals_of, fixed
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
 

@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 
 from ninedof.cli.comparison_table import comparison_table, comparison_words
-from ninedof.cli.options import Figures, Json, Out, Starts, StudyFile, Threads
+from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.options import Figures, Json, Out, Report, Starts, StudyFile, Threads
 from ninedof.cli.result_table import price_text, result_table
 from ninedof.cli.screen import Screen, exit_status
 from ninedof.design.study import Study
@@ -40,6 +41,7 @@ def optimize(
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
     figures: Figures = True,
+    report: Report = True,
     check: Annotated[
         bool, typer.Option("--check", help="Verify the best design by independent methods and print the report.")
     ] = False,
@@ -53,14 +55,15 @@ def optimize(
     run = _solve_paper(chosen, threads, screen) if study is None else _solve_study(chosen, study.name, threads, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
-    record = write_run(run, directory, figures_of(run, screen.say) if figures else None)
+    draw = figures_of(run, screen.say) if figures else None
+    record = write_run(run, directory, with_report(draw, figures and report, screen))
     if check and result.best is not None:
         verdict = examine(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     stems = sorted({path.stem for path in directory.glob("*.png")})
     drawn = f", figures {', '.join(stems)} (PNG and SVG)" if stems else ""
-    screen.print(f"run folder {directory}: {record.name}{drawn}")
+    screen.print(f"run folder {directory}: {record.name}{drawn}{report_words(directory)}")
     screen.data({**unit_entry(chosen.unit), **data, "record": str(record)})
     raise typer.Exit(exit_status(result))
 

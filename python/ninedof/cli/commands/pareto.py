@@ -11,14 +11,16 @@ import typer
 from rich.table import Table
 
 from ninedof.cli.chosen_design import named_design
+from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.long_run import CHUNKS, run_folder
-from ninedof.cli.options import Figures, Json, Out, Resume, Starts, Threads
+from ninedof.cli.options import Figures, Json, Out, Report, Resume, Starts, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
+from ninedof.pareto.front import row_words
 from ninedof.pareto.limited import with_degrees
 from ninedof.runs.folder import write_run
 from ninedof.runs.objects import split
@@ -69,6 +71,7 @@ def pareto(
     starts: Starts = None,
     threads: Threads = None,
     figures: Figures = True,
+    report: Report = True,
     json: Json = False,
 ) -> None:
     """Compute the least condition number for each value of a limit."""
@@ -92,8 +95,10 @@ def pareto(
             f"command with --out {directory} --resume continues the run"
         )
     drawn = figures and any(math.isfinite(limit) for limit in front.limits)
-    record = write_run(front, directory, partial(_draw, front, screen) if drawn else None)
-    screen.print(f"run folder {record.parent}: {record.name}" + (", figure front (PNG and SVG)" if drawn else ""))
+    draw = partial(_draw, front, screen) if drawn else None
+    record = write_run(front, directory, with_report(draw, figures and report, screen))
+    figure = ", figure front (PNG and SVG)" if drawn else ""
+    screen.print(f"run folder {record.parent}: {record.name}{figure}{report_words(directory)}")
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:
         raise typer.Exit(INTERRUPTED)
@@ -136,17 +141,10 @@ def front_table(front: Front) -> Table:
         table.add_column(title, justify="right")
     table.add_column("limits reached, or why there is no design", overflow="fold")
     for number, row in enumerate(front.table(), start=1):  # RUN#1 names the first
+        reached = row_words(front, row)
         if row["objective"] is None:
-            limit = _limit(front, row["limit"])
-            table.add_row(str(number), limit, "-", "-", "-", f"{row['status']}: {row['reason']}")
+            table.add_row(str(number), _limit(front, row["limit"]), "-", "-", "-", reached)
             continue
-        reached = ", ".join(row["active"]) or "nothing"
-        if row["status"] != "optimal":
-            reached = f"{row['status']}: {row['reason']}"
-        elif row["dominated"]:
-            reached += " (no better than a tighter limit)"
-        elif row["price"] == 0.0:
-            reached += f" ({front.limit_name} without effect)"
         price = "-" if row["price"] is None else f"{row['price']:.3f}"
         numbers = f"{row['objective']:.6f}", f"{row['condition_number']:.6f}", price
         table.add_row(str(number), _limit(front, row["limit"]), *numbers, reached)

@@ -11,11 +11,11 @@ from rich.table import Table
 
 from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.pose_words import pose_words
 from ninedof.cli.screen import Screen
-from ninedof.cli.sheet_tables import MECHANISMS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.sheet.pose_words import pose_words
+from ninedof.sheet.words import MECHANISMS
 from ninedof.singularity.nearest_singularity import PARTS, NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import singularity as singularity_of
 from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity

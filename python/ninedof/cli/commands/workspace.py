@@ -11,7 +11,8 @@ import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import named_design, with_length
-from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Threads
+from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_limits import asked_lines, compare_poses, criteria_asked, narrowed, rule_asked
 from ninedof.cli.workspace_summary import draw, region_words, sentences, workspace_table
@@ -110,6 +111,7 @@ def workspace(
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
+    report: Report = True,
     json: Json = False,
 ) -> None:
     """Compute the workspace of a robot: its volume, its boundary and what limits it.
@@ -189,9 +191,10 @@ def workspace(
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
     outlined = None if region_asked is None or archetype == "orientation" else (region_asked, home)
-    record = write_run(found, directory, partial(draw, found, screen, outlined) if drawn else None, question)
+    drawing = with_report(partial(draw, found, screen, outlined) if drawn else None, figures and report, screen)
+    record = write_run(found, directory, drawing, question)
     figure = ", figure workspace (PNG and SVG)" if drawn else ""
-    screen.print(f"run folder {directory}: {record.name}, map.npz{figure}")
+    screen.print(f"run folder {directory}: {record.name}, map.npz{figure}{report_words(directory)}")
     data = {"workspace": found.to_dict(), "record": str(record)}
     screen.data(data | ({} if share is None else {"region": share._asdict()}))
     if found.interrupted:

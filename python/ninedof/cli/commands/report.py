@@ -1,0 +1,35 @@
+"""`ninedof report`: a run as one page of HTML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ninedof.cli.options import Json
+from ninedof.cli.screen import Screen
+from ninedof.report.report import report as write_report
+
+PLACE = 3
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof report runs/20260101-120000                 report.html in the run folder
+
+  ninedof report runs/20260101-120000 --out mine.html
+
+  ninedof report front#3                              point 3 of a trade-off"""
+
+
+def report(
+    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")],
+    out: Annotated[
+        Path | None, typer.Option(help="File to write; report.html in the run folder, or report-7.html, by default.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
+    screen = Screen(json)
+    file = write_report(run, out)
+    screen.print(f"report {file}, {file.stat().st_size / 1e6:.2f} MB: open it in a browser")
+    screen.data({"report": str(file)})

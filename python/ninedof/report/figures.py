@@ -1,0 +1,45 @@
+"""The figures of a run folder, inside the page."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable
+from html import escape
+from pathlib import Path
+
+from ninedof.report.markup import Html, joined, tag
+
+CAPTIONS = {
+    "mechanism": "The mechanism at its neutral pose.",
+    "condition": "Condition number along the height of O and along the twist, other variables as in the design.",
+    "poses": "Condition number at each pose that was imposed.",
+    "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
+    "front": "The least objective for each value of the limit, and designs from above.",
+    "workspace": "Sections of the workspace, what limits it, the spread of the condition number, and how the volume "
+    "became known.",
+    "motion": "Leg lengths, rates and margins along the path.",
+}
+KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
+
+
+def stems(folder: Path) -> list[str]:
+    """Return the names of the figures of a folder, known ones first."""
+    found = {file.stem for kind in KINDS for file in folder.glob(f"*{kind}")}
+    return sorted(found, key=lambda stem: ([*CAPTIONS, stem].index(stem), stem))
+
+
+def figures(folder: Path, names: Iterable[str]) -> Html:
+    """Return the figures of these names with their captions."""
+    return joined(*(tag("figure", image(folder, stem), tag("figcaption", _caption(stem))) for stem in names))
+
+
+def image(folder: Path, stem: str) -> Html:
+    """Return a figure as an element that holds its file: SVG or PNG, whichever is smaller."""
+    files = [path for kind in KINDS if (path := folder / f"{stem}{kind}").is_file()]
+    smallest = min(files, key=lambda path: path.stat().st_size)
+    data = b64encode(smallest.read_bytes()).decode()
+    return Html(f'<img alt="{escape(_caption(stem))}" src="data:{KINDS[smallest.suffix]};base64,{data}">')
+
+
+def _caption(stem: str) -> str:
+    return CAPTIONS.get(stem, stem.replace("_", " ").replace("-", " ").capitalize() + ".")

@@ -1,0 +1,47 @@
+"""How to reproduce a run: its command, its study file, its versions."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from collections.abc import Mapping
+from typing import Any
+
+from ninedof.design.study import Study
+from ninedof.report.markup import Html, facts, joined, listing, paragraphs, tag
+from ninedof.support.json import encode
+
+SAME = "The same study and seed give the same bits, for any number of threads, with the same versions."
+LIST = re.compile(r"\[\n((?: +[-+.\w]+,\n)+) *\]")  # of numbers, one to a line
+
+
+def of_study(study: Study, command: str, record: Any) -> Html:
+    """Return how to solve a study again; `record` has the versions and the time."""
+    import tomli_w
+
+    text = LIST.sub(lambda found: f"[{', '.join(found[1].replace(',', ' ').split())}]", tomli_w.dumps(study.to_dict()))
+    data = b64encode(text.encode()).decode()
+    file = tag("a", "study.toml", href=f"data:text/plain;base64,{data}", download="study.toml")
+    return joined(
+        tag("p", "Save the study file below as ", file, ", then:"),
+        listing(command),
+        _versions(record, [("starts", study.starts), ("seed", study.seed)]),
+        paragraphs([SAME], "note"),
+        tag("h3", "study.toml"),
+        listing(text),
+    )
+
+
+def of_question(asked: Mapping[str, Any], record: Any) -> Html:
+    """Return what was asked of a run without a study."""
+    return joined(
+        paragraphs(["Everything that was asked, as the record of the run has it:"]),
+        listing(encode(asked)),
+        _versions(record, []),
+    )
+
+
+def _versions(record: Any, more: list[tuple[str, object]]) -> Html:
+    return facts(
+        [("written", record.created.replace("T", " ").replace("+00:00", " UTC")), *more, *record.versions.items()]
+    )

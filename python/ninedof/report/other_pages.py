@@ -1,0 +1,192 @@
+"""The pages of fronts, of workspaces and of runs that only have figures."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.indices import LEGS
+from ninedof.pareto import Front
+from ninedof.pareto.front import row_words
+from ninedof.report import origin, proof, scene
+from ninedof.report.body import body_of
+from ninedof.report.markup import Html, Section, beside, facts, joined, paragraphs, table
+from ninedof.report.numbers import short
+from ninedof.report.pages import Page, machine_section
+from ninedof.report.question import question
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.units import amount, with_unit
+from ninedof.workspace import WorkspaceMap
+
+LENGTHS = ("leg_limits", "leg_clearance")
+
+
+def of_front(front: Front, record: Any, name: str) -> Page:
+    """Return the page of a trade-off."""
+    limit = front.limit_name.replace("_", " ")
+    values = " ".join(f"--value {_limit(front, x)}" for x in front.limits)
+    command = f"ninedof pareto study.toml --against {front.against} {values}".replace("_rad", "")
+    asked = f"What does each value of {limit} cost? The study below is solved once for each."
+    machines = [
+        scene.machine(f"point {k}: {limit} {_limit(front, x)}", b.geometry, b.configuration, b.characteristic_length)
+        for k, (x, result) in enumerate(zip(front.limits, front.results, strict=True), start=1)
+        if (b := result.best) is not None and not math.isnan(front.objectives[k - 1])
+    ]
+    sections = [
+        Section("question", "Question", joined(paragraphs([asked]), question(front.study))),
+        Section("answer", "Answer", _front_table(front)),
+        *([machine_section()] if machines else []),
+        Section(
+            "sheet", "Engineering sheet", paragraphs([f"Each point has its own: ninedof sheet {name}#1 for the first."])
+        ),
+        Section("proof", "What is proved, and what is searched", proof.of_front(front)),
+        Section("again", "How to reproduce it", origin.of_study(front.study, command, record)),
+    ]
+    found = [x for x in front.objectives if not math.isnan(x)]
+    ends = f"{max(found):.6f} to {min(found):.6f}" if found else "no design"
+    figures = [
+        ("limits solved", len(front)),
+        ("objective", ends),
+        ("interrupted", "yes" if front.interrupted else "no"),
+    ]
+    headline = f"{front.study.words[:1].upper()}{front.study.words[1:]} against {limit}"
+    shown = scene.scene(machines, front.study.unit) if machines else None
+    return Page("trade-off", headline, figures, sections, shown, bool(found) and not front.interrupted)
+
+
+def _front_table(front: Front) -> Html:
+    unit = "deg" if front.unit == "rad" else front.unit
+    limit = with_unit(f"{front.limit_name.replace('_', ' ')} at most", unit)
+    head = (
+        "no.",
+        limit,
+        "objective",
+        "neutral condition number",
+        "price, % for 1 %",
+        "limits reached, or why no design",
+    )
+    rows = []
+    for k, row in enumerate(front.table(), start=1):
+        missing = row["objective"] is None
+        price = "-" if row["price"] is None else f"{row['price']:.3f}"
+        values = ("-", "-") if missing else (f"{row['objective']:.6f}", f"{row['condition_number']:.6f}")
+        rows.append((k, _limit(front, row["limit"]), *values, price, row_words(front, row).replace("_", " ")))
+    return table(f"{front.study.words} for each limit", head, rows, (5,))
+
+
+def _limit(front: Front, value: float) -> str:
+    return f"{math.degrees(value) if front.unit == 'rad' else value:.5g}"
+
+
+def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
+    """Return the page of a workspace."""
+    asked = record.asked
+    g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
+    home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
+    body = body_of(found)
+    box = [] if found.of_angles else [scene.numbers(line) for line in scene.box_lines(found.low, found.high)]
+    machines = [scene.machine("robot", g, home, float(asked.get("characteristic_length", 1.0)), (("home", 0),))]
+    sections = [
+        Section("question", "Question", _asked(found, asked)),
+        Section("answer", "Answer", _volume(found)),
+        machine_section(
+            "The body is the set of positions of the platform's origin; lines: the box looked at." if body else ""
+        ),
+        Section("proof", "What is proved, and what is searched", proof.of_workspace(found)),
+        Section("again", "How to reproduce it", origin.of_question(asked, record)),
+    ]
+    cubed = "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)
+    figures = [
+        ("status", found.status),
+        ("volume", amount(f"{found.volume:.6g} ± {found.error:.1g}", cubed)),
+        ("worst condition number", f"{found.worst_condition_number:.4f}"),
+    ]
+    headline = f"Workspace: {found.archetype.replace('_', ' ')}"
+    good = found.status in ("converged", "limited")
+    return Page("workspace", headline, figures, sections, scene.scene(machines, found.unit, box, body), good)
+
+
+def _asked(found: WorkspaceMap, asked: Any) -> Html:
+    rows = []
+    for name, limit in asked["criteria"].items():
+        if name == "leg_limits" and np.ndim(limit[0]):
+            rows += [
+                (leg, _criterion(name, ends, found.unit))
+                for leg, ends in zip(LEGS, zip(*limit, strict=True), strict=True)
+            ]
+        else:
+            rows.append((name.replace("_", " "), _criterion(name, limit, found.unit)))
+    low, high = (", ".join(short(x) for x in ends) for ends in (found.low, found.high))
+    where = "the box" if not found.of_angles else "coordinates"
+    rule = _rule(asked.get("internal_point", "held"))
+    said = f"Which poses keep all limits below? Looked at: {where} from ({low}) to ({high}). O is {rule}."
+    return joined(paragraphs([said]), table("Limits", ("limit", "allowed"), rows, (1,)))
+
+
+def _rule(given: Any) -> str:
+    if isinstance(given, str):
+        return {"best": "at its best place for each pose"}.get(given, given)
+    if isinstance(given, int | float):
+        return f"at a share of {given:.4g} of the way between the plates"
+    if isinstance(given, dict):
+        return "fixed to the platform"
+    return f"at ({', '.join(f'{x:.6g}' for x in given)})"
+
+
+def _criterion(name: str, limit: Any, unit: str) -> str:
+    if name.endswith("cone"):
+        most = limit["max"] if isinstance(limit, dict) else limit
+        return f"{math.degrees(most):.4g}°"
+    if isinstance(limit, bool):
+        return "yes" if limit else "no"
+    if isinstance(limit, int | float):
+        return amount(f"{limit:g}", unit if name in LENGTHS else "")
+    return amount(" to ".join(f"{end:.6g}" for end in limit), unit)
+
+
+def _volume(found: WorkspaceMap) -> Html:
+    unit = "rad" if found.of_angles else found.unit
+    rows: list[tuple[object, object]] = [
+        (with_unit("volume", unit + "³" * bool(unit)), f"{found.volume:.6g}"),
+        ("error, estimated", f"{found.error:.2g}"),
+        ("share of what was looked at", f"{100.0 * found.share:.3g} %"),
+        ("connected pieces", len(found.pieces)),
+    ]
+    if found.ball_radius > 0.0:
+        rows += [
+            (with_unit("largest ball, radius", unit), f"{found.ball_radius:.5g}"),
+            (with_unit("its centre", unit), ", ".join(f"{x:.4g}" for x in found.ball_centre)),
+            (with_unit("largest box, sides", unit), " × ".join(f"{x:.4g}" for x in found.box_high - found.box_low)),
+        ]
+    rows += [
+        ("global conditioning index", f"{found.conditioning_index:.5f}"),
+        ("condition number, median", f"{found.percentiles[50]:.4f}"),
+        ("condition number, 95 %", f"{found.percentiles[95]:.4f}"),
+        ("condition number, worst", f"{found.worst_condition_number:.4f}"),
+    ]
+    shares = [(k.replace("_", " "), f"{100.0 * v:.1f} %") for k, v in found.limits().items()]
+    ends = table("What ends the workspace", ("limit", "share of the boundary"), shares) if shares else Html()
+    return beside(facts(rows), ends)
+
+
+def of_others(record: Any, name: str) -> Page:
+    """Return the page of a run that has figures and a record only: a sweep, an atlas or a motion."""
+    sections = [
+        Section("question", "Question", paragraphs([f"A run of kind “{record.kind}”; its figures are below."])),
+        Section("again", "How to reproduce it", origin.of_question(record.asked, record)),
+    ]
+    return Page(record.kind, f"{record.kind.capitalize()} {name}", [("files", len(record.files))], sections)
+
+
+def of_comparison(rows: Any) -> Html:
+    """Return the published optimum beside ours."""
+    head = ("design", "condition number", "a1, a2", "b1, b2", "zp", "zs")
+    cells = []
+    for row in rows:
+        v = row["variables"]
+        pairs = (f"{short(v[a])}, {short(v[b])}" for a, b in (("a1", "a2"), ("b1", "b2")))
+        cells.append((row["title"], f"{row['condition_number']:.6f}", *pairs, short(v["zp"]), short(v["zs"])))
+    return table("The published optimum beside ours, lengths in units of l_c", head, cells)

@@ -1,0 +1,90 @@
+"""What a run establishes, and what it only searched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.result import Result, Status
+from ninedof.pareto import Front
+from ninedof.report.markup import Html, bullets, joined, paragraphs, tag
+from ninedof.workspace import WorkspaceMap
+
+# As in docs/optimization.md.
+STATUS = {
+    Status.OPTIMAL: "feasible, regular and stationary by tests that do not rely on the solver",
+    Status.UNBOUNDED: "the objective keeps falling as variables without a bound grow: shown numerically, not proved",
+    Status.INFEASIBLE: "no start led to a feasible design, nor did a search for the least violation",
+    Status.STOPPED: "interrupted, or no end of a start passed the tests: no claim is made for the design",
+}
+
+
+def of_result(result: Result) -> Html:
+    """Return what is established of an optimization and what is not."""
+    return _two(list(_checked(result)), list(_searched(result)), STATUS[result.status], result.status)
+
+
+def of_front(front: Front) -> Html:
+    """Return the same of a front: each of its points is an optimization."""
+    counts = {status: sum(r.status == status for r in front.results) for status in Status}
+    checked = [f"{count} of {len(front)} limits: {s}, {STATUS[s]}." for s, count in counts.items() if count]
+    searched = [
+        "Each point is a local optimum, the best that its starts and those from neighbouring limits found. That none "
+        "is better is not proved.",
+        "Between the limits nothing was solved.",
+    ]
+    return _two(checked, searched, "each limit is solved as a study of its own", "front")
+
+
+def of_workspace(found: WorkspaceMap) -> Html:
+    """Return the same of a workspace."""
+    checked = []
+    if found.ball_radius > 0.0:
+        checked.append("Leg limits hold in the largest ball and box: proved for positions at one rotation.")
+    searched = [
+        "Other criteria were sampled. The error of the volume is an estimate, not a bound.",
+        f"Poses evaluated: {found.evaluations:,}.".replace(",", " "),
+    ]
+    if found.unseen > 0.0:
+        searched.append(f"Parts that no sample has shown have a volume of at most {found.unseen:.2g}, with 95 %.")
+    return _two(checked, searched, "how the search ended", str(found.status))
+
+
+def _two(checked: list[str], searched: list[str], meaning: str, status: str) -> Html:
+    lists = [
+        tag("div", tag("h3", title), bullets(items))
+        for title, items in (("Proved or checked", checked), ("Searched, not proved", searched))
+        if items
+    ]
+    return joined(paragraphs([f"Status “{status}”: {meaning}."]), tag("div", *lists, class_="pair"))
+
+
+def _checked(result: Result) -> Iterator[str]:
+    best = result.best
+    if best is not None and result.status == Status.OPTIMAL:
+        yield f"Checked: no limit or bound is passed at the poses imposed by more than {best.constraint_violation:.1e}."
+        yield (
+            f"Checked: no direction lowers the objective to first order and keeps the limits; the residual is "
+            f"{best.optimality_residual:.1e}, at most 1e-6."
+        )
+    for bound in applicable_bounds(result) if best is not None else ():
+        if bound.proved:
+            yield f"Proved: {bound.sentence}."
+
+
+def _searched(result: Result) -> Iterator[str]:
+    best, region = result.best, result.region
+    if best is not None:
+        yield "That no other design is better. The starts are evidence only: see their agreement above."
+    if region is not None:
+        yield (
+            f"That the limits hold between the poses looked at: {region.looked_at} poses of the region, with descents "
+            "from the worst of them. No pose between them is excluded by a proof."
+        )
+    elif best is not None and len(best.conditions) > 1:
+        yield "Anything between the listed poses."
+    for bound in applicable_bounds(result) if best is not None else ():
+        if not bound.proved:
+            yield f"Found by long searches: {bound.sentence}."
+    if result.status == Status.INFEASIBLE:
+        yield "That no design satisfies all limits. For each limit named, a design satisfies the others named."

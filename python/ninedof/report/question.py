@@ -1,0 +1,102 @@
+"""The question of a study in words: what is least, over which poses, within which bounds and limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ninedof.design.limits import Limit, each, label, parts, place, shown_unit
+from ninedof.design.study import Study
+from ninedof.report.markup import Html, beside, joined, paragraphs, table
+from ninedof.support.angles import degrees_of
+from ninedof.support.units import amount, with_unit
+
+FAMILIES = {
+    "hexagonal": "hexagonal plates, eqs. (37) and (38)",
+    "symmetric": "flat joint triples with threefold symmetry",
+    "symmetric_nonplanar": "joint triples with threefold symmetry, each at its own height",
+    "general": "twelve free joints",
+}
+WHERE_O = {
+    "carried": "O is carried with the platform: s - p stays as at the neutral pose.",
+    "held": "O stays where it is at the neutral pose.",
+    "best": "O is placed anew at every pose, where the worst of the index and all limits is least.",
+}
+MOST_FIXED = 8  # variables; of more, only the free ones are listed
+
+
+def question(study: Study) -> Html:
+    """Return the question of a study."""
+    return joined(paragraphs(sentences(study)), beside(variables_table(study), limits_table(study)))
+
+
+def sentences(study: Study) -> Iterator[str]:
+    """Yield what is asked, in sentences."""
+    family = FAMILIES.get(study.family, study.family)
+    yield f"Which design has the least {study.words}? The family of designs is “{study.family}”: {family}."
+    objective = study.objective
+    if objective.region is not None:
+        yield f"Every limit holds in all of this region. {WHERE_O[objective.region.internal_point]}"
+    elif objective.poses:
+        yield f"Every limit holds at each of the {len(objective.poses)} poses; between them nothing is asked."
+    else:
+        yield "One pose is asked for, the neutral one."
+    for name, limit in (
+        ("any pose", objective.condition_limit),
+        ("the neutral pose", objective.neutral_condition_limit),
+    ):
+        if limit is not None:
+            yield f"The condition number at {name} is at most {limit:g}."
+    length = study.characteristic_length
+    if isinstance(length, str):
+        said = f"chosen for each design: {length.replace('_', ' ')}"
+    elif isinstance(length, tuple):
+        said = amount(f"free from {_end(length[0])} to {_end(length[1])}", study.unit)
+    else:
+        said = amount(f"{length:g}", study.unit)
+    named = f"in {study.unit}" if study.unit else "in one unit, which the study does not name"
+    yield f"Lengths are {named}, angles in degrees. The characteristic length is {said}."
+
+
+def variables_table(study: Study) -> Html:
+    """Return the variables with their bounds."""
+    free = [name for name, bound in study.variables.items() if isinstance(bound, tuple)]
+    shown = list(study.variables) if len(study.variables) - len(free) <= MOST_FIXED else free
+    rows = []
+    for name in shown:
+        bound = study.variables[name]
+        if isinstance(bound, tuple):
+            ends = tuple(_end(study.shown(name, end)) for end in bound)
+        else:
+            ends = (_end(study.shown(name, bound)), "fixed")
+        rows.append((with_unit(name.replace("_", " "), study.unit_of(name)), *ends))
+    return table("Variables", ("variable", "least", "greatest"), rows)
+
+
+def limits_table(study: Study) -> Html:
+    """Return the limits; nothing without one."""
+    several = bool(study.objective.poses) or study.objective.region is not None
+    rows = [_limit_row(study, name, limit, several) for name, limit in each(study.constraints)]
+    if not rows:
+        return paragraphs(["No limit is set beside these bounds and 0 < zs < zp."])
+    if not any(row[-1] for row in rows):
+        return table("Limits", ("limit", "least", "greatest"), [row[:-1] for row in rows])
+    return table("Limits", ("limit", "least", "greatest", "how"), rows, words=(3,))
+
+
+def _limit_row(study: Study, name: str, limit: Limit, several: bool) -> tuple[str, ...]:
+    low, high, options = parts(limit)
+    unit = shown_unit(name, limit, study.unit)
+    ends = ["" if x is None else amount(_end(degrees_of(x) if unit == "deg" else x), unit) for x in (low, high)]
+    said = ["of " + str(options["of"])] if options.get("of", "length") != "length" else []
+    said += [f"{key.replace('_', ' ')} {_option(value)}" for key, value in options.items() if key not in ("of", "at")]
+    where = "at the neutral pose" if place(limit) == "neutral" else "at every pose" if several else ""
+    return label(name, "poses").replace("_", " "), *ends, ", ".join([*([where] if where else []), *said])
+
+
+def _option(value: object) -> str:
+    return f"({', '.join(f'{x:g}' for x in value)})" if isinstance(value, list | tuple) else f"{value}"
+
+
+def _end(value: float) -> str:
+    return f"{value:.6g}" if math.isfinite(value) else "none"

@@ -1,0 +1,122 @@
+"""`report`: a run as one page of HTML that needs nothing else."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ninedof.optimize.result import Result
+from ninedof.pareto import Front
+from ninedof.report.figures import stems
+from ninedof.report.markup import Section, joined
+from ninedof.report.other_pages import of_comparison, of_front, of_others, of_workspace
+from ninedof.report.page import page
+from ninedof.report.pages import Page, of_result
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.runs.folder import Record, load_record
+from ninedof.runs.objects import load, split
+from ninedof.support.arguments import shown
+from ninedof.support.files import write_whole
+from ninedof.workspace import WorkspaceMap
+
+FILE = "report.html"
+STILL = "mechanism"
+
+
+def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
+    """Write a run as one page of HTML: question, answer, machine, sheet, figures, what is proved, how to reproduce it.
+
+    The page loads nothing from anywhere. The machine is drawn in the browser and can be turned by hand.
+
+    Parameters
+    ----------
+    run : path, Result or Front
+        A run folder or its record.json, one point of it as "RUN#7", or a result in memory, which has no figures.
+    path : path, optional
+        The file to write; by default report.html in the run folder, or report-7.html for point 7. For a result in
+        memory it must be given.
+
+    Returns
+    -------
+    pathlib.Path
+        Of the page.
+
+    Raises
+    ------
+    ValueError
+        If there is no such run, or no path is given for a result in memory.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import ninedof as nd
+    >>> found = nd.optimize(nd.Study.paper(), starts=4)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nd.report(found, folder + "/report.html").name
+    'report.html'
+
+    """
+    if path is not None and not Path(path).absolute().parent.is_dir():
+        raise ValueError(f"path: got {os.fspath(path)}, expected a file in a folder that exists")
+    if isinstance(run, Result | Front):
+        if path is None:
+            raise ValueError("path: got none, expected the file to write for a result in memory")
+        file = Path(path)
+        record = Record("front" if isinstance(run, Front) else "optimization", run.study, {})
+        return _written(_page_of(run, record, file.stem), record, file, None, file.stem)
+    if not isinstance(run, str | os.PathLike):
+        raise ValueError(f"run: got {shown(run)}, expected a run folder, a Result or a Front")
+    place, point = split(os.fspath(run))
+    if place.suffix == ".toml":
+        raise ValueError(f"{place}: got a file of a design or study, expected a run folder")
+    folder = place if place.is_dir() else place.parent
+    record = load_record(place)
+    name = folder.resolve().name + (f"#{point}" if point else "")
+    found = load(run)
+    file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
+    return _written(_page_of(found, record, name, bool(point)), record, file, None if point else folder, name)
+
+
+def _page_of(found: Any, record: Record, name: str, point: bool = False) -> Page:
+    """Return the page of what a record holds."""
+    if isinstance(found, Front):
+        return of_front(found, record, name)
+    if isinstance(found, WorkspaceMap):
+        return of_workspace(found, record, name)
+    if not isinstance(found, Result):
+        return of_others(record, name)
+    made = of_result(found, record, name)
+    if record.kind != "comparison" or point:
+        return made
+    sections = [
+        Section(s.id, s.title, joined(of_comparison(record.results["designs"]), s.body)) if s.id == "answer" else s
+        for s in made.sections
+    ]
+    return Page(made.kind, made.headline, made.figures, sections, made.shown, made.good)
+
+
+def _written(made: Page, record: Record, file: Path, folder: Path | None, name: str) -> Path:
+    names = [] if folder is None else stems(folder)
+    with tempfile.TemporaryDirectory() as spare:
+        still = None
+        if made.shown is not None:
+            still = (
+                (folder, STILL) if folder is not None and STILL in names else (_drawn(made.shown, Path(spare)), STILL)
+            )
+        text = page(made, name, record.created, folder or Path(spare), names, still)
+    return write_whole(file, text.encode())
+
+
+def _drawn(scene: Any, folder: Path) -> Path:
+    """Draw the first machine at its first pose; return the folder of the figure."""
+    from ninedof import plot
+
+    one = scene["machines"][0]
+    pose = one["poses"][0]
+    g = Geometry(*(one[body][k : k + 3] for body in ("base", "platform") for k in (0, 3)))
+    c = Configuration(pose["p"], pose["q"], pose["s"])
+    plot.save(plot.mechanisms([plot.Mechanism(one["name"], g, c)], scene["unit"]), folder, STILL)
+    return folder

@@ -1,0 +1,113 @@
+"""The machine as plain values for the view of the page: joints, plates, poses, region and workspace body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.region import Region
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.sheet.sheet import Sheet
+from ninedof.support.arrays import Floats
+
+DIGITS = 6  # significant, of coordinates in the page
+ROUND = 48  # parts of a circle
+
+
+def machine(
+    name: str, g: Geometry, c: Configuration, length: float, poses: Sequence[tuple[str, int]] = (("neutral pose", 0),)
+) -> dict[str, Any]:
+    """Return a machine with its named poses, indices into a stack; a single configuration is a stack of one."""
+    from ninedof.plot.plates import outlines
+
+    stack = c if c.shape else Configuration(c.position[None], c.rotation[None], c.internal_point[None])
+    base = np.vstack([g.base_external, g.base_internal])
+    platform = np.vstack([g.platform_external, g.platform_internal])
+    kappa = np.full(len(stack), np.inf)
+    if np.isfinite(length):
+        kappa = np.asarray(condition_number(g, stack, length))
+    lengths = leg_lengths(g, stack)
+    return {
+        "name": name,
+        "base": numbers(base),
+        "platform": numbers(platform),
+        "basePlate": [numbers(face) for face in outlines(base)],
+        "platformPlate": [numbers(face) for face in outlines(platform)],
+        "poses": [
+            {
+                "name": words,
+                "p": numbers(stack.position[k]),
+                "q": [[round(float(x), 9) for x in row] for row in stack.rotation[k]],
+                "s": numbers(stack.internal_point[k]),
+                "kappa": f"{kappa[k]:.6f}" if np.isfinite(kappa[k]) else "infinite",
+                "lengths": [f"{x:.6g}" for x in lengths[k]],
+            }
+            for words, k in poses
+        ],
+    }
+
+
+def worst_poses(found: Sheet) -> list[tuple[str, int]]:
+    """Return the neutral pose and the worst poses of a sheet, each with all that is worst there."""
+    said: dict[int, list[str]] = {0: []}
+    said.setdefault(found.condition_number.pose, []).append("worst condition number")
+    said.setdefault(found.clearance.pose, []).append(f"least clearance, {' and '.join(found.clearance.legs)}")
+    lengths = leg_lengths(found.geometry, found.configurations)
+    if len(found.configurations) > 1:
+        most = max(range(9), key=lambda k: found.legs[k].stroke_ratio)
+        for words, pick in (("shortest", np.argmin), ("longest", np.argmax)):
+            said.setdefault(int(pick(lengths[:, most])), []).append(f"{found.legs[most].name} {words}")
+    for name, det in found.determinants.items():
+        said.setdefault(det.pose, []).append(f"least |det {name[-1].upper()}|")
+    neutral = ["neutral pose", *(said.pop(0) if len(found.configurations) > 1 else [])]
+    return [(", ".join(neutral), 0), *((", ".join(words), k) for k, words in said.items())]
+
+
+def region_lines(region: Region, home: Configuration) -> list[Any]:
+    """Return the outline of the positions of a region as lines of points in base axes."""
+    unit = float(home.position[2]) if region.unit == "zp" else 1.0
+    lines: list[Floats] = []
+    turn = np.linspace(0.0, 2.0 * np.pi, ROUND + 1)
+    ring = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)
+    if region.path is not None:
+        lines = [np.array(region.path)]
+    elif region.ball is not None:
+        lines = [region.ball * ring[:, order] for order in ([0, 1, 2], [0, 2, 1], [2, 0, 1])]
+    elif region.cylinder is not None:
+        radius, half = region.cylinder
+        lines = [radius * ring + [0.0, 0.0, z] for z in (-half, half)]
+        lines += [np.array([[*(radius * p[:2]), -half], [*(radius * p[:2]), half]]) for p in ring[:-1:12]]
+    elif region.box is not None:
+        lines = box_lines(-np.array(region.box), np.array(region.box))
+    return [numbers(home.position + unit * line) for line in lines]
+
+
+def box_lines(low: Floats, high: Floats) -> list[Floats]:
+    """Return the twelve edges of a box: four lines around it and four up."""
+    corners = [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
+    around = [*corners, corners[0]]
+    lines = [np.array([[x, y, z] for x, y in around]) for z in (low[2], high[2])]
+    return lines + [np.array([[x, y, low[2]], [x, y, high[2]]]) for x, y in corners]
+
+
+def scene(
+    machines: Iterable[Mapping[str, Any]],
+    unit: str = "",
+    lines: Sequence[Any] = (),
+    body: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Return what the view shows."""
+    return {"unit": unit, "machines": list(machines), "region": list(lines), "body": body}
+
+
+def numbers(points: Floats) -> Any:
+    """Return coordinates as lists of short numbers."""
+    values = np.asarray(points, dtype=float)
+    size = float(np.abs(values).max(initial=0.0))
+    decimals = DIGITS - 1 - int(np.floor(np.log10(size))) if size > 0.0 else 0
+    return (np.round(values, decimals) + 0.0).tolist()

@@ -1,0 +1,47 @@
+"""One region study, its run folder and its page, solved and written once; the sheet of a design is computed once."""
+
+import pytest
+
+import ninedof as nd
+
+STUDY = nd.Study(
+    variables={"a1": 0.0, "b2": 0.0, "theta_z": 0.0, "zp": 4.0},
+    constraints={"radius_ratio": (None, 2.0), "base_cone": {"max_deg": 45}},
+    objective={"region": {"box": [0.2, 0.2, 0.1], "tilt_deg": 5.0}},
+    starts=2,
+    unit="m",
+)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _sheets_are_computed_once():
+    known, compute = {}, nd.Result.sheet
+
+    def sheet(result):
+        key = (result.study.words, result.objective)
+        known[key] = known.get(key) or compute(result, samples=1000)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(nd.Result, "sheet", sheet)
+        yield
+
+
+@pytest.fixture(scope="session")
+def result():
+    return nd.optimize(STUDY)
+
+
+@pytest.fixture(scope="session")
+def folder(result, tmp_path_factory):
+    """A run folder whose name would be HTML, with one figure."""
+    place = tmp_path_factory.mktemp("runs") / "<b>a&b"
+    nd.save(result, place)
+    (place / "mechanism.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
+    (place / "mechanism.png").write_bytes(b"\x89PNG" + bytes(200))
+    return place
+
+
+@pytest.fixture(scope="session")
+def page(folder, _sheets_are_computed_once):
+    return nd.report(folder)

@@ -1,0 +1,232 @@
+"""The page of a run: all sections, everything escaped, nothing from elsewhere, small."""
+
+import json
+import re
+import tomllib
+from base64 import b64decode
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.report.body import surface_net
+from ninedof.report.markup import Html, table, tag
+from ninedof.report.scene import region_lines
+
+IMPOSSIBLE = {"height": (None, 1.0), "leg_length": (3.0, None), "footprint": (None, 1.0)}
+VOID = {"meta", "link", "img", "input", "br"}
+
+
+class Reader(HTMLParser):
+    """Ids, sources and text of a page, and whether every element is closed."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.sources, self.words = [], [], [], []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.open += [] if tag in VOID else [tag]
+        self.ids += [value for name, value in attrs if name == "id"]
+        self.sources += [value for name, value in attrs if name in ("src", "href", "data", "action")]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] not in ("script", "style"):
+            self.words.append(data)
+
+
+def read(path):
+    text = path.read_text(encoding="utf-8")
+    assert len(text) < 3e6
+    assert not re.search(r"https?://|//cdn|@import|url\(", text)
+    page = Reader(text)
+    assert all(source.startswith(("data:", "#")) for source in page.sources)
+    assert len(page.ids) == len(set(page.ids))
+    return text, page, " ".join(page.words)
+
+
+def scene_of(text):
+    return json.loads(re.search(r'id="scene-data">(.*?)</script>', text, re.DOTALL)[1])
+
+
+def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, result):
+    assert page == folder / "report.html"
+    text, found, words = read(page)
+    assert found.ids[0] == "question"
+    sections = [
+        name for name in found.ids if name in ("question", "answer", "machine", "sheet", "figures", "proof", "again")
+    ]
+    assert sections == ["question", "answer", "machine", "sheet", "figures", "proof", "again"]
+    assert "<b>a&b" not in text
+    assert "<b>a&b" in words
+    assert f"{result.objective:.6f}" in words
+    assert "optimal" in words
+    assert "a box of half edges 0.2, 0.2, 0.1 m, tilts of at most 5 degrees" in words
+    assert re.sub(r"[_ ]", "", result.agreement[:30]) in re.sub(r"[_ ]", "", words)
+    found = result.sheet()
+    for leg in found.legs:
+        assert f"{leg.longest:.4f}" in words
+    for row in found.limits:
+        assert row.name.replace("_", " ") in words
+
+
+def test_the_study_file_in_the_page_makes_the_same_study(page, result):
+    text, _, _ = read(page)
+    data = re.search(r'href="data:text/plain;base64,([^"]+)"', text)[1]
+    assert nd.Study.from_dict(tomllib.loads(b64decode(data).decode())) == result.study
+
+
+def test_the_smaller_of_two_figures_is_embedded_and_the_view_has_a_still(page):
+    text, _, _ = read(page)
+    assert text.count("data:image/svg+xml") == 2  # the figure, and without scripts
+    assert "data:image/png" not in text
+    assert "<noscript><figure><img" in text
+
+
+def test_the_view_shows_the_machine_and_its_worst_poses(page, result):
+    text, _, _ = read(page)
+    scene = scene_of(text)
+    (machine,) = scene["machines"]
+    poses = {pose["name"].split(",")[0]: pose for pose in machine["poses"]}
+    assert {"neutral pose", "worst condition number"} <= set(poses)
+    g = result.geometry
+    np.testing.assert_allclose(machine["base"], np.vstack([g.base_external, g.base_internal]), atol=1e-4)
+    worst = poses["worst condition number"]
+    c = nd.Configuration(worst["p"], np.array(worst["q"]), worst["s"])
+    assert float(worst["kappa"]) == pytest.approx(result.objective, rel=1e-5)
+    assert float(nd.condition_number(g, c)) == pytest.approx(result.objective, rel=1e-3)
+    np.testing.assert_allclose([float(x) for x in worst["lengths"]], nd.leg_lengths(g, c), rtol=1e-4)
+    assert scene["unit"] == "m"
+    assert np.ptp(np.vstack(scene["region"]), axis=0) == pytest.approx([0.4, 0.4, 0.2], abs=1e-4)
+
+
+def test_an_infeasible_run_says_why_and_shows_no_machine(tmp_path):
+    found = nd.optimize(nd.Study(constraints=IMPOSSIBLE, starts=4))
+    text, page, words = read(nd.report(found, tmp_path / "it.html"))
+    assert "machine" not in page.ids
+    assert "infeasible" in words
+    assert found.reason[1:] in words
+    assert scene_of(text) is None
+
+
+def test_an_interrupted_run_makes_no_claim(tmp_path, result):
+    stopped = replace(result, status=nd.Status.STOPPED, interrupted=True, reason="interrupted")
+    _, page, words = read(nd.report(stopped, tmp_path / "it.html"))
+    assert "machine" in page.ids
+    assert "not claimed to be an optimum" in words
+    assert "Checked:" not in words
+    _, page, words = read(nd.report(replace(stopped, candidates=(), region=None), tmp_path / "none.html"))
+    assert "machine" not in page.ids
+    assert "stopped" in words
+
+
+def test_a_front_has_a_machine_for_each_point(tmp_path):
+    study = nd.Study(constraints=IMPOSSIBLE, starts=4)
+    front = nd.pareto(study, "footprint", values=[1.0, 40.0, 60.0])
+    nd.save(front, tmp_path / "front")
+    text, _, words = read(nd.report(tmp_path / "front"))
+    assert [m["name"] for m in scene_of(text)["machines"]] == ["point 2: footprint 40", "point 3: footprint 60"]
+    assert f"{front.objectives[2]:.6f}" in words
+    assert front.results[0].reason.split(";")[0].replace("_", " ") in words
+    point = nd.report(f"{tmp_path / 'front'}#2")
+    assert point.name == "report-2.html"
+    assert "front#2" in read(point)[2]
+
+
+def test_a_job_ends_with_its_report(tmp_path, capsys):
+    place = tmp_path / "reach"
+    options = "--legs 2.5 6.5 --tolerance 0.05 --no-figures --out"
+    with pytest.raises(SystemExit) as ended:
+        main(["workspace", *options.split(), str(place)])
+    assert ended.value.code == 0
+    assert not (place / "report.html").exists()
+    with pytest.raises(SystemExit) as ended:
+        main(["report", str(place)])
+    assert ended.value.code == 0
+    assert "report.html" in capsys.readouterr().out
+    text, _, words = read(place / "report.html")
+    record = nd.load(place)
+    assert f"{record.volume:.6g}" in words
+    scene = scene_of(text)
+    points = np.array(scene["body"]["vertices"])
+    assert (points.min(axis=0) >= record.low - 1e-9).all()
+    assert (points.max(axis=0) <= record.high + 1e-9).all()
+    assert body_volume(scene["body"]) == pytest.approx(record.volume, rel=0.1)
+
+
+def test_optimize_writes_its_report_and_lists_it(tmp_path):
+    study = tmp_path / "study.toml"
+    study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\nheight = { max = 0.001 }\n[solver]\nstarts = 4\n")
+    for name, more in (("with", []), ("without", ["--no-report"])):
+        with pytest.raises(SystemExit):
+            main(["optimize", str(study), "--out", str(tmp_path / name), *more])
+        listed = json.loads((tmp_path / name / "record.json").read_text())["files"]
+        assert ("report.html" in listed) == (name == "with") == (tmp_path / name / "report.html").is_file()
+
+
+def body_volume(body):
+    """Volume inside the faces, by the divergence theorem: positive where they face outward."""
+    points = np.array(body["vertices"])
+    points = points - points.mean(axis=0)
+    quads = points[np.array(body["faces"])]
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return float(np.linalg.det(triangles).sum() / 6.0)
+
+
+def test_the_surface_net_of_a_ball_is_closed_and_faces_outward():
+    x = np.arange(24) - 11.5
+    distance = np.sqrt(x[:, None, None] ** 2 + x[:, None] ** 2 + x**2)
+    points, faces = surface_net(np.clip(8.5 - distance, 0.0, 1.0), 0.5)
+    edges = np.sort(np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+    assert np.linalg.norm(points - 11.5, axis=1) == pytest.approx(8.0, abs=0.25)
+    assert body_volume({"vertices": points, "faces": faces}) == pytest.approx(4 / 3 * np.pi * 8.0**3, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("region", "reach"),
+    [
+        (nd.Region(ball=2.0), (2.0, 2.0, 2.0)),
+        (nd.Region(cylinder=(2.0, 3.0)), (2.0, 2.0, 3.0)),
+        (nd.Region(box=(0.1, 0.2, 0.3), unit="zp"), (0.5, 1.0, 1.5)),
+        (nd.Region(path=[[0, 0, 0], [1, 2, 3]]), (0.5, 1.0, 1.5)),
+    ],
+)
+def test_a_region_is_outlined_at_its_size(region, reach):
+    points = np.vstack(region_lines(region, nd.Configuration.neutral(zp=5.0, zs=3.0)))
+    assert 0.5 * np.ptp(points, axis=0) == pytest.approx(reach, abs=1e-4)
+
+
+def test_text_is_escaped_wherever_it_is_put():
+    nasty = '<script>alert("x")</script>'
+    assert "<script>" not in table(nasty, (nasty, "b"), [(nasty, nasty)])
+    assert tag("p", nasty, title=nasty).count("<") == 2
+    assert tag("p", Html("<i>x</i>")) == "<p><i>x</i></p>"
+
+
+@pytest.mark.parametrize(
+    ("run", "said"),
+    [
+        ("nowhere", "nowhere: cannot be read"),
+        ("design.toml", "expected a run folder"),
+        (3, "run: got 3, expected a run folder"),
+    ],
+)
+def test_bad_input_is_one_line(run, said):
+    with pytest.raises(ValueError, match=re.escape(said)) as error:
+        nd.report(run)
+    assert "\n" not in str(error.value)
+
+
+def test_a_result_in_memory_needs_a_path(result, tmp_path):
+    with pytest.raises(ValueError, match="path: got none, expected the file"):
+        nd.report(result)
+    with pytest.raises(ValueError, match="a file in a folder that exists"):
+        nd.report(result, tmp_path / "none" / "it.html")
