@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninedof.optimize.result import Result
@@ -53,7 +53,7 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     --------
     >>> import tempfile
     >>> import ninedof as nd
-    >>> found = nd.optimize(nd.Study.paper(), starts=4)
+    >>> found = nd.optimize(nd.Study.paper(), starts=2)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     nd.report(found, folder + "/report.html").name
     'report.html'
@@ -100,7 +100,7 @@ def _page_of(found: Any, record: Record, name: str, point: bool = False) -> Page
 
 def _written(made: Page, record: Record, file: Path, folder: Path | None, name: str) -> Path:
     names = [] if folder is None else stems(folder)
-    with tempfile.TemporaryDirectory() as spare:
+    with TemporaryDirectory() as spare:
         still = None
         if made.shown is not None:
             still = (

@@ -44,7 +44,7 @@ def test_main_job(capsys, tmp_path):
         assert figure in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
     stems = ("mechanism", "condition", "convergence")
-    assert names == {"record.json"} | {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg")}
+    assert names == {"record.json", "report.html"} | {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg")}
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["study"]["solver"] == {"starts": 64, "seed": 0}
     assert {"ninedof", "python", "numpy"} <= set(record["versions"])

@@ -13,14 +13,17 @@ STUDY = nd.Study(
 )
 
 
-@pytest.fixture(scope="session", autouse=True)
+SHEETS = {}
+
+
+@pytest.fixture(scope="module", autouse=True)
 def _sheets_are_computed_once():
-    known, compute = {}, nd.Result.sheet
+    compute = nd.Result.sheet
 
     def sheet(result):
         key = (result.study.words, result.objective)
-        known[key] = known.get(key) or compute(result, samples=1000)
-        return known[key]
+        SHEETS[key] = SHEETS.get(key) or compute(result, samples=1000)
+        return SHEETS[key]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(nd.Result, "sheet", sheet)
@@ -42,6 +45,6 @@ def folder(result, tmp_path_factory):
     return place
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def page(folder, _sheets_are_computed_once):
     return nd.report(folder)

@@ -44,6 +44,7 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
         "map.npz",
         "workspace.png",
         "workspace.svg",
+        "report.html",
     }
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["results"]["workspace"]["volume"] == numbers["volume"]
