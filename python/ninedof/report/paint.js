@@ -124,12 +124,13 @@ function body(context, [width, height], { vertices, faces }, view, colours) {
   context.globalAlpha = 1;
 }
 
-// The number of each leg beside it, where it covers no other number.
+// The number of each leg beside it, where it covers no other one.
 function labels(context, robot, project, colours) {
   const taken = [];
   Object.assign(context, { font: "600 12px system-ui, sans-serif", textAlign: "center", textBaseline: "middle" });
   const write = (text, colour, places) => {
-    const free = places.find(([x, y]) => taken.every(([a, b]) => Math.abs(a - x) > 21 || Math.abs(b - y) > 15)) || places[0];
+    const free = places.find(([x, y]) => taken.every(([a, b]) => Math.abs(a - x) > 17 || Math.abs(b - y) > 14));
+    if (!free) return; // too small a picture: the number comes with zooming
     taken.push(free);
     Object.assign(context, { strokeStyle: colours.surface, fillStyle: colour, lineWidth: 4 });
     context.strokeText(text, free[0], free[1]);
@@ -139,7 +140,7 @@ function labels(context, robot, project, colours) {
   write("O", colours.ink, [[o[0] - 15, o[1] - 3], [o[0] + 15, o[1] - 3], [o[0], o[1] + 17]]);
   for (const [kind, i, a, b] of [...robot.legs.slice(3), ...robot.legs.slice(0, 3)]) { // the short ones first
     const [from, to] = [a, b].map(project), long = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
-    const aside = long < 90 ? [12, -12] : [0]; // in pixels; beside a leg that its number would hide
+    const aside = long < 90 ? [12, -12, 22, -22] : [0]; // in pixels; beside a leg that its number would hide
     const across = [(from[1] - to[1]) / long, (to[0] - from[0]) / long];
     const places = [0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2].flatMap((t) => {
       const [x, y] = project(between(a, b, t));

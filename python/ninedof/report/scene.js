@@ -67,7 +67,8 @@
       return line;
     });
     document.getElementById("lengths").replaceChildren(...rows);
-    document.getElementById("kappa").textContent = `${data.machines.length > 1 ? `${machine.name}, ` : ""}${pose.name}: condition number ${pose.kappa}`;
+    document.getElementById("kappa").textContent = `condition number ${pose.kappa}`;
+    document.getElementById("which").textContent = `${machine.name}, ${pose.name}`;
     redraw();
   }
 

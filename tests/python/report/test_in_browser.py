@@ -15,13 +15,12 @@ WIDTHS = (390, 1280)
 FRAMES = """<!DOCTYPE html><title>frames</title>
 {frames}
 <script>
-addEventListener("load", () => requestAnimationFrame(() => {{
+addEventListener("load", () => setTimeout(() => {{
   for (const frame of document.querySelectorAll("iframe")) {{
     const page = frame.contentDocument, root = page.documentElement, canvas = page.querySelector("canvas");
     const colours = new Set(new Uint32Array(
       canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer));
-    const before = canvas.toDataURL(), camera = page.querySelector("[data-view=top]");
-    camera.click();
+    page.querySelector("[data-view=top]").click();
     const select = page.querySelector("#poses select"), kappa = () => page.getElementById("kappa").textContent;
     const first = kappa();
     select.value = 1;
@@ -29,7 +28,7 @@ addEventListener("load", () => requestAnimationFrame(() => {{
     document.body.append(`[${{[frame.width, root.scrollWidth, root.clientWidth, root.dataset.scene, colours.size > 8,
       first !== kappa()].join(" ")}}]`);
   }}
-}}));
+}}, 100));
 </script>"""
 
 
