@@ -95,7 +95,7 @@ def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
         machine_section(
             "The body is the set of positions of the platform's origin; lines: the box looked at." if body else ""
         ),
-        Section("proof", "What is proved, and what is searched", proof.of_workspace(found)),
+        Section("proof", "What is proved, and what is searched", proof.of_workspace(found, asked)),
         Section("again", "How to reproduce it", origin.of_question(asked, record)),
     ]
     cubed = "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
@@ -36,17 +37,22 @@ def of_front(front: Front) -> Html:
     return _two(checked, searched, "each limit is solved as a study of its own", "front")
 
 
-def of_workspace(found: WorkspaceMap) -> Html:
-    """Return the same of a workspace."""
+def of_workspace(found: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
+    """Return the same of a workspace and what was asked."""
     checked = []
-    if found.ball_radius > 0.0:
-        checked.append("Leg limits hold in the largest ball and box: proved for positions at one rotation.")
+    legs = any(name == "leg_limits" or name.endswith("_length") for name in asked["criteria"])
+    of_positions = found.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
+    if found.ball_radius > 0.0 and legs and of_positions:
+        checked.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")
     searched = [
-        "Other criteria were sampled. The error of the volume is an estimate, not a bound.",
+        "Limits not named as proved were sampled: a hole thinner than the samples may remain.",
+        "The error of the volume is an estimate, not a bound.",
         f"Poses evaluated: {found.evaluations:,}.".replace(",", " "),
     ]
     if found.unseen > 0.0:
-        searched.append(f"Parts that no sample has shown have a volume of at most {found.unseen:.2g}, with 95 %.")
+        searched.append(
+            f"Parts that no sample has shown have a volume of at most {found.unseen:.2g}, with a confidence of 95 %."
+        )
     return _two(checked, searched, "how the search ended", str(found.status))
 
 
@@ -79,7 +85,7 @@ def _searched(result: Result) -> Iterator[str]:
     if region is not None:
         yield (
             f"That the limits hold between the poses looked at: {region.looked_at} poses of the region, with descents "
-            "from the worst of them. No pose between them is excluded by a proof."
+            "from the worst of them. A worse pose between them is not excluded."
         )
     elif best is not None and len(best.conditions) > 1:
         yield "Anything between the listed poses."

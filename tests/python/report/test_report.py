@@ -154,6 +154,7 @@ def test_a_job_ends_with_its_report(tmp_path, capsys):
     text, _, words = read(place / "report.html")
     record = nd.load(place)
     assert f"{record.volume:.6g}" in words
+    assert "every leg keeps to its limits" in words
     scene = scene_of(text)
     points = np.array(scene["body"]["vertices"])
     assert (points.min(axis=0) >= record.low - 1e-9).all()
@@ -169,6 +170,13 @@ def test_optimize_writes_its_report_and_lists_it(tmp_path):
             main(["optimize", str(study), "--out", str(tmp_path / name), *more])
         listed = json.loads((tmp_path / name / "record.json").read_text())["files"]
         assert ("report.html" in listed) == (name == "with") == (tmp_path / name / "report.html").is_file()
+
+
+def test_the_command_names_its_option(folder, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["report", str(folder), "--out", str(folder / "none" / "it.html")])
+    assert ended.value.code == 2
+    assert "--out: got" in capsys.readouterr().err
 
 
 def body_volume(body):

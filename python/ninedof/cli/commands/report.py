@@ -30,6 +30,8 @@ def report(
 ) -> None:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
     screen = Screen(json)
+    if out is not None and not out.absolute().parent.is_dir():
+        raise ValueError(f"--out: got {out}, expected a file in a folder that exists")
     file = write_report(run, out)
     screen.print(f"report {file}, {file.stat().st_size / 1e6:.2f} MB: open it in a browser")
     screen.data({"report": str(file)})
