@@ -80,9 +80,11 @@ def _checked(result: Result) -> Iterator[str]:
 
 def _searched(result: Result) -> Iterator[str]:
     best, region = result.best, result.region
-    if best is not None:
+    if best is not None and result.status == Status.OPTIMAL:
         yield "That no other design is better. The starts are evidence only: see their agreement above."
-    if region is not None:
+    if region is not None and region.looked_at == 0:
+        yield "That the limits hold between the poses imposed: the design was not looked at there."
+    elif region is not None:
         yield (
             f"That the limits hold between the poses looked at: {region.looked_at} poses of the region, with descents "
             "from the worst of them. A worse pose between them is not excluded."

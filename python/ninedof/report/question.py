@@ -36,9 +36,9 @@ def sentences(study: Study) -> Iterator[str]:
     yield f"Which design has the least {study.words}? The family of designs is “{study.family}”: {family}."
     objective = study.objective
     if objective.region is not None:
-        yield f"Every limit holds in all of this region. {WHERE_O[objective.region.internal_point]}"
+        yield f"Every limit is to hold in all of this region. {WHERE_O[objective.region.internal_point]}"
     elif objective.poses:
-        yield f"Every limit holds at each of the {len(objective.poses)} poses; between them nothing is asked."
+        yield f"Every limit is to hold at each of the {len(objective.poses)} poses; between them nothing is asked."
     else:
         yield "One pose is asked for, the neutral one."
     for name, limit in (
