@@ -2,16 +2,20 @@
 
 from ninedof.workspace.cells import WorkspaceCells, WorkspaceSlice
 from ninedof.workspace.domain import spread_rotations
+from ninedof.workspace.field import WorkspaceField
 from ninedof.workspace.map import WorkspaceMap, WorkspaceStatus
 from ninedof.workspace.search import workspace
 from ninedof.workspace.statistics import IndexStatistics
+from ninedof.workspace.surface import WorkspaceSurface
 
 __all__ = [
     "IndexStatistics",
     "WorkspaceCells",
+    "WorkspaceField",
     "WorkspaceMap",
     "WorkspaceSlice",
     "WorkspaceStatus",
+    "WorkspaceSurface",
     "spread_rotations",
     "workspace",
 ]

@@ -50,6 +50,8 @@ class WorkspaceSlice(NamedTuple):
     limit: NDArray[np.int16]
     condition_number: Floats
     """NaN where no pose is allowed."""
+    fraction: Floats
+    """Allowed share; the contour at one half is the boundary."""
 
 
 def slice_of(
@@ -68,7 +70,7 @@ def slice_of(
     h, v = (k for k in range(3) if k != fixed)
     state = np.zeros((pixels, pixels), dtype=np.uint8)
     limit = np.full((pixels, pixels), -1, dtype=np.int16)
-    kappa = np.full((pixels, pixels), np.nan)
+    kappa, share = np.full((pixels, pixels), np.nan), np.zeros((pixels, pixels))
     # Half open, so that a plane between two layers belongs to one of them.
     away = (at - cells.centre[:, fixed]) / cells.size[:, fixed]
     hit = np.flatnonzero((away >= -0.5) & ((away < 0.5) | (at >= high[fixed])) & (away <= 0.5 + 1e-9))
@@ -84,9 +86,10 @@ def slice_of(
         held = cells.state[n] if cells.fraction[n] > 0.0 else 0
         state[there], limit[there] = held, cells.limit[n]
         kappa[there] = cells.condition_number[n] if held else np.nan
+        share[there] = cells.fraction[n]
     middle = (np.arange(pixels) + 0.5)[:, None] / scale + low
     axes, plane = (coordinates[h], coordinates[v]), (coordinates[fixed], at)
-    return WorkspaceSlice(axes, plane, middle[:, h], middle[:, v], state, limit, kappa)
+    return WorkspaceSlice(axes, plane, middle[:, h], middle[:, v], state, limit, kappa, share)
 
 
 def group_of(name: str) -> str:

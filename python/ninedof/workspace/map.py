@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,9 @@ from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
 from ninedof.support.short import short
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
+from ninedof.workspace.field import WorkspaceField, field_of, section_of
 from ninedof.workspace.statistics import IndexStatistics
+from ninedof.workspace.surface import WorkspaceSurface, surface_of
 
 
 class WorkspaceStatus(StrEnum):
@@ -156,8 +159,8 @@ class WorkspaceMap(Saved):
                 found[key] = found.get(key, 0.0) + area / total
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
 
-    def slice(self, axis: str, at: float, pixels: int = 240) -> WorkspaceSlice:
-        """Return a plane section of the map for drawing.
+    def slice(self, axis: str, at: float, pixels: int = 240, smooth: bool = False) -> WorkspaceSlice:
+        """Return a plane section of the map: its cells, or smooth fields for drawing.
 
         Parameters
         ----------
@@ -166,7 +169,11 @@ class WorkspaceMap(Saved):
         at : float
             Its value.
         pixels : int
-            Number along each side.
+            Number along each side of the box; a smooth section selects its own.
+        smooth : bool
+            Interpolate between the centres of cells, on a raster about the workspace alone: contours instead of blocks.
+            Between large cells it is linear: about 1 % off in the published robot, more where the field is steep.
+            By default each pixel has the values of the cell that holds it.
 
         Returns
         -------
@@ -183,7 +190,43 @@ class WorkspaceMap(Saved):
         whole("pixels", pixels, 2, 10_000)
         if self.method == "sample":
             raise ValueError("slice: got a sample, expected a map of cells")
+        if smooth:
+            return section_of(self.cells, self.field, (self.low, self.high), self.coordinates, fixed, float(at))
         return slice_of(self.cells, (self.low, self.high), self.coordinates, fixed, float(at), pixels)
+
+    @cached_property
+    def field(self) -> WorkspaceField:
+        """Allowed share and condition number on an even raster about the workspace, smooth between the cells.
+
+        Computed when first used. ValueError for a sample, which has no cells.
+        """
+        if self.method == "sample":
+            raise ValueError("field: got a sample, expected a map of cells")
+        return field_of(self.cells, (self.low, self.high))
+
+    def surface(self, most: int = 300_000) -> WorkspaceSurface:
+        """Return the body of the workspace as a smooth surface for drawing.
+
+        Parameters
+        ----------
+        most : int
+            About the greatest number of points of the raster behind it; its faces are fewer.
+
+        Returns
+        -------
+        WorkspaceSurface
+            Without faces where no pose is allowed.
+
+        Raises
+        ------
+        ValueError
+            If the map is a sample.
+
+        """
+        if self.method == "sample":
+            raise ValueError("surface: got a sample, expected a map of cells")
+        whole("most", most, 1_000, 10_000_000)
+        return surface_of(field_of(self.cells, (self.low, self.high), most))
 
     def to_dict(self) -> dict[str, Any]:
         """Return all fields except the cells as plain values."""

@@ -126,3 +126,23 @@ def outline(region: Region, home: Configuration, fixed: int, at: float) -> Float
             return np.asarray(middle + radius * circle)
         half[0] = np.sqrt(radius**2 - away**2)
     return np.asarray(middle + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]))
+
+
+def region_lines(region: Region, home: Configuration) -> list[Floats]:
+    """Return the outline of a region's positions in space as lines (n, 3): edges, circles or the path."""
+    unit = float(home.position[2]) if region.unit == "zp" else 1.0
+    if region.path is not None:
+        return [np.asarray(home.position + unit * np.array(region.path))]
+    low, high = _extent(region, home)
+    half = 0.5 * (high - low)
+    turn = np.linspace(0.0, 2.0 * np.pi, OUTLINE)
+    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(OUTLINE)])
+    if region.ball is not None:
+        return [home.position + half * np.roll(circle, k, axis=1) for k in range(3)]
+    ups = [np.array([0.0, 0.0, z]) for z in (-1.0, 1.0)]
+    if region.cylinder is not None:
+        rims = [home.position + half * (circle + up) for up in ups]
+        return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(0, OUTLINE - 1, OUTLINE // 4))]
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0]], dtype=np.float64)
+    rims = [home.position + half * (square + up) for up in ups]
+    return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(4))]

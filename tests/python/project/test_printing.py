@@ -37,6 +37,8 @@ def shown(published):
         "WorkspaceMap": space,
         "WorkspaceCells": space.cells,
         "WorkspaceSlice": space.slice("z", 4.0),
+        "WorkspaceField": space.field,
+        "WorkspaceSurface": space.surface(),
         "SweepResult": nd.sweep(published, HOME, {"x_p": (-1, 1, 201)}, ["condition_number", "leg_lengths"]),
         "Sheet": result.sheet(),
         "Design": nd.Design(published, HOME),
