@@ -48,11 +48,12 @@ print(f"orientations at home: {100 * share:.2f} % of SO(3), any turn by {turning
 if "--figure" in sys.argv:
     from ninedof import plot
 
-    x, y, z = found.ball_centre.round(3) + 0.0
-    r = found.ball_radius
-    sections = [
-        plot.Section(found.slice("y", y), ((x, z), r), (found.box_low[[0, 2]], found.box_high[[0, 2]])),
-        plot.Section(found.slice("z", z), ((x, y), r), (found.box_low[[0, 1]], found.box_high[[0, 1]])),
-    ]
+    sections = []
+    for name, at, drawn in (("y", 0.0, [0, 2]), ("z", 4.8, [0, 1])):
+        off = at - found.ball_centre["xyz".index(name)]
+        ball = (found.ball_centre[drawn], np.sqrt(found.ball_radius**2 - off**2))
+        box_inside = (found.box_low[drawn], found.box_high[drawn])
+        plane = found.slice(name, at, smooth=True)
+        sections.append(plot.Section(plane, ball, box_inside, home=home.position[drawn]))
     figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels)
     figure.savefig(sys.argv[sys.argv.index("--figure") + 1])

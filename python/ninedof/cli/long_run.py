@@ -73,7 +73,7 @@ def write(
         return files
 
     record = write_run(result, directory, drawn if draw else None, results=data)
-    made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG and SVG)" if names else ""
+    made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
     screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}")
     screen.data({**data, "record": str(record)})
 

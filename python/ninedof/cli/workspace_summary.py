@@ -17,9 +17,10 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import with_unit
 from ninedof.workspace import IndexStatistics, WorkspaceMap
-from ninedof.workspace.region_share import RegionShare, outline
+from ninedof.workspace.region_share import RegionShare, outline, region_lines
 
 SHOWN = 8  # limits in the table
+NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
 
 
 def workspace_table(found: WorkspaceMap) -> Table:
@@ -102,28 +103,51 @@ def region_words(region: Region, found: RegionShare, unit: str = "") -> str:
 
 
 def draw(
-    found: WorkspaceMap, screen: Screen, region: tuple[Region, Configuration] | None, directory: Path
+    found: WorkspaceMap, screen: Screen, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
-    """Draw two sections through the centre of the largest ball, or else the worst pose; return the files.
+    """Draw two sections at round values near the centre of the largest ball, or else the worst pose; return the files.
 
-    The region of a study, given with the home pose, is outlined; the sections go through its middle then.
+    The region of a study is outlined; the sections go through its middle then. Home is marked near its plane.
     """
     screen.say("drawing the workspace")
     from ninedof import plot
 
     middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
     if region is not None:
-        middle = region[1].position
+        middle = home.position
+    spans = [float(np.ptp(axis)) for axis in found.field.axes]
     sections = []
     for fixed in (1, 2):
         drawn = [k for k in range(3) if k != fixed]
-        plane = found.slice(found.coordinates[fixed], float(middle[fixed]))
+        at = _round(float(middle[fixed]), spans[fixed], found, fixed)
+        plane = found.slice(found.coordinates[fixed], at, smooth=True)
+        marked = None
+        if found.archetype != "orientation" and abs(float(home.position[fixed]) - at) <= spans[fixed] / NEAR:
+            marked = home.position[drawn]
         if region is not None:
-            sections.append(plot.Section(plane, region=outline(*region, fixed, float(middle[fixed]))))
+            sections.append(plot.Section(plane, region=outline(region, home, fixed, at), home=marked))
             continue
-        ball = (middle[drawn], found.ball_radius) if found.ball_radius > 0.0 else None
-        inner = (found.box_low[drawn], found.box_high[drawn]) if np.isfinite(found.box_low).all() else None
-        sections.append(plot.Section(plane, ball, inner))
+        off = at - float(middle[fixed])
+        radius = np.sqrt(max(found.ball_radius**2 - off**2, 0.0))
+        ball = (middle[drawn], radius) if radius > 0.0 else None
+        known = np.isfinite(found.box_low).all() and found.box_low[fixed] <= at <= found.box_high[fixed]
+        inner = (found.box_low[drawn], found.box_high[drawn]) if known else None
+        sections.append(plot.Section(plane, ball, inner, home=marked))
     unit = "rad" if found.of_angles else found.unit
     figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)
-    return plot.save(figure, directory, "workspace")
+    files = plot.save(figure, directory, "workspace")
+    screen.say("drawing the body of the workspace")
+    surface = found.surface()
+    if len(surface.faces) and not found.of_angles:
+        lines = () if region is None else region_lines(region, home)
+        body = plot.workspace_body(surface, found.coordinates, home=home.position, lines=lines, unit=found.unit)
+        files += plot.save(body, directory, "workspace_body")
+    return files
+
+
+def _round(value: float, span: float, found: WorkspaceMap, fixed: int) -> float:
+    """Return a round value near a coordinate of a map, of angles round in degrees."""
+    from ninedof.plot.style import round_to
+
+    scale = 180.0 / math.pi if found.of_angles else 1.0
+    return float(np.clip(round_to(scale * value, scale * span) / scale, found.low[fixed], found.high[fixed]))

@@ -4,16 +4,20 @@ Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no
 """
 
 from ninedof.plot.atlas import atlas
+from ninedof.plot.body import workspace_body
 from ninedof.plot.convergence import convergence
+from ninedof.plot.dimensions import figure_5
 from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.front import Sketch, front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.motion import motion
+from ninedof.plot.paper_figures import figure_1, figure_2, figure_3, figure_4
 from ninedof.plot.pose_conditions import PoseConditions, poses
+from ninedof.plot.section import Section
 from ninedof.plot.style import save
 from ninedof.plot.sweep import figure_6, figure_7, sweep
-from ninedof.plot.workspace import Section, workspace
+from ninedof.plot.workspace import workspace
 
 __all__ = [
     "DesignCurves",
@@ -27,6 +31,11 @@ __all__ = [
     "convergence",
     "draw_mechanism",
     "ellipsoids",
+    "figure_1",
+    "figure_2",
+    "figure_3",
+    "figure_4",
+    "figure_5",
     "figure_6",
     "figure_7",
     "front",
@@ -36,4 +45,5 @@ __all__ = [
     "save",
     "sweep",
     "workspace",
+    "workspace_body",
 ]

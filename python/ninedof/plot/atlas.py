@@ -42,26 +42,28 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     first, last = (int(used[0]), int(used[-1]) + 1) if used.size else (0, len(inner))
     x, y = ratio[1:][first : last + 1], kappa
     with style.settings():
-        figure = style.new_figure(9.0, 4.4)
-        left = figure.add_axes((0.07, 0.13, 0.53, 0.78))
-        right = figure.add_axes((0.725, 0.13, 0.265, 0.78))
+        figure = style.new_figure(style.TWO_COLUMNS, 3.3)
+        left = figure.add_axes((0.075, 0.14, 0.49, 0.77))
+        right = figure.add_axes((0.735, 0.14, 0.25, 0.77))
         shown = np.ma.masked_equal(inner[first:last], 0)
         if shown.count():
             norm = LogNorm(max(1, int(shown.min())), max(2, int(shown.max())))
             drawn = left.pcolormesh(x, y, shown.T, norm=norm, cmap=MAP, rasterized=True)
-            figure.colorbar(drawn, cax=figure.add_axes((0.612, 0.13, 0.012, 0.78)), format=style.power_of_ten)
+            bar = figure.colorbar(drawn, cax=figure.add_axes((0.58, 0.14, 0.012, 0.77)), format=style.power_of_ten)
+            bar.set_label("designs in a bin")
+            bar.outline.set_linewidth(0.5)
         best = result["best"][1:-1][first:last]
         middle = np.sqrt(x[1:] * x[:-1])
-        left.plot(middle, best, color=style.ALARM, lw=1.6, label="best in each bin")
+        left.plot(middle, best, color=style.ALARM, lw=1.2, label="best in each bin")
         left.set(xscale="log", yscale="log", xlim=(x[0], x[-1]), ylim=(max(1.0, 0.8 * float(np.nanmin(best))), TOP))
         style.plain_numbers(left.xaxis, [2.0**k for k in range(-4, 5)])
         style.plain_numbers(left.yaxis, [1, 2, 3, 5, 10, 20, 50, 100, 200, 500])
         left.grid(False)
         left.set(xlabel="radius ratio, base / platform", ylabel="condition number")
-        left.set_title(f"{total:,} designs, number in each bin")
+        left.set_title(f"{total:,} designs")
         if optimum is not None:
             left.plot(
-                *optimum, "*", ms=13, color=style.ALARM, mec="white", mew=0.9, zorder=6, label="optimum up to ratio 2"
+                *optimum, "*", ms=9, color=style.ALARM, mec="white", mew=0.7, zorder=6, label="optimum up to ratio 2"
             )
         left.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none")
         share = counts.sum(axis=0) / total * 100.0

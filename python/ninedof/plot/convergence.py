@@ -55,23 +55,26 @@ def convergence(
     longest = max(np.size(run) for run in (*minimax, *plain))
     near = style.power_of_ten(tolerance)
     with style.settings():
-        figure = style.new_figure(8.0, 5.34)
-        share = figure.add_axes((0.105, 0.095, 0.875, 0.25))
-        for x, (name, runs, colour) in zip((0.105, 0.5575), methods, strict=True):
+        figure = style.new_figure(style.TWO_COLUMNS, 4.6)
+        share = figure.add_axes((0.095, 0.09, 0.885, 0.235))
+        for x, dashes, (name, runs, colour) in zip((0.095, 0.5525), style.DASHES, methods, strict=False):
             gaps = [np.maximum(np.atleast_1d(np.asarray(run, dtype=np.float64)) - best, FLOOR) for run in runs]
             held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
-            axes = figure.add_axes((x, 0.455, 0.4225, 0.48))
+            axes = figure.add_axes((x, 0.465, 0.4275, 0.475))
             axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} starts arrive")
             _runs(axes, gaps, held, colour, tolerance, near)
-            _share(share, name, (held <= tolerance).mean(axis=0), colour)
+            _share(share, name, (held <= tolerance).mean(axis=0), colour, dashes)
         first, second = figure.axes[1:]
         first.set_ylabel("condition number\nabove the best")
+        for axes in (first, second):
+            axes.set_xlabel("evaluations")
         second.tick_params(labelleft=False)
         for axes in figure.axes:
             axes.set(xscale="log", xlim=(1, 1.1 * longest))
             axes.xaxis.set_major_locator(FixedLocator([1, 3, 10, 30, 100, 300, 1000, 3000]))
             axes.xaxis.set_minor_locator(NullLocator())
             axes.xaxis.set_major_formatter("{x:.0f}")
+        share.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0, ncols=2, handlelength=3.0)
         share.set(ylim=(0, 1.05), xlabel="evaluations", ylabel=f"starts within {near}")
         share.yaxis.set_major_locator(FixedLocator([0, 0.25, 0.5, 0.75, 1]))
         share.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
@@ -83,20 +86,20 @@ def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: f
     there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
     stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
     median = np.quantile(held, 0.5, axis=0, method="lower")  # an average would fail while half the runs are infinite
-    axes.add_collection(LineCollection(there, colors=colour, linewidths=0.6, alpha=0.35, zorder=2))
-    axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=1.0, alpha=0.85, zorder=3))
-    axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=2.0, zorder=4))
+    axes.add_collection(LineCollection(there, colors=colour, linewidths=0.5, alpha=0.35, zorder=2))
+    axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=0.8, alpha=0.85, zorder=3))
+    axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=1.6, zorder=4))
     ends = np.array([line[-1] for line in stuck if len(line)]).reshape(-1, 2)
-    axes.plot(*ends.T, "o", color=style.ALARM, ms=4.5, mec="white", mew=0.6, zorder=5)
+    axes.plot(*ends.T, "o", color=style.ALARM, ms=3.5, mec="white", mew=0.6, zorder=5)
     axes.axhline(tolerance, color=style.INK, lw=0.8, ls=(0, (5, 3)), zorder=1)
     axes.set(yscale="log", ylim=(FLOOR, CEILING))
     axes.yaxis.set_major_locator(LogLocator(numticks=8))
     axes.yaxis.set_major_formatter(style.power_of_ten)
     axes.yaxis.set_minor_locator(NullLocator())
-    keys = [style.key(colour, lw=1.2, label="one start"), style.key(style.INK, lw=2.0, label="median")]
+    keys = [style.key(colour, lw=1.2, label="one start"), style.key(style.INK, lw=1.6, label="median")]
     if stuck:
         label = f"stuck above {near}"
-        keys.append(style.key(style.ALARM, lw=1.2, marker="o", ms=4.5, mec="white", mew=0.6, label=label))
+        keys.append(style.key(style.ALARM, lw=1.2, marker="o", ms=3.5, mec="white", mew=0.6, label=label))
     axes.legend(handles=keys, loc="lower left", frameon=True, framealpha=0.85, edgecolor="none")
 
 
@@ -117,21 +120,8 @@ def _steps(gap: Floats) -> Floats:
     return np.column_stack([np.repeat(x + 1.0, 2)[1:], np.repeat(y, 2)[:-1]])
 
 
-def _share(axes: Any, name: str, there: Floats, colour: str) -> None:
-    axes.step(np.arange(1, len(there) + 1), there, where="post", color=colour, lw=2.2)
+def _share(axes: Any, name: str, there: Floats, colour: str, dashes: Any) -> None:
     half, end = there >= 0.5, there >= there[-1]
-    text = f"{name}\n{there[-1]:.1%} by {int(np.argmax(end)) + 1}".replace(".0%", "%").replace("%", " %")
-    if half[-1]:
-        text = text.replace("\n", f"\nhalf by {int(np.argmax(half)) + 1}, ")
-    # Curves that never reach one half end at the same place: their labels stand one below the other.
-    at = (np.argmax(half) + 1, 0.5) if half[-1] else (len(there), 0.75 - 0.3 * len(axes.texts))
-    axes.annotate(
-        text,
-        (float(at[0]), at[1]),
-        xytext=(-8, 0),
-        textcoords="offset points",
-        ha="right",
-        color=colour,
-        weight="bold",
-        size=style.SMALL_SIZE,
-    )
+    words = f"half by {int(np.argmax(half)) + 1}, " if half[-1] else ""
+    text = f"{name}: {words}{there[-1]:.1%} by {int(np.argmax(end)) + 1}".replace(".0%", "%").replace("%", " %")
+    axes.step(np.arange(1, len(there) + 1), there, where="post", color=colour, ls=dashes, label=text)

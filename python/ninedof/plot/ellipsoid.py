@@ -79,9 +79,10 @@ def ellipsoids(
     share = 1.0 / count
     unit = EllipsoidPanel(source, np.eye(3), np.ones(3), source_note)
     with style.settings():
-        figure = style.new_figure(width=0.4 + 2.6 * count, height=3.5)
+        width = style.TWO_COLUMNS if count > 2 else 1.5 * style.ONE_COLUMN
+        figure = style.new_figure(width, 0.6 + 0.95 * width / count)
         for k, panel in enumerate([unit, *panels]):
-            axes = figure.add_axes((k * share, 0.1, share, 0.76), projection="3d")
+            axes = figure.add_axes((k * share, 0.09, share, 0.74), projection="3d")
             _space(axes, half)
             directions, semi_axes = shapes[k - 1] if k else _checked(unit)
             _body(axes, directions, semi_axes, half, style.SERIES[(0, 2, 1, 3, 2)[k]])
@@ -91,8 +92,12 @@ def ellipsoids(
             middle = (k + 0.5) * share
             figure.text(middle, 0.925, panel.title, ha="center", size=style.TITLE_SIZE, weight="bold")
             figure.text(middle, 0.87, panel.note, ha="center", size=style.SMALL_SIZE, color=style.MUTED)
-            words = "semi-axes  " + "   ".join(map(_number, semi_axes)) if k else "radius 1: the dashed circles"
-            figure.text(middle, 0.04, words, ha="center", size=style.TEXT_SIZE)
+            words = (
+                ("semi-axes\n" if count > 4 else "semi-axes ") + "  ".join(map(_number, semi_axes))
+                if k
+                else "radius 1, dashed"
+            )
+            figure.text(middle, 0.02, words, ha="center", size=style.SMALL_SIZE)
         _arrow(figure, share, mapping)
     return figure
 
@@ -143,17 +148,17 @@ def _body(axes: Any, directions: Floats, semi_axes: Floats, half: float, colour:
     axes.plot(*outline, color=colour, lw=1.0, ls=_dashes(bool(infinite.any())), zorder=4)
     for i, j in ((0, 1), (1, 2), (2, 0)):
         ring = shape[:, [i, j]] @ _circle()
-        axes.plot(*ring, color=colour, lw=0.8, alpha=0.4, ls=_dashes(bool(infinite[[i, j]].any())), zorder=3)
-        axes.plot(*_in_front(ring, shape), color=colour, lw=1.5, ls=_dashes(bool(infinite[[i, j]].any())), zorder=6)
-    rim = [patheffects.Stroke(linewidth=3.4, foreground="white"), patheffects.Normal()]
+        axes.plot(*ring, color=colour, lw=0.6, alpha=0.4, ls=_dashes(bool(infinite[[i, j]].any())), zorder=3)
+        axes.plot(*_in_front(ring, shape), color=colour, lw=1.1, ls=_dashes(bool(infinite[[i, j]].any())), zorder=6)
+    rim = [patheffects.Stroke(linewidth=2.6, foreground="white"), patheffects.Normal()]
     for tip, cut in zip(shape.T * np.where(EYE @ shape >= 0.0, 1.0, -1.0)[:, None], infinite, strict=True):
-        axes.plot(*np.outer(tip, [0, 1]), color=style.INK, lw=1.8, ls=_dashes(cut), path_effects=rim, zorder=7)
+        axes.plot(*np.outer(tip, [0, 1]), color=style.INK, lw=1.4, ls=_dashes(cut), path_effects=rim, zorder=7)
         if cut:
-            beside = tip + 0.12 * half * ACROSS
-            text = axes.text(*beside, "∞", size=style.TITLE_SIZE + 2, color=style.INK, path_effects=rim, zorder=9)
+            beside = tip + 0.16 * half * SCREEN[int(abs(SCREEN[0] @ tip) > abs(SCREEN[1] @ tip))]
+            text = axes.text(*beside, "∞", size=style.TITLE_SIZE + 1, color=style.INK, path_effects=rim, zorder=9)
             text.set(ha="center", va="center")
         else:
-            axes.plot(*tip[:, None], "o", color=style.INK, ms=4.4, mec="white", mew=0.7, zorder=8)
+            axes.plot(*tip[:, None], "o", color=style.INK, ms=3.4, mec="white", mew=0.6, zorder=8)
 
 
 def _dashes(cut: bool) -> Any:
@@ -174,6 +179,6 @@ def _in_front(ring: Floats, shape: Floats) -> Floats:
 def _arrow(figure: Figure, share: float, name: str) -> None:
     """Draw an arrow from the sphere to the first ellipsoid, with the name of the map."""
     ends = ((0.86 * share, 0.82), (1.14 * share, 0.82))
-    options: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 13, "lw": 1.6, "color": style.INK}
+    options: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 9, "lw": 1.2, "color": style.INK}
     figure.add_artist(FancyArrowPatch(*ends, transform=figure.transFigure, **options))
     figure.text(share, 0.85, name, ha="center", size=style.TITLE_SIZE, weight="bold")

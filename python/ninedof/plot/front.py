@@ -27,6 +27,14 @@ class Sketch(NamedTuple):
     """Twist of its platform, radians."""
 
 
+# Joints are told apart by shape too; where two coincide the smaller lies on the larger.
+JOINTS: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("base, external", style.EXTERNAL, {"marker": "o", "ms": 5.5, "mec": "white", "mew": 0.5, "ls": ""}),
+    ("base, internal", style.LOWER, {"marker": "s", "ms": 3.8, "mec": "white", "mew": 0.5, "ls": ""}),
+    ("platform, external", style.EXTERNAL, {"marker": "o", "ms": 5.5, "mfc": "white", "mew": 1.1, "ls": ""}),
+    ("platform, internal", style.UPPER, {"marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""}),
+)
+
 MOST_SKETCHES = 5
 MOST_LETTERS = 72  # of a line of the title
 MARKS = {"optimal": "o", "stopped": "D"}
@@ -85,10 +93,10 @@ def front(
     if len(sketches) > MOST_SKETCHES:
         raise ValueError(f"sketches: got {len(sketches)}, expected at most {MOST_SKETCHES}")
     with style.settings():
-        figure = style.new_figure(8.0, 6.9 if sketches else 5.34)
-        share = 1.75 / 6.9 if sketches else 0.0
-        upper = figure.add_axes((0.095, share + 0.42 * (1 - share), 0.885, 0.475 * (1 - share)))
-        lower = figure.add_axes((0.095, share + 0.115 * (1 - share), 0.885, 0.225 * (1 - share)), sharex=upper)
+        figure = style.new_figure(style.TWO_COLUMNS, 6.1 if sketches else 4.3)
+        share = 1.8 / 6.1 if sketches else 0.0
+        upper = figure.add_axes((0.09, share + 0.44 * (1 - share), 0.895, 0.475 * (1 - share)))
+        lower = figure.add_axes((0.09, share + 0.115 * (1 - share), 0.895, 0.225 * (1 - share)), sharex=upper)
         name = style.with_unit(f"largest {against.replace('_', ' ')} allowed", unit)
         _objective(upper, shown, objective)
         _prices(lower, shown, name)
@@ -102,14 +110,14 @@ def front(
 def _objective(axes: Any, rows: Sequence[Mapping[str, Any]], objective: str) -> None:
     found = [row for row in rows if row["objective"] is not None]
     x, y = (np.array([row[key] for row in found], dtype=np.float64) for key in ("limit", "objective"))
-    axes.plot(x, y, color=style.SERIES[0], lw=1.8, zorder=2)
+    axes.plot(x, y, color=style.SERIES[0], zorder=2)
     for row in found:
         colour = style.ALARM if row["status"] != "optimal" else style.SERIES[0]
         face = "white" if row["dominated"] else colour
         mark = MARKS.get(row["status"], "D")
-        axes.plot(row["limit"], row["objective"], mark, ms=6.5, mfc=face, mec=colour, mew=1.3, zorder=4)
+        axes.plot(row["limit"], row["objective"], mark, ms=5, mfc=face, mec=colour, mew=1.1, zorder=4)
     axes.set_title(fill(f"{objective}: the least for each limit", MOST_LETTERS))
-    axes.set_ylabel(objective if len(objective) < 30 else "objective")
+    axes.set_ylabel(fill(objective, 34) if len(objective) < 70 else "objective")
     if len(y):
         room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
         axes.set_ylim(float(y.min()) - room, float(y.max()) + 1.6 * room)
@@ -120,13 +128,13 @@ def _prices(axes: Any, rows: Sequence[Mapping[str, Any]], name: str) -> None:
     priced = [(row["limit"], row["price"]) for row in rows if row["price"] is not None]
     if priced:
         x, y = np.array(priced, dtype=np.float64).T
-        axes.vlines(x, 0.0, y, color=style.SERIES[2], lw=2.2)
-        axes.plot(x, y, "o", ms=5, color=style.SERIES[2], mec="white", mew=0.8, zorder=3, clip_on=False)
+        axes.vlines(x, 0.0, y, color=style.SERIES[2], lw=1.6)
+        axes.plot(x, y, "o", ms=4, color=style.SERIES[2], mec="white", mew=0.8, zorder=3, clip_on=False)
         axes.set_ylim(0.0, 1.25 * max(float(y.max()), 1e-3))
     else:
         axes.set_yticks([])
-    axes.set_title("price: per cent gained for a limit 1 % looser", size=style.TEXT_SIZE, color=style.SERIES[2])
-    axes.set(xlabel=name, ylabel="% per 1 %")
+    axes.set_title("price: what a limit 1 % looser gains", size=style.TEXT_SIZE)
+    axes.set(xlabel=name, ylabel="gain (%)")
 
 
 def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
@@ -156,7 +164,7 @@ def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
 
 def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
     """Add a legend of the marks in the figure."""
-    plain: dict[str, Any] = {"ls": "", "ms": 6.5, "mew": 1.3}
+    plain: dict[str, Any] = {"ls": "", "ms": 5, "mew": 1.1}
     keys = []
     if any(row["status"] == "optimal" and not row["dominated"] for row in rows):
         keys.append(style.key(style.SERIES[0], marker="o", label="optimal", **plain))
@@ -174,13 +182,15 @@ def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> Non
 def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float, unit: str) -> None:
     """Draw plates from above in one row, in the order of their limits."""
     ordered = sorted(sketches, key=lambda sketch: sketch.limit)
-    width = 0.885 / len(ordered)
-    words = "plates from above, each at its own scale, base dark, platform light"
-    figure.text(0.095, share - 0.005, words, size=style.SMALL_SIZE)
+    width = 0.895 / len(ordered)
+    words = "plates from above, each at its own scale, base dark, platform light; joints:"
+    figure.text(0.09, share - 0.02, words, size=style.SMALL_SIZE)
+    keys = [style.key(colour, label=words, **mark) for words, colour, mark in JOINTS]
+    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, share - 0.02), ncols=4, columnspacing=1.0)
     for k, sketch in enumerate(ordered):
         reach = float(np.abs(_joints(sketch)[:, :2]).max())
-        axes = figure.add_axes((0.095 + k * width, 0.005, width, share - 0.045))
-        axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(-1.08 * reach, 1.08 * reach), aspect="equal")
+        axes = figure.add_axes((0.09 + k * width, 0.005, width, share - 0.095))
+        axes.set(xlim=(-1.12 * reach, 1.12 * reach), ylim=(-1.12 * reach, 1.12 * reach), aspect="equal")
         axes.set_axis_off()
         axes.set_title(
             f"at {amount(f'{sketch.limit:.4g}', unit)}", size=style.SMALL_SIZE, loc="center", pad=2, weight="normal"
@@ -190,7 +200,8 @@ def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: flo
             flat = np.column_stack([body[:, :2], np.zeros(6)])
             for outline in outlines(flat):
                 axes.add_patch(Polygon(outline[:, :2], fc=colour, ec=style.INK, lw=0.8, alpha=alpha))
-            axes.plot(*flat[:, :2].T, "o", ms=2.6, color=style.INK)
+        for (_, colour, mark), three in zip(JOINTS, np.split(joints, 4), strict=True):
+            axes.plot(*three[:, :2].T, color=colour, **mark)
 
 
 def _joints(sketch: Sketch) -> Floats:

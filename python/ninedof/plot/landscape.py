@@ -66,38 +66,45 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
     pairs = list(zip(style.SERIES, designs, strict=False))
     compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
     with style.settings():
-        figure = style.new_figure(8.0, 5.34)
+        figure = style.new_figure(style.TWO_COLUMNS, 4.3)
         bottom, height = (0.475, 0.45) if compared else (0.185, 0.74)
         left = figure.add_axes((0.085, bottom, 0.415, height))
         right = figure.add_axes((0.575, 0.185, 0.405, 0.74))
-        for colour, design in pairs:
+        for number, (colour, design) in enumerate(pairs):
             zs, theta, kappa = design.point
-            _curve(left, design.zs, design.along_zs, (zs, kappa), colour)
+            _curve(left, design.zs, design.along_zs, (zs, kappa), colour, number)
             degrees = np.degrees(np.asarray(design.theta_z, dtype=np.float64))
-            _curve(right, degrees, design.along_theta_z, (float(np.degrees(theta)), kappa), colour)
+            _curve(right, degrees, design.along_theta_z, (float(np.degrees(theta)), kappa), colour, number)
         left.set_title("along zs")
         left.set(xlabel=style.with_unit("zs, height of O", unit), ylabel="condition number")
         right.set_title("along theta_z")
-        right.set(xlabel="theta_z, twist of the platform (degrees)")
+        right.set(xlabel="theta_z, twist of the platform (deg)", ylabel="condition number")
         _crop(left, 1.35, [d.point[2] for d in designs])
         _crop(right, 1.2, [d.point[2] for d in designs])
         for design in designs:
             if design.slope is not None:
                 _tangent(right, design, design.slope)
         if compared:
-            box = figure.add_axes((0.085, 0.185, 0.415, 0.165))
+            box = figure.add_axes((0.085, 0.185, 0.415, 0.165), label="magnified")
             _magnify(left, box, *compared)
         keys = [
-            style.key(colour, lw=2.0, marker="o", ms=7, mec="white", label=f"{d.name}: {d.point[2]:.4f}")
-            for colour, d in pairs
+            style.key(
+                colour,
+                ls=style.DASHES[number],
+                marker=style.MARKS[number],
+                ms=5.5,
+                mec="white",
+                label=f"{d.name}: {d.point[2]:.4f}",
+            )
+            for number, (colour, d) in enumerate(pairs)
         ]
-        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, fontsize=style.TEXT_SIZE)
+        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.01), ncols=4, handlelength=3.2)
     return figure
 
 
-def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colour: str) -> None:
-    axes.plot(x, style.without_infinite(y), color=colour, lw=2.0)
-    axes.plot(*own, "o", color=colour, ms=7, mec="white", mew=1.2, zorder=5)
+def _curve(axes: Any, x: ArrayLike, y: ArrayLike, own: tuple[float, float], colour: str, number: int) -> None:
+    axes.plot(x, style.without_infinite(y), color=colour, ls=style.DASHES[number])
+    axes.plot(*own, style.MARKS[number], color=colour, ms=5.5, mec="white", mew=0.9, zorder=5)
 
 
 def _crop(axes: Any, factor: float, own: Sequence[float]) -> None:
@@ -138,12 +145,12 @@ def _magnify(axes: Any, box: Any, colour: str, design: DesignCurves) -> None:
     inside = kappa[(zs >= first - margin) & (zs <= last + margin)]
     depth = max(level - float(min(inside, default=level)), 1e-4 * level)
     x, y = (first - margin, last + margin), (level - 1.7 * depth, level + 1.3 * depth)
-    box.plot(zs, kappa, color=colour, lw=2.0)
+    box.plot(zs, kappa, color=colour)
     box.axhline(level, color=style.INK, lw=0.9, ls=(0, (5, 3)))
     for crossing in design.crossings:
-        box.plot([crossing], [level], "o", color=colour, ms=6, mec="white", mew=1.0, zorder=5)
+        box.plot([crossing], [level], "o", color=colour, ms=4.5, mec="white", mew=0.8, zorder=5)
     if design.least is not None:
-        box.plot(*design.least, "D", color=colour, ms=4.5, mec="white", mew=0.8, zorder=5)
+        box.plot(*design.least, "D", color=colour, ms=3.6, mec="white", mew=0.6, zorder=5)
         box.annotate(
             f"least {design.least[1]:.4f} at {design.least[0]:.4f}",
             design.least,

@@ -11,14 +11,19 @@ from matplotlib import patheffects
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
+from numpy.typing import ArrayLike
 
 from ninedof.plot import scene, style
+from ninedof.plot.leg_names import write_names
 from ninedof.plot.plates import distinct, outlines
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
     from ninedof.robot.configuration import Configuration
     from ninedof.robot.geometry import Geometry
+
+
+DASHES: dict[str, Any] = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 
 
 @dataclass(frozen=True)
@@ -31,6 +36,8 @@ class Mechanism:
     condition_number: float | None = None
     note: str = ""
     """A second line of the caption, such as the sizes."""
+    lines: Sequence[ArrayLike] = ()
+    """The outline of a region of poses, lines of points (n, 3)."""
 
 
 def draw_mechanism(
@@ -41,6 +48,9 @@ def draw_mechanism(
     unit: str = "",
     limits: scene.Limits | None = None,
     legend: bool = True,
+    lines: Sequence[ArrayLike] = (),
+    numbers: bool = True,
+    bare: bool = False,
 ) -> None:
     """Draw one manipulator on 3-D axes, at equal scale in all directions.
 
@@ -58,6 +68,12 @@ def draw_mechanism(
         axes one scale.
     legend : bool
         Whether to add a legend under the axes.
+    lines : sequence of array_like, each of shape (n, 3)
+        The outline of a region of poses.
+    numbers : bool
+        Whether to write the name of each leg on it.
+    bare : bool
+        Leave out the axes and their numbers.
 
     Raises
     ------
@@ -76,27 +92,29 @@ def draw_mechanism(
     """
     if configuration.shape != ():
         raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
-    points = _points(geometry, configuration)
+    points = all_points(geometry, configuration)
     base, platform, o = points[:6], points[6:12], points[12]
 
-    scene.frame(axes3d, unit, limits or scene.limits(points))
+    outline = [np.asarray(line, dtype=np.float64) for line in lines]
+    scene.frame(axes3d, unit, limits or scene.limits(np.concatenate([points, *outline])))
     _plate(axes3d, base, style.BASE, alpha=0.88, zorder=1)
     top = max(float(platform[:, 2].max()), float(o[2]))
-    axes3d.plot([0, 0], [0, 0], [0, top], color=style.MUTED, lw=0.8, ls=(0, (5, 4)), zorder=2)
+    if bare:
+        axes3d.set_axis_off()
+        axes3d.texts[0].remove()  # the name of z
+    else:
+        axes3d.plot([0, 0], [0, 0], [0, top], color=style.MUTED, lw=0.6, ls=(0, (5, 4)), zorder=2)
+    for line in outline:
+        axes3d.plot(*line.T, color=style.INK, lw=0.8, ls=REGION, zorder=24)
     legs = [("l", *ends) for ends in zip(base[:3], platform[:3], strict=True)]
     legs += [("q", o, end) for end in platform[3:]]
     legs += [("r", start, o) for start in base[3:]]
     _legs(axes3d, legs)
     _plate(axes3d, platform, style.PLATFORM, alpha=0.72, zorder=20)
     joints = np.vstack([distinct(base), distinct(platform)])
-    axes3d.plot(*joints.T, "o", color=style.INK, ms=4.2, mec="white", mew=0.6, zorder=21)
-    axes3d.plot(*o[:, None], "o", color="white", ms=6.5, mec=style.INK, mew=1.4, zorder=22)
-    halo = [patheffects.withStroke(linewidth=2.5, foreground="white")]
-    beside = o + 0.06 * float(np.ptp(axes3d.get_xlim())) * scene.to_the_left()
-    text = axes3d.text(
-        *beside, "O", size=style.TITLE_SIZE, weight="bold", color=style.INK, path_effects=halo, zorder=23
-    )
-    text.set(ha="center", va="center")
+    axes3d.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
+    axes3d.plot(*o[:, None], "o", color="white", ms=4.6, mec=style.INK, mew=1.1, zorder=22)
+    write_names(axes3d, legs if numbers else [], o, 0.05 * float(np.ptp(axes3d.get_xlim())))
     if title:
         axes3d.set_title(title, loc="center", size=style.TITLE_SIZE, weight="bold", color=style.INK, pad=0)
     if legend:
@@ -124,44 +142,53 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
     """
     if not panels:
         raise ValueError("panels: got none, expected at least one Mechanism")
-    limits = scene.limits(np.vstack([_points(panel.geometry, panel.configuration) for panel in panels]))
+    every = [np.asarray(line, dtype=np.float64) for panel in panels for line in panel.lines]
+    limits = scene.limits(np.vstack([*(all_points(p.geometry, p.configuration) for p in panels), *every]))
+    half, low, high = limits
+    corners = np.array([-half, -half, low]), np.array([half, half, high])
+    single = len(panels) == 1
     with style.settings():
-        figure = style.new_figure(width=max(4.0 * len(panels), 5.4), height=5.0)
         share = 1.0 / len(panels)
+        words, keys = 0.52, 0.52 if single or every else 0.36  # inches for captions above, keys below
+        width = style.ONE_COLUMN if single else style.TWO_COLUMNS
+        figure = style.new_figure(width, words + keys + scene.height(*corners, width * share))
+        height = float(figure.get_size_inches()[1])
         for k, panel in enumerate(panels):
-            axes = figure.add_axes(((k - 0.035) * share, 0.19, share, 0.77), projection="3d")
-            draw_mechanism(axes, panel.geometry, panel.configuration, unit=unit, limits=limits, legend=False)
-            middle = (k + 0.5) * share
-            figure.text(middle, 0.925, panel.title, ha="center", size=style.TITLE_SIZE + 1, weight="bold")
-            if panel.condition_number is not None:
-                caption = f"condition number {panel.condition_number:.4f}"
-                figure.text(middle, 0.165, caption, ha="center", size=style.TITLE_SIZE)
-            figure.text(middle, 0.125, panel.note, ha="center", size=style.SMALL_SIZE, color=style.MUTED)
-        figure.legend(
-            handles=_keys(),
-            loc="lower center",
-            bbox_to_anchor=(0.5, 0.01),
-            ncols=6 if len(panels) > 1 else 3,
-            **_LEGEND,
-        )
+            axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
+            draw_mechanism(
+                axes, panel.geometry, panel.configuration, None, unit, limits, legend=False, lines=panel.lines
+            )
+            scene.fit(axes, *corners, (k * share, keys / height, share, 1.0 - (words + keys) / height))
+            kappa = panel.condition_number
+            lines = [panel.title, "" if kappa is None else f"condition number {kappa:.4f}", panel.note]
+            for line, down, size in zip(lines, (0.16, 0.3, 0.43), (8.5, 8.0, 7.0), strict=True):
+                weight = "bold" if down < 0.2 else "normal"
+                text = figure.text((k + 0.5) * share, 1.0 - down / height, line, size=size, weight=weight)
+                text.set(ha="center", va="baseline", color=style.MUTED if down > 0.4 else style.INK)
+        names = _keys()
+        if every:
+            names.append(style.key(style.INK, lw=0.8, ls=REGION, label="region of poses"))
+        columns = 3 if single else 4 if every else 6
+        figure.legend(handles=names, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=columns, **_LEGEND)
     return figure
 
 
-_LEGEND: dict[str, Any] = {"fontsize": style.SMALL_SIZE, "frameon": False, "handlelength": 1.6, "columnspacing": 1.6}
+_LEGEND: dict[str, Any] = {"fontsize": style.SMALL_SIZE, "frameon": False, "handlelength": 1.5, "columnspacing": 1.2}
+REGION: Any = (0, (4, 2))  # dashes of the outline of a region
 
 
 def _keys() -> list[Any]:
     return [
-        style.key(style.EXTERNAL, lw=2.6, label="external legs l"),
-        style.key(style.UPPER, lw=2.2, label="upper internal q"),
-        style.key(style.LOWER, lw=2.2, label="lower internal r"),
+        style.key(style.EXTERNAL, lw=2.0, label="external legs l"),
+        style.key(style.UPPER, lw=1.6, ls=DASHES["q"], label="upper internal q"),
+        style.key(style.LOWER, lw=1.6, ls=DASHES["r"], label="lower internal r"),
         Patch(color=style.BASE, label="base"),
         Patch(color=style.PLATFORM, label="platform"),
-        style.key("white", marker="o", ms=6, mec=style.INK, mew=1.4, ls="", label="internal point O"),
+        style.key("white", marker="o", ms=4.6, mec=style.INK, mew=1.1, ls="", label="internal point O"),
     ]
 
 
-def _points(geometry: Geometry, configuration: Configuration) -> Floats:
+def all_points(geometry: Geometry, configuration: Configuration) -> Floats:
     """Return base joints, platform joints in the base frame (external before internal), and O: shape (13, 3)."""
     carried = np.vstack([geometry.platform_external, geometry.platform_internal])
     placed = configuration.position + carried @ configuration.rotation.T
@@ -181,7 +208,8 @@ def _legs(axes: Any, legs: list[tuple[str, Floats, Floats]]) -> None:
     """Draw the legs from the back to the front, with a white rim where one crosses another."""
     eye = scene.towards_eye()
     for order, (kind, start, end) in enumerate(sorted(legs, key=lambda leg: float((leg[1] + leg[2]) @ eye))):
-        width = 2.8 if kind == "l" else 2.3
-        rim = [patheffects.Stroke(linewidth=width + 1.6, foreground="white"), patheffects.Normal()]
+        width = 2.0 if kind == "l" else 1.6
+        rim = [patheffects.Stroke(linewidth=width + 1.2, foreground="white"), patheffects.Normal()]
         ends = np.column_stack([start, end])
-        axes.plot(*ends, color=style.LEG_COLOURS[kind], lw=width, zorder=3 + order, path_effects=rim)
+        options = {"color": style.LEG_COLOURS[kind], "ls": DASHES[kind], "lw": width}
+        axes.plot(*ends, zorder=3 + order, path_effects=rim, dash_capstyle="butt", **options)

@@ -13,7 +13,6 @@ from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 KINDS = (("l", "external legs"), ("q", "upper internal legs"), ("r", "lower internal legs"))
-DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)))
 MOST_DRAWN = 800  # stretches of a curve
 MOST_MARGIN = 1.0  # drawn: beyond it a limit is far
 RANGE = 30.0  # times the least condition number: larger values are cut off
@@ -61,7 +60,7 @@ def motion(
     shown = _drawn(kappa)
     with style.settings():
         rows = (1.0, 0.85, 0.85) if margins else (1.0, 0.85)
-        figure = style.new_figure(9.0, 2.8 * sum(rows))
+        figure = style.new_figure(style.TWO_COLUMNS, 2.15 * sum(rows))
         grid = figure.add_gridspec(len(rows), 3, height_ratios=rows)
         for k, (kind, title) in enumerate(KINDS):
             axes = figure.add_subplot(grid[0, k])
@@ -70,14 +69,15 @@ def motion(
             _limits(axes, low[these], high[these], lengths[:, these])
             axes.set_title(title, size=style.TEXT_SIZE)
             axes.set_xlim(t[0], t[-1])
-            if k == 0:
-                axes.set_ylabel(style.with_unit("length", unit))
+            axes.set_xlabel("time")
+            axes.set_ylabel(style.with_unit("length", unit))
         _condition(figure.add_subplot(grid[1, :]), t[shown], kappa[shown])
         if margins:
             given = {name: np.asarray(values, dtype=np.float64) for name, values in margins.items()}
             _margins(figure.add_subplot(grid[2, :]), t, given)
-        bottom, top = (0.09, 0.93) if not margins else (0.065, 0.95)
-        figure.subplots_adjust(left=0.075, right=0.985, bottom=bottom, top=top, hspace=0.42, wspace=0.22)
+        bottom, top = (0.1, 0.94) if not margins else (0.07, 0.96)
+        figure.subplots_adjust(left=0.085, right=0.98, bottom=bottom, top=top, hspace=0.5, wspace=0.36)
+        figure.align_ylabels([figure.axes[0], *figure.axes[3:]])
     return figure
 
 
@@ -91,8 +91,8 @@ def _drawn(kappa: Floats) -> NDArray[np.intp]:
 
 
 def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
-    for j, dashes in enumerate(DASHES):
-        axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, lw=1.8, label=f"{kind}{j + 1}")
+    for j, dashes in enumerate(style.DASHES[:3]):
+        axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, label=f"{kind}{j + 1}")
     least, most = float(np.nanmin(lengths)), float(np.nanmax(lengths))
     room = max(0.08 * (most - least), 0.01 * most)
     axes.set_ylim(least - room, most + 3.0 * room)
@@ -117,16 +117,16 @@ def _limits(axes: Any, low: Floats, high: Floats, lengths: Floats) -> None:
 
 
 def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
-    axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0], lw=2.0)
-    axes.set_title("condition number", size=style.TEXT_SIZE)
-    axes.set_xlabel("time")
+    axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0])
+    axes.set(xlabel="time", ylabel="condition number")
     axes.set_xlim(t[0], t[-1])
     finite = kappa[np.isfinite(kappa)]
     if finite.size and finite.max() > RANGE * finite.min():
         axes.set_yscale("log")
         axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
         style.one_two_five(axes.yaxis)
-        axes.set_title(f"condition number, up to {RANGE * finite.min():.3g}", size=style.TEXT_SIZE)
+        most = "without a bound" if np.isinf(kappa).any() else f"{finite.max():.4g} at most"
+        axes.set_title(f"cut off at {RANGE * finite.min():.3g}; {most}", size=style.TEXT_SIZE, weight="normal")
     elif finite.size:
         room = max(0.08 * float(np.ptp(finite)), 0.005 * float(finite.max()))
         axes.set_ylim(finite.min() - room, finite.max() + room)
@@ -136,14 +136,18 @@ def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     for k, (name, values) in enumerate(margins.items()):
         shown = _drawn(-values)
         percent = 100.0 * np.minimum(values[shown], MOST_MARGIN)
-        colour, dashes = style.SERIES[k % len(style.SERIES)], DASHES[k // len(style.SERIES) % len(DASHES)]
-        axes.plot(t[shown], percent, color=colour, ls=dashes, lw=1.8, label=name.replace("_", " "))
+        colour, dashes = (
+            style.SERIES[k % len(style.SERIES)],
+            style.DASHES[(k + k // len(style.SERIES)) % len(style.DASHES)],
+        )
+        axes.plot(t[shown], percent, color=colour, ls=dashes, label=name.replace("_", " "))
     axes.axhline(0.0, color=style.INK, lw=1.0, ls=(0, (6, 3)), zorder=1)
     low, high = axes.get_ylim()
     if low < 0.0 and min(float(values.min()) for values in margins.values()) < 0.0:
         axes.axhspan(low, 0.0, color=style.ALARM, alpha=0.12, lw=0.0, zorder=0)
     axes.set_ylim(low, high + 0.22 * (high - low))
     axes.set_xlim(t[0], t[-1])
-    axes.set_title(f"least margin of each limit, % of it, up to {100.0 * MOST_MARGIN:g}", size=style.TEXT_SIZE)
-    axes.set_xlabel("time")
+    words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
+    axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
+    axes.set(xlabel="time", ylabel="margin (%)")
     axes.legend(loc="upper center", ncols=min(5, len(margins)), handlelength=2.2, columnspacing=1.0)

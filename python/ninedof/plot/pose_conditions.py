@@ -15,7 +15,9 @@ from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
-RANGE = 30.0  # times the least: larger values are drawn at the upper edge
+RANGE = 30.0  # times the least: larger values are arrows at the upper edge
+LEAST_SPAN = 0.2  # of the least value, shown by the axis
+WORST: Any = (0, (5, 3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +30,10 @@ class PoseConditions:
 
 
 def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: str = "condition number") -> Figure:
-    """Return a figure of the condition number at each pose: stems for the first design, dots for the others.
+    """Return a figure of the condition number at each pose: a mark for each design, its worst value as a dashed line.
+
+    There are no bars, as the axis does not begin at zero; it shows at least a fifth of the least value, so that small
+    differences look small.
 
     Parameters
     ----------
@@ -61,21 +66,25 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
         raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
     with style.settings():
         longest = max((len(name) for name in names), default=0) if count <= MOST_NAMED else 0
-        below = max(0.95, 0.42 + 0.055 * longest)  # inches below the axis, for slanted names
-        height = 3.4 + below
-        figure = style.new_figure(8.0, height)
-        axes = figure.add_axes((0.085, below / height, 0.895, 1.0 - (below + 0.4) / height))
-        axes.set_title(f"{index} at each of {count} poses" if count > 1 else index)
+        single = count <= 12 and longest < 24
+        width = style.ONE_COLUMN if single else style.TWO_COLUMNS
+        above = 0.1 + 0.155 * len(designs) if single else 0.1 + 0.155 * -(-len(designs) // 2)  # inches, for the key
+        below = max(0.4, 0.12 + 0.052 * longest)  # for slanted names
+        height = 1.9 + above + below
+        figure = style.new_figure(width, height)
+        left = 0.5 / width + (0.02 * longest / width if slanted(names, count) else 0.0)
+        axes = figure.add_axes((left, below / height, 1.0 - left - 0.1 / width, 1.9 / height))
         axes.set_ylabel(index)
         _scale(axes, values)
         for k, (colour, v) in enumerate(zip(style.SERIES, values, strict=False)):
             _one(axes, v, colour, k, len(values))
         _names(axes, names, count)
         keys = [
-            style.key(colour, marker="o", ms=6, lw=2.2 if k == 0 else 0, mec="white", label=_label(design.name, v))
+            style.key(colour, marker=style.MARKS[k], ms=5, lw=0.8, ls=WORST, mec="white", label=_label(design.name, v))
             for k, (colour, design, v) in enumerate(zip(style.SERIES, designs, values, strict=False))
         ]
-        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.005), ncols=2 if len(keys) > 2 else 4)
+        options: dict[str, Any] = {"loc": "upper left", "ncols": 1 if single else 2, "handlelength": 3.0}
+        figure.legend(handles=keys, bbox_to_anchor=(left, 1.0), borderpad=0.2, **options)
     return figure
 
 
@@ -96,42 +105,45 @@ def _scale(axes: Any, values: Sequence[Floats]) -> None:
         style.one_two_five(axes.yaxis)
         axes.set_ylim(low / 1.15, high * 1.15)
     else:
-        room = 0.1 * max(high - low, 0.05 * low)
-        axes.set_ylim(low - room, high + 1.5 * room)
+        middle, half = 0.5 * (low + high), 0.5 * max(1.2 * (high - low), LEAST_SPAN * low)
+        axes.set_ylim(middle - half, middle + half)
 
 
 def _one(axes: Any, values: Floats, colour: str, k: int, count: int) -> None:
     """Draw one design: its values beside those of the others, its worst value as a line."""
     x = np.arange(len(values)) + (k - 0.5 * (count - 1)) * min(0.16, 0.5 / count)
-    bottom, top = axes.get_ylim()
+    top = axes.get_ylim()[1]
     seen = np.minimum(values, top)
-    if k == 0:
-        axes.vlines(x, bottom, seen, color=colour, lw=2.2 if len(values) <= MOST_NAMED else 1.0, alpha=0.55, zorder=2)
     off = ~(values <= top)
-    size = 6.0 if len(values) <= MOST_NAMED else 3.5
-    axes.plot(x[~off], seen[~off], "o", ms=size, color=colour, mec="white", mew=0.8, zorder=4)
+    size = 5.0 if len(values) <= MOST_NAMED else 3.0
+    axes.plot(x[~off], seen[~off], style.MARKS[k], ms=size, color=colour, mec="white", mew=0.6, zorder=4)
     if off.any():
-        axes.plot(x[off], seen[off], "^", ms=size + 2, color=colour, mec="white", mew=0.8, clip_on=False, zorder=5)
+        beyond: dict[str, Any] = {"marker": "^", "ls": "", "ms": size + 3, "color": colour, "clip_on": False}
+        axes.plot(x[off], seen[off], **beyond, zorder=5)
     worst = float(values.max())
     if worst <= top and len(values) > 1:
-        axes.axhline(worst, color=colour, lw=0.9, ls=(0, (5, 3)), zorder=1)
+        axes.axhline(worst, color=colour, lw=0.8, ls=WORST, zorder=1)
+
+
+def slanted(names: Sequence[str], count: int) -> bool:
+    """Return whether names stand at an angle."""
+    return 0 < len(names) == count <= MOST_NAMED and (max(len(name) for name in names) > 6 or count > 12)
 
 
 def _names(axes: Any, names: Sequence[str], count: int) -> None:
     axes.set_xlim(-0.7, count - 0.3)
-    axes.xaxis.grid(False)
     if count > MOST_NAMED:
         step = 10 ** int(np.log10(count / 5)) * max(1, round(count / (10 * 10 ** int(np.log10(count / 5)))))
         shown = list(range(step - 1, count, step))
         axes.set_xticks(shown, [str(k + 1) for k in shown])
-        axes.set_xlabel("pose")
+        axes.set_xlabel("number of the pose")
         return
     axes.xaxis.set_major_locator(FixedLocator(list(range(count))))
     labels = list(names) or [str(k + 1) for k in range(count)]
-    slanted = bool(names) and (max(len(name) for name in names) > 6 or count > 12)
-    axes.set_xticklabels(labels, rotation=55 if slanted else 0, ha="right" if slanted else "center")
-    if slanted:
+    angle = slanted(names, count)
+    axes.set_xticklabels(labels, rotation=50 if angle else 0, ha="right" if angle else "center")
+    if angle:
         for label in axes.get_xticklabels():
             label.set_rotation_mode("anchor")
     if not names:
-        axes.set_xlabel("pose")
+        axes.set_xlabel("number of the pose")

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 ELEVATION, AZIMUTH = 17.0, -76.0  # degrees: low enough to show the heights of base, O and platform
+ROOM = np.array([0.06, 0.36, 0.5, 0.2])  # inches beside the box: left, below, right, above
 
 Limits = tuple[float, float, float]
 """Half width in x and y, lowest and highest z."""
@@ -23,10 +26,16 @@ def limits(points: Floats) -> Limits:
 
 
 def frame(axes: Any, unit: str, extent: Limits) -> None:
-    """Set limits, scale, view and the style of panes, ticks and labels."""
+    """Set limits about the z axis, scale, view and the style of panes, ticks and labels."""
     half, low, high = extent
-    axes.set(xlim=(-half, half), ylim=(-half, half), zlim=(low, high))
-    axes.set_box_aspect((2 * half, 2 * half, high - low), zoom=1.06)
+    box(axes, ("x", "y", "z"), unit, np.array([-half, -half, low]), np.array([half, half, high]))
+
+
+def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Floats) -> None:
+    """Set limits from corner to corner, equal scale, view and the style of panes, ticks and labels."""
+    span = high - low
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(tuple(span), zoom=1.0)
     axes.set_proj_type("ortho")  # equal lengths stay equal at every depth
     axes.view_init(elev=ELEVATION, azim=AZIMUTH)
     axes.computed_zorder = False  # seen from above: base, then legs, then platform
@@ -34,19 +43,48 @@ def frame(axes: Any, unit: str, extent: Limits) -> None:
     for name, axis in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), strict=True):
         axis.pane.set_visible(False)
         axis.line.set_color(style.MUTED)
-        axis._axinfo["grid"].update(color=style.GRID, linewidth=0.6)
-        axis.set_tick_params(labelsize=style.SMALL_SIZE, pad=2 if name == "z" else -1)
+        axis._axinfo["grid"].update(color=style.GRID, linewidth=0.5)
+        axis.set_tick_params(labelsize=style.SMALL_SIZE, pad=0 if name == "z" else -3)
         axis.set_rotate_label(False)
-        axis.labelpad = {"x": 0, "y": 3}.get(name, 0)
+        axis.labelpad = {"x": -4, "y": 1}.get(name, 0)
     # No ticks at the corners that two axes share.
-    level = [tick for tick in MaxNLocator(4).tick_values(-half, half) if abs(tick) < 0.93 * half]
-    axes.set(xticks=level, yticks=level)
-    axes.zaxis.set_major_locator(MaxNLocator(4))
+    for axis, first, size, most in zip((axes.xaxis, axes.yaxis), low[:2], span[:2], (4, 3), strict=True):
+        values = MaxNLocator(most).tick_values(first, first + size)
+        axis.set_ticks([tick for tick in values if 0.04 < (tick - first) / size < 0.96])
+    values = MaxNLocator(4).tick_values(low[2], high[2])
+    axes.set_zticks([tick for tick in values if -1e-9 <= (tick - low[2]) / span[2] <= 0.97])
     text: dict[str, Any] = {"size": style.TEXT_SIZE, "color": style.INK}
-    axes.set_xlabel(style.with_unit("x", unit), **text)
-    axes.set_ylabel(style.with_unit("y", unit), **text)
+    axes.set_xlabel(style.with_unit(names[0], unit), **text)
+    axes.set_ylabel(style.with_unit(names[1], unit), **text)
     # Above its axis at this corner: beside the axis, matplotlib puts the name on the numbers or outside the figure.
-    axes.text(half, half, high + 0.04 * (high - low), style.with_unit("z", unit), ha="center", va="bottom", **text)
+    at = (high[0], high[1], high[2] + 0.04 * span[2])
+    axes.text(*at, style.with_unit(names[2], unit), ha="center", va="bottom", **text)
+
+
+def fit(axes: Any, low: Floats, high: Floats, rectangle: tuple[float, float, float, float]) -> None:
+    """Place axes so that their box, with room for ticks and names, fills a rectangle: left, bottom, width, height.
+
+    In fractions of the figure. matplotlib leaves a third of the picture empty around a box.
+    """
+    size = axes.figure.get_size_inches()
+    left, bottom, width, height = np.array(rectangle) * [*size, *size] + np.array([*ROOM[:2], -ROOM[0], -ROOM[1]])
+    width, height = width - ROOM[2], height - ROOM[3]
+    axes.set_position((0.0, 0.0, *(1.0 / size)))  # one inch each way
+    axes.apply_aspect()
+    corners = np.array(list(product(*zip(low, high, strict=True))))
+    flat = np.column_stack(proj3d.proj_transform(*corners.T, axes.get_proj())[:2])
+    seen = axes.transData.transform(flat) / axes.figure.dpi
+    first, last = seen.min(axis=0), seen.max(axis=0)
+    scale = min(np.array([width, height]) / (last - first))
+    start = np.array([left, bottom]) + 0.5 * (np.array([width, height]) - scale * (first + last))
+    axes.set_position((*(start / size), *(scale / size)))
+
+
+def height(low: Floats, high: Floats, width: float) -> float:
+    """Return the height in inches that a box and its names need at a width, for `fit`."""
+    flat = seen(np.array(list(product(*zip(low, high, strict=True)))))
+    across, up = np.ptp(flat, axis=0)
+    return float((width - ROOM[0] - ROOM[2]) * up / across + ROOM[1] + ROOM[3])
 
 
 def towards_eye(elevation: float = ELEVATION, azimuth: float = AZIMUTH) -> Floats:
@@ -60,3 +98,9 @@ def to_the_left() -> Floats:
     """Return the unit vector that points to the left of the figure."""
     azimuth = np.radians(AZIMUTH)
     return np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
+
+
+def seen(points: Floats) -> Floats:
+    """Return points (n, 3) as they lie in the picture, to the right and up: shape (n, 2)."""
+    right = -to_the_left()
+    return np.asarray(points @ np.column_stack([right, np.cross(towards_eye(), right)]))

@@ -1,4 +1,4 @@
-"""The style of all figures: colours, sizes, axes, and how a figure is created and saved."""
+"""The style of all figures: sizes as printed, colours, dashes, axes, and how a figure is created and saved."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter
 from numpy.typing import ArrayLike
 
 from ninedof.support.arrays import Floats
@@ -39,11 +39,20 @@ SERIES = ("#566370", "#AA3377", "#117799", "#B07D00")
 ALARM = UPPER  # failures and warnings
 CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-blind readers
 
-TITLE_SIZE = 10.5
-TEXT_SIZE = 9.0
-SMALL_SIZE = 8.0
+# Series in one figure differ in the dashes too: in grey print colours alone do not tell them apart.
+DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
+MARKS = ("o", "s", "^", "D")
 
-DPI = 150
+# Inches: figures are made at the width they are printed at, so that these are the sizes of the text on paper.
+ONE_COLUMN = 86.0 / 25.4
+TWO_COLUMNS = 178.0 / 25.4
+
+TITLE_SIZE = 8.5  # points
+TEXT_SIZE = 8.0
+SMALL_SIZE = 7.0
+THICK, CURVE, THIN = 2.0, 1.4, 0.7  # points, of lines
+
+DPI = 200
 
 _SETTINGS: Any = {
     "axes.axisbelow": True,
@@ -51,27 +60,42 @@ _SETTINGS: Any = {
     "axes.grid": True,
     "axes.labelcolor": INK,
     "axes.labelsize": TEXT_SIZE,
-    "axes.linewidth": 0.8,
+    "axes.labelpad": 2.5,
+    "axes.linewidth": 0.7,
     "axes.spines.right": False,
     "axes.spines.top": False,
     "axes.titlecolor": INK,
     "axes.titlelocation": "left",
+    "axes.titlepad": 4.0,
     "axes.titlesize": TITLE_SIZE,
     "axes.titleweight": "bold",
     "figure.facecolor": "white",
     "font.family": ["DejaVu Sans"],  # part of matplotlib, so that figures are the same on every machine
     "font.size": TEXT_SIZE,
     "grid.color": GRID,
-    "grid.linewidth": 0.7,
+    "grid.linewidth": 0.5,
+    "hatch.linewidth": 0.5,
     "legend.fontsize": SMALL_SIZE,
     "legend.frameon": False,
+    "lines.linewidth": CURVE,
+    "pdf.fonttype": 42,  # letters stay letters: journals refuse Type 3 fonts
     "svg.fonttype": "path",
     "svg.hashsalt": "ninedof",  # ids that are not random: equal figures give equal files
     "text.color": INK,
     "text.usetex": False,
+    "xtick.major.pad": 2.5,
+    "xtick.major.size": 2.5,
+    "xtick.major.width": 0.6,
+    "xtick.minor.size": 1.5,
+    "xtick.minor.width": 0.4,
     "xtick.color": MUTED,
     "xtick.labelcolor": INK,
     "xtick.labelsize": SMALL_SIZE,
+    "ytick.major.pad": 2.5,
+    "ytick.major.size": 2.5,
+    "ytick.major.width": 0.6,
+    "ytick.minor.size": 1.5,
+    "ytick.minor.width": 0.4,
     "ytick.color": MUTED,
     "ytick.labelcolor": INK,
     "ytick.labelsize": SMALL_SIZE,
@@ -85,9 +109,9 @@ def settings() -> Iterator[None]:
         yield
 
 
-def new_figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float, layout: Any = None) -> Figure:
     """Return an empty figure of the given size in inches, with its own Agg canvas."""
-    figure = Figure(figsize=(width, height), dpi=DPI)
+    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
     FigureCanvasAgg(figure)
     return figure
 
@@ -120,13 +144,35 @@ def without_infinite(values: ArrayLike) -> Floats:
     return np.where(np.isfinite(array), array, np.nan)
 
 
+def round_levels(low: float, high: float, most: int = 9) -> Floats:
+    """Return round values for contours from `low` to `high`, at most about `most`: 1-2-5 in decades of a wide range."""
+    if high - low <= 1e-9 * abs(low):
+        room = 0.05 * abs(low) or 1.0
+        low, high = low - room, high + room
+    if low > 0.0 and high > 6.0 * low:
+        tens = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        every = np.array([m * 10.0**k for k in tens for m in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)])
+    else:
+        every = np.asarray(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high))
+    first = max(int(np.searchsorted(every, low * (1.0 + 1e-9), side="right")) - 1, 0)
+    last = min(int(np.searchsorted(every, high * (1.0 - 1e-9))), len(every) - 1)
+    return np.asarray(every[first : max(last, first + 1) + 1], dtype=np.float64)
+
+
+def round_to(value: float, span: float) -> float:
+    """Return a round value near `value`: a multiple of 1, 2 or 5 times a power of ten, of at most 1/25 of `span`."""
+    power = 10.0 ** math.floor(math.log10(span / 25.0))
+    step = max(m * power for m in (1.0, 2.0, 5.0) if m * power <= span / 25.0 * (1.0 + 1e-9))
+    return float(f"{round(value / step) * step:.12g}") + 0.0
+
+
 def key(colour: str, **line: Any) -> Line2D:
     """Return a legend entry without data."""
     return Line2D([], [], color=colour, **line)
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
-    """Write a figure as PNG and SVG.
+    """Write a figure as PNG, SVG and PDF.
 
     Each file appears whole or not at all, and equal figures give equal bytes.
 
@@ -141,7 +187,7 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     Returns
     -------
     list of pathlib.Path
-        The PNG (150 dots per inch) and the SVG.
+        The PNG (200 dots per inch), the SVG and the PDF.
 
     Raises
     ------
@@ -156,9 +202,12 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
-    metadata: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None}}
+    metadata: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
     paths = []
     with settings():
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.execute(figure)  # once for all files
+            figure.set_layout_engine("none")
         for kind, entries in metadata.items():
             image = io.BytesIO()
             figure.savefig(image, format=kind, dpi=DPI, metadata=entries)

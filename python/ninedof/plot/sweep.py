@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from ninedof.plot import style
 from ninedof.support.angles import plain_name
@@ -24,6 +23,8 @@ MOST_CURVES = 9
 RANGE = 30.0  # times the least: larger values are cut off
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
+SMOOTH = 8  # values each way from which a map without gaps is drawn as bands between contours, else as cells
+LEGS = ("external legs", "upper internal legs", "lower internal legs")
 TURNS = (-50.0, -25.0, 0.0, 25.0, 50.0)  # degrees: ticks of Fig. 6, which goes to one radian
 
 
@@ -69,76 +70,108 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
 
 
 def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any) -> Figure:
-    figure = style.new_figure(7.0, 4.2)
-    axes = figure.add_axes((0.1, 0.13, 0.87, 0.79))
+    names = [] if labels is None else [str(label) for label in labels[:MOST_CURVES]]
+    of_legs = len(names) == 9 and [label[0] for label in names] == list("lllqqqrrr")
+    if of_legs:
+        figure = style.new_figure(style.TWO_COLUMNS, 2.3)
+        panels = figure.subplots(1, 3)
+        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.19, top=0.83, wspace=0.36)
+    else:
+        figure = style.new_figure(style.ONE_COLUMN, 2.5)
+        panels = [figure.add_axes((0.155, 0.16, 0.8, 0.74 if len(names) > 1 else 0.8))]
     x, _ = _values(result, dim)
     for k, row in enumerate(rows[:MOST_CURVES]):
-        colour = style.SERIES[k % len(style.SERIES)]
-        label = None if labels is None else str(labels[k])
-        dashes = ("-", "--", ":")[k // len(style.SERIES) % 3]
-        axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, lw=2.0, label=label)
-    axes.set_title(_words(name))
-    axes.set(xlabel=_axis(result, dim), ylabel=style.with_unit(_words(name), _unit(result, name)))
+        axes = panels[k // 3 if of_legs else 0]
+        colour = style.LEG_COLOURS[names[k][0]] if of_legs else style.SERIES[k % len(style.SERIES)]
+        dashes = style.DASHES[k % 3 if of_legs else (k + k // len(style.SERIES)) % len(style.DASHES)]
+        axes.plot(x, style.without_infinite(row), ls=dashes, color=colour, label=names[k] if names else None)
+    for k, axes in enumerate(panels):
+        axes.set(xlabel=_axis(result, dim))
+        axes.margins(x=0.0)
+        axes.set_ylabel(style.with_unit(_words(name), _unit(result, name)))
+        if of_legs:
+            axes.set_title(LEGS[k], size=style.TEXT_SIZE, pad=16.0)
+        if names:
+            axes.legend(loc="lower left", ncols=4, bbox_to_anchor=(0.0, 0.99), borderaxespad=0.0, handlelength=2.4)
     if name.startswith("condition_number"):
-        _crop(axes, rows)
-    if labels is not None:
-        axes.legend(loc="best", ncols=3)
+        _crop(panels[0], rows)
     return figure
 
 
 def _crop(axes: Any, rows: Floats) -> None:
-    """Cut off values of many times the least, near a singularity."""
+    """Cut off values of many times the least, near a singularity, and say so."""
     finite = rows[np.isfinite(rows)]
     if finite.size and finite.max() > RANGE * finite.min():
         axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
         axes.set_yscale("log")
+        style.one_two_five(axes.yaxis)
+        most = "without a bound" if np.isposinf(rows).any() else f"{finite.max():.4g} at most"
+        axes.set_title(f"cut off; {most}", size=style.SMALL_SIZE, weight="normal", loc="right")
 
 
 def _maps(result: SweepResult, name: str, dims: tuple[str, ...], slices: Floats, titles: Sequence[str]) -> Figure:
     """Draw maps over two coordinates with a common colour scale."""
     columns = min(3, len(slices))
     rows = -(-len(slices) // 3)
-    figure = style.new_figure(5.4 if columns == 1 else 9.0, 4.4 if columns == 1 else 0.9 + 2.9 * rows)
+    single = columns == 1
+    size = (style.ONE_COLUMN, 2.8) if single else (style.TWO_COLUMNS, 0.5 + 2.0 * rows)
+    figure = style.new_figure(*size, layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     coarser = [-(-n // FINEST) for n in slices.shape[1:]]
     slices = slices[:, :: coarser[0], :: coarser[1]]
-    norm = _norm(slices.ravel(), name)
+    levels, beyond = _bands(slices.ravel(), name)
+    norm = BoundaryNorm(levels, 256, extend="max" if beyond else "neither")
     colours = style.CONDITION if name.startswith("condition_number") else MAP
     x, y = (_values(result, d)[0][::step] for d, step in zip(dims, coarser, strict=True))
     drawn = None
     for axes, title, part in zip(grid.flat, titles, slices, strict=False):
-        drawn = axes.pcolormesh(
-            x, y, np.ma.masked_invalid(part.T), norm=norm, cmap=colours, shading="nearest", rasterized=True
-        )
+        values = np.ma.masked_invalid(part.T)
+        if min(part.shape) >= SMOOTH and np.isfinite(part).all():
+            seen = np.clip(values, levels[0], None if beyond else levels[-1])
+            extend = "max" if beyond else "neither"
+            drawn = axes.contourf(x, y, seen, levels, norm=norm, cmap=colours, extend=extend)
+        else:
+            drawn = axes.pcolormesh(x, y, values, norm=norm, cmap=colours, shading="nearest", rasterized=True)
         axes.set_facecolor(style.GRID)
         axes.grid(False)
         axes.set_title(title, size=style.TEXT_SIZE if columns > 1 else None)
+        if min(part.shape) > 1 and len(levels) > 2:
+            _contours(axes, x, y, values, levels)
     for axes in list(grid.flat)[len(slices) :]:
         axes.set_axis_off()
     for axes in grid[-1, :]:
         axes.set_xlabel(_axis(result, dims[0]))
     for axes in grid[:, 0]:
         axes.set_ylabel(_axis(result, dims[1]))
-    figure.subplots_adjust(left=0.1 if columns > 1 else 0.14, right=0.97, bottom=0.12 if rows == 1 else 0.09, top=0.91)
     if drawn is not None:
-        bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.03, aspect=30)
-        if isinstance(norm, LogNorm):
-            low, high = bar.ax.get_ylim()
-            tens = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-            bar.set_ticks([t for k in tens for m in (1, 2, 5) if low <= (t := m * 10.0**k) <= high])
-            bar.ax.yaxis.set_major_formatter("{x:g}")
-            bar.ax.yaxis.set_minor_formatter(NullFormatter())
+        bar = figure.colorbar(drawn, ax=list(grid.flat), pad=0.02, aspect=30, ticks=levels)
+        bar.ax.yaxis.set_major_formatter("{x:g}")
+        bar.ax.yaxis.set_minor_locator(NullLocator())
+        bar.outline.set_linewidth(0.5)
         words = style.with_unit(_words(name), _unit(result, name))
+        finite = slices[np.isfinite(slices)]
+        words += f", {finite.max():.4g} at most" if beyond and np.isfinite(slices).all() else ""
         bar.set_label(words + ("; grey: infinite or none" if not np.isfinite(slices).all() else ""))
     return figure
 
 
-def _norm(values: Floats, name: str) -> Normalize:
+def _contours(axes: Any, x: Any, y: Any, values: Any, levels: Floats) -> None:
+    """Draw thin lines between the bands."""
+    if values.count() and float(values.min()) < float(values.max()):
+        axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
+
+
+def _bands(values: Floats, name: str) -> tuple[Floats, bool]:
+    """Return round values between the bands of colour, and whether there are larger ones."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    if name.startswith("condition_number") and high > 3.0 * low > 0.0:
-        return LogNorm(low, min(high, RANGE * low))
-    return Normalize(low, high if high > low else low + 1.0)
+    if high <= low + 1e-12 * abs(low):
+        high = low + max(1e-6 * abs(low), 1e-12)
+    top = min(high, RANGE * low) if name.startswith("condition_number") and low > 0.0 else high
+    if not name.startswith("condition_number"):
+        return np.asarray(MaxNLocator(12, steps=[1, 2, 2.5, 5, 10]).tick_values(low, top)), False
+    levels = style.round_levels(low, top)
+    return levels, high > float(levels[-1])
 
 
 def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
@@ -165,20 +198,20 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
         (6, x, ends, f"O moved ({unit})"),
     )
     with style.settings():
-        figure = style.new_figure(9.0, 3.9)
+        figure = style.new_figure(style.TWO_COLUMNS, 2.7)
         panels = figure.subplots(1, 3, sharey=True)
         top = min(float(rows[np.isfinite(rows)].max()), 2.4 * float(rows.min()))
         for axes, (first, x, ticks, title) in zip(panels, groups, strict=True):
-            for k, dashes in zip(range(first, first + 3), ("-", (0, (5, 2)), (0, (1.2, 1.2))), strict=True):
+            for k, dashes in zip(range(first, first + 3), style.DASHES, strict=False):
                 colour = style.SERIES[k - first]
-                axes.plot(x, style.without_infinite(rows[k]), color=colour, ls=dashes, lw=2.0, label=names[k])
+                axes.plot(x, style.without_infinite(rows[k]), color=colour, ls=dashes, label=names[k])
             axes.set(xlabel=title, xlim=(x[0], x[-1]), ylim=(0.96 * float(rows.min()), top))
             if words := _cut_off(names[first : first + 3].tolist(), rows[first : first + 3], top):
                 axes.text(0.5, 0.975, words, transform=axes.transAxes, ha="center", va="top", size=style.SMALL_SIZE)
             axes.set_xticks(ticks)
-            axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.13), handlelength=2.6, columnspacing=1.2)
+            axes.legend(loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.14), handlelength=2.2, columnspacing=1.0)
         panels[0].set_ylabel("condition number")
-        figure.subplots_adjust(left=0.07, right=0.985, bottom=0.13, top=0.88, wspace=0.12)
+        figure.subplots_adjust(left=0.07, right=0.98, bottom=0.16, top=0.88, wspace=0.12)
     return figure
 
 
@@ -204,15 +237,14 @@ def figure_7(result: SweepResult) -> Figure:
     """
     names, x, rows = (result[key] for key in ("sides", "ratio", "condition_number"))
     with style.settings():
-        figure = style.new_figure(7.0, 4.2)
-        axes = figure.add_axes((0.09, 0.13, 0.88, 0.77))
-        axes.plot(x, rows[0], color=style.SERIES[0], lw=2.4, label=names[0])
-        axes.plot(x, rows[1], "o", color=style.SERIES[1], ms=4.5, mfc="white", mew=1.3, label=names[1])
+        figure = style.new_figure(style.ONE_COLUMN, 2.5)
+        axes = figure.add_axes((0.135, 0.155, 0.84, 0.8))
+        axes.plot(x, rows[0], color=style.SERIES[0], label=names[0])
+        axes.plot(x, rows[1], "o", color=style.SERIES[1], ms=3.5, mfc="white", mew=1.0, label=names[1])
         axes.set_xscale("log", base=2)
         ticks = [t for t in 2.0 ** np.arange(-10, 11) if x[0] <= t <= x[-1]]
         style.plain_numbers(axes.xaxis, ticks)
-        axes.set_title("least condition number, all else re-optimized")
-        axes.set(xlabel="ratio of the sides", ylabel="condition number")
+        axes.set(xlabel="ratio of the sides", ylabel="least condition number")
         axes.legend(loc="upper right")
     return figure
 

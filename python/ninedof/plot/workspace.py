@@ -1,54 +1,24 @@
-"""A workspace: sections, its limits, and the convergence of the volume."""
+"""A workspace: sections, its limits, the condition number in it, and the convergence of the volume."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Patch, Rectangle
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.section import BOUNDARY, KINDS, Section, draw_section, home_mark, kind_of
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount
-
-if TYPE_CHECKING:
-    from ninedof.workspace import WorkspaceSlice
 
 MOST_SECTIONS = 3
+MOST_SHARES = 9
 RANGE = 30.0  # times the least condition number: the colours end there
-
-KINDS = {  # the limits by kind, in the order of the legend: beginning of the name, words, colour
-    "l": ("external legs", style.EXTERNAL),
-    "q": ("upper internal legs", style.UPPER),
-    "r": ("lower internal legs", style.LOWER),
-    "base_cone": ("joint cones of the base", "#AA3377"),
-    "platform_cone": ("joint cones of the platform", "#CC79A7"),
-    "leg_clearance": ("leg clearance", "#7B4B00"),
-    "condition_number": ("condition number", style.INK),
-    "det": ("singularity", "#CC3311"),
-    "region": ("region", style.MUTED),
-    "box": ("box", style.MUTED),
-    "internal_point": ("no admissible O", "#999933"),
-}
-
-
-@dataclass(frozen=True, eq=False)
-class Section:
-    """One section, as `WorkspaceMap.slice` returns it, with the largest ball and box inside the workspace."""
-
-    plane: WorkspaceSlice
-    ball: tuple[ArrayLike, float] | None = None
-    """Centre and radius of the section of the ball, in the two coordinates drawn."""
-    box: tuple[ArrayLike, ArrayLike] | None = None
-    """Low and high corner in the two coordinates drawn."""
-    region: ArrayLike | None = None
-    """Outline of the region of a study, points (n, 2)."""
+USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest value if it is so little above it
 
 
 def workspace(
@@ -60,6 +30,9 @@ def workspace(
     unit: str = "",
 ) -> Figure:
     """Return a figure of a workspace: sections above, the limits, the condition number and the volume below.
+
+    Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
+    beyond the last, the colour bar has an arrow and names the largest.
 
     Parameters
     ----------
@@ -87,147 +60,113 @@ def workspace(
     >>> from ninedof.plot.workspace import Section, workspace
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> found = nd.workspace(g, ([-4, -4, 0], [4, 4, 8]), criteria={"leg_limits": (2.5, 6.5)})
-    >>> section = Section(found.slice("z", 4.8))
+    >>> section = Section(found.slice("z", 5.4, smooth=True))
     >>> figure = workspace([section], found.limit_names, found.limits(), found.percentiles, found.levels)
 
     """
     if not 0 < len(sections) <= MOST_SECTIONS:
         raise ValueError(f"sections: got {len(sections)}, expected 1 to {MOST_SECTIONS}")
-    kinds = [_kind(name) for name in limit_names]
+    kinds = [kind_of(name) for name in limit_names]
+    known = np.asarray(percentiles, dtype=np.float64)
     with style.settings():
-        figure = style.new_figure(width=0.9 + 3.6 * max(len(sections), 2), height=6.6)
-        rows = figure.add_gridspec(
-            2, 1, height_ratios=[1.55, 1.0], hspace=0.42, left=0.155, right=0.91, top=0.88, bottom=0.09
-        )
-        above = rows[0].subgridspec(1, len(sections), wspace=0.3)
-        colours, cut = _colours(np.asarray(percentiles, dtype=np.float64), sections)
+        figure = style.new_figure(style.TWO_COLUMNS, 5.3, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
+        parts: Any = figure.subfigures(2, 1, height_ratios=[1.75, 1.0])
+        above, below = parts
+        bands, most = _bands(known, sections)
         shown: Any = None
-        panels = []
-        for n, section in enumerate(sections):
-            axes = figure.add_subplot(above[n])
-            shown = _section(axes, section, kinds, colours, unit) or shown
-            panels.append(axes)
+        panels = above.subplots(1, len(sections), squeeze=False)[0]
+        for axes, section in zip(panels, sections, strict=True):
+            shown = draw_section(axes, section, kinds, bands, most is not None, unit) or shown
         if shown is not None:
-            bar = figure.colorbar(shown, ax=panels, fraction=0.025, pad=0.02, extend="max" if cut else "neither")
-            bar.set_label("condition number", size=style.SMALL_SIZE)
-            bar.outline.set_visible(False)
+            bar = above.colorbar(shown, ax=list(panels), fraction=0.03, pad=0.02, aspect=28, ticks=bands)
+            bar.ax.yaxis.set_major_formatter("{x:g}")
+            bar.ax.yaxis.set_minor_locator(NullLocator())
+            more = "" if most is None else f", {most:.4g} at most" if np.isfinite(most) else ", without a bound"
+            bar.set_label("condition number" + more)
+            bar.outline.set_linewidth(0.5)
         _legend(figure, sections, kinds)
-        below = rows[1].subgridspec(1, 3, wspace=0.5)
-        _shares(figure.add_subplot(below[0]), shares)
-        _distribution(figure.add_subplot(below[1]), np.asarray(percentiles, dtype=np.float64))
-        _levels(figure.add_subplot(below[2]), np.asarray(levels, dtype=np.float64).reshape(-1, 4))
+        left, middle, right = below.subplots(1, 3)
+        _shares(left, shares)
+        _distribution(middle, known)
+        _levels(right, np.asarray(levels, dtype=np.float64).reshape(-1, 4))
     return figure
 
 
-def _colours(percentiles: Floats, sections: Sequence[Section]) -> tuple[tuple[float, float], bool]:
-    """Return the ends of the colours, the same in all sections, and whether there are values above them."""
-    known = percentiles[np.isfinite(percentiles)]
+def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, float | None]:
+    """Return the round values between the bands of colour, and the largest value if it is beyond them."""
+    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
+    finite = [values[np.isfinite(values)] for values in (percentiles, drawn)]
+    known = finite[0] if finite[0].size else finite[1]  # the raster goes on a little beyond the boundary
     if not known.size:
-        drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
-        known = drawn[np.isfinite(drawn)]
-    if not known.size:
-        return (1.0, 2.0), False
+        return np.array([1.0, 2.0]), None
     low, high = float(known.min()), float(known.max())
-    return (low, min(high, RANGE * low)), high > RANGE * low or bool(np.isposinf(percentiles).any())
-
-
-def _kind(name: str) -> str:
-    first = name.split(" ")[0]
-    return first if first in KINDS else first[0]
-
-
-def _section(axes: Any, section: Section, kinds: Sequence[str], colours: tuple[float, float], unit: str) -> Any:
-    """Draw a section: the condition number inside, the boundary in the colour of its limit."""
-    s, turn = section.plane, (np.degrees if unit == "rad" else np.asarray)
-    unit = "deg" if unit == "rad" else unit
-    name, at = s.plane
-    s = s._replace(horizontal=turn(s.horizontal), vertical=turn(s.vertical), plane=(name, float(turn(at))))
-    half = [0.5 * (c[1] - c[0]) for c in (s.horizontal, s.vertical)]
-    extent = (
-        s.horizontal[0] - half[0],
-        s.horizontal[-1] + half[0],
-        s.vertical[0] - half[1],
-        s.vertical[-1] + half[1],
-    )
-    options: dict[str, Any] = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
-    shown = None
-    if np.isfinite(s.condition_number).any():
-        most = np.minimum(s.condition_number, 10.0 * colours[1])  # an infinite one would be left out
-        shown = axes.imshow(most, cmap=style.CONDITION, vmin=colours[0], vmax=colours[1], **options)
-    order = list(KINDS)
-    number = np.array([order.index(kind) for kind in kinds] + [-1])[s.limit]
-    boundary = np.ma.masked_where((s.state != 1) | (number < 0), number)
-    axes.imshow(
-        boundary, cmap=ListedColormap([c for _, c in KINDS.values()]), vmin=-0.5, vmax=len(order) - 0.5, **options
-    )
-    line: dict[str, Any] = {"fill": False, "lw": 1.3, "ec": "white"}
-    if section.ball is not None:
-        axes.add_patch(Circle(tuple(turn(section.ball[0])), float(turn(section.ball[1])), **line))
-    if section.box is not None:
-        low, high = (np.asarray(turn(corner), dtype=np.float64) for corner in section.box)
-        axes.add_patch(Rectangle(tuple(low), *(high - low), **line, ls=(0, (4, 2))))
-    if section.region is not None:
-        axes.plot(*np.asarray(section.region, dtype=np.float64).T, color=style.INK, lw=1.6)
-    axes.grid(visible=False)
-    axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
-    axes.set_title(f"{s.plane[0]} = {amount(f'{s.plane[1]:.4g}', unit)}")
-    found = np.argwhere(s.state > 0)
-    if len(found):
-        # The allowed part with a margin.
-        (v0, h0), (v1, h1) = found.min(axis=0), found.max(axis=0)
-        room = 0.06 * max(s.horizontal[h1] - s.horizontal[h0], s.vertical[v1] - s.vertical[v0]) + half[0]
-        axes.set_xlim(max(extent[0], s.horizontal[h0] - room), min(extent[1], s.horizontal[h1] + room))
-        axes.set_ylim(max(extent[2], s.vertical[v0] - room), min(extent[3], s.vertical[v1] + room))
-    return shown
+    usual = float(finite[0][: USUAL + 1].max()) if finite[0].size > USUAL else high
+    top = high if high <= usual + MORE * (usual - low) else min(usual, RANGE * low)
+    bands = style.round_levels(low, top)
+    most = np.inf if np.isposinf(percentiles if finite[0].size else drawn).any() else high
+    return bands, most if most > bands[-1] else None
 
 
 def _legend(figure: Figure, sections: Sequence[Section], kinds: Sequence[str]) -> None:
     there = {kinds[n] for s in sections for n in np.unique(s.plane.limit[s.plane.state == 1]).tolist() if n >= 0}
-    entries: list[Any] = [Patch(color=colour, label=words) for kind, (words, colour) in KINDS.items() if kind in there]
+    entries: list[Any] = [
+        style.key(colour, ls=dashes, lw=BOUNDARY, label=words)
+        for kind, (words, colour, dashes) in KINDS.items()
+        if kind in there
+    ]
     if any(section.region is not None for section in sections):
-        entries.append(Line2D([], [], color=style.INK, lw=1.6, label="region of the study"))
-    if entries:
-        figure.legend(
-            handles=entries,
-            loc="upper left",
-            ncols=5,
-            bbox_to_anchor=(0.02, 0.995),
-            title="limits of the boundary",
-            alignment="left",
+        entries.append(style.key(style.INK, lw=1.2, label="region of the study"))
+    if any(section.ball is not None for section in sections):
+        entries.append(_ring(label="largest ball"))
+    if any(section.box is not None for section in sections):
+        entries.append(style.key(style.INK, lw=0.9, ls=(0, (3, 1.5)), label="largest box"))
+    if any(section.home is not None for section in sections):
+        entries.append(
+            style.key(label="home", colour=style.INK, **{k: v for k, v in home_mark().items() if k != "color"})
         )
+    if entries:
+        figure.legend(handles=entries, loc="outside upper left", ncols=min(4, len(entries)), handlelength=3.0)
+
+
+def _ring(label: str) -> Any:
+    return style.key(style.INK, lw=0.9, label=label, marker="o", ms=7, mfc="none", ls="")
 
 
 def _shares(axes: Any, shares: Mapping[str, float]) -> None:
-    top = list(shares.items())[:9]
-    axes.set_title("share of the boundary")
+    top = list(shares.items())[:MOST_SHARES]
+    axes.set_title("limits of the boundary")
     if not top:
         axes.set_axis_off()
         return
-    colours = [KINDS[_kind(name)][1] for name, _ in top]
+    colours = [KINDS[kind_of(name)][1] for name, _ in top]
     axes.barh(range(len(top)), [100.0 * share for _, share in top], color=colours, height=0.7)
     axes.set_yticks(range(len(top)), [name.replace("_", " ") for name, _ in top])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("per cent")
+    axes.set_xlabel("% of the boundary")
 
 
-def _distribution(axes: Any, percentiles: Any) -> None:
-    axes.set_title("condition number")
+def _distribution(axes: Any, percentiles: Floats) -> None:
+    axes.set_title("condition number in it")
     if not np.isfinite(percentiles).any():
         axes.set_axis_off()
         return
-    axes.plot(percentiles, np.arange(percentiles.size), color=style.SERIES[0], lw=1.6)
-    axes.set(xlabel="at most", ylabel="per cent of the volume", ylim=(0, 100))
+    axes.plot(percentiles, np.arange(percentiles.size), color=style.SERIES[0])
+    axes.set(xlabel="condition number", ylabel="% of the volume below", ylim=(0, 100))
+    finite = percentiles[np.isfinite(percentiles)]
+    if finite.max() > 10.0 * finite.min():
+        axes.set_xscale("log")
+        style.one_two_five(axes.xaxis)
 
 
-def _levels(axes: Any, levels: Any) -> None:
+def _levels(axes: Any, levels: Floats) -> None:
     axes.set_title("error of the volume")
     known = levels[levels[:, 3] > 0.0]
     if len(known) == 0:
         axes.set_axis_off()
         return
-    axes.loglog(known[:, 1], known[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=4, lw=1.4)
-    axes.set_xlim(10.0 ** np.floor(np.log10(known[0, 1])), 10.0 ** np.ceil(np.log10(known[-1, 1])))
+    axes.loglog(known[:, 1], known[:, 3] / levels[-1, 2], "o-", color=style.SERIES[0], ms=3.5)
+    axes.set_xlim(10.0 ** np.floor(np.log10(known[0, 1])), 1.3 * 10.0 ** np.ceil(np.log10(known[-1, 1])))
     axes.xaxis.set_major_formatter(style.power_of_ten)
     axes.yaxis.set_major_formatter(style.power_of_ten)
     axes.minorticks_off()

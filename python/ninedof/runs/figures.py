@@ -1,4 +1,4 @@
-"""The figures of a study's run: mechanisms, condition number about the design and at each pose, convergence."""
+"""The figures of a study's run: mechanisms, condition number about it and at each pose; convergence if asked."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.pose import Pose
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.result import Result
 from ninedof.paper import published
@@ -16,6 +17,7 @@ from ninedof.paper.comparison import Comparison
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.units import amount
+from ninedof.workspace.region_share import region_lines
 
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
@@ -30,8 +32,11 @@ TRACED_STARTS = 200  # runs shown in the convergence figure, at one pose
 FEWEST_TRACED = 10  # however many poses each run evaluates
 
 
-def figures_of(run: Result | Comparison, say: Say) -> Callable[[Path], list[Path]] | None:
-    """Return a function that draws the figures into a folder; None for an interrupted run or one without an optimum."""
+def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) -> Callable[[Path], list[Path]] | None:
+    """Return a function that draws the figures into a folder; None for an interrupted run or one without an optimum.
+
+    The convergence follows hundreds of starts to their ends, which takes longer than the optimization: drawn if asked.
+    """
     designs: list[Named]
     if isinstance(run, Result):
         # Without a least value there is no design to draw.
@@ -45,17 +50,23 @@ def figures_of(run: Result | Comparison, say: Say) -> Callable[[Path], list[Path
         result, compared = run.result, {"level": published.KAPPA, "crossings": run.crossings}
     if result.interrupted or not designs:
         return None
-    return lambda directory: _figures(designs, result, directory, say, **compared)
+    return lambda directory: _figures(designs, result, directory, say, convergence, **compared)
 
 
-def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **compared: Any) -> list[Path]:
-    """Draw the designs in space, their condition number along zs and theta_z, and the convergence."""
+def _figures(
+    designs: list[Named], result: Result, directory: Path, say: Say, convergence: bool, **compared: Any
+) -> list[Path]:
+    """Draw the designs in space, their condition number along zs and theta_z and at poses, and the convergence."""
     say("drawing the mechanisms")
     from ninedof import plot
 
     unit = "l_c" if compared else result.study.unit  # the paper's unit; a study keeps its own
     note = "" if compared else unit
-    panels = [plot.Mechanism(name, g, c, kappa, _heights(c, note)) for name, g, c, kappa, _ in designs]
+    region = None if compared else result.study.objective.region
+    panels = [
+        plot.Mechanism(name, g, c, kappa, _heights(c, note), () if region is None else region_lines(region, c))
+        for name, g, c, kappa, _ in designs
+    ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
     say("drawing the condition number along zs and theta_z")
     curves = [_curves(*designs[0], **compared), *(_curves(*design) for design in designs[1:])]
@@ -63,9 +74,13 @@ def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **
     if result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
         conditions = plot.PoseConditions("optimum", result.best.conditions)
-        files += plot.save(plot.poses([conditions]), directory, "poses")
-    say("drawing the convergence")
+        names = () if region is not None else _pose_names(result, len(result.best.conditions))
+        files += plot.save(plot.poses([conditions], names), directory, "poses")
+    if not convergence:
+        return files
+    say("tracing the starts for the convergence, minimax and plain")
     runs = {formulation: _traces(result, formulation) for formulation in ("minimax", "plain")}
+    say("drawing the convergence")
     if runs["minimax"] and result.objective is not None:
         files += plot.save(plot.convergence(runs["minimax"], runs["plain"], result.objective), directory, "convergence")
     return files
@@ -74,6 +89,21 @@ def _figures(designs: list[Named], result: Result, directory: Path, say: Say, **
 def _heights(c: Configuration, unit: str) -> str:
     zp, zs = (amount(f"{point[2]:.4f}", unit) for point in (c.position, c.internal_point))
     return f"zp = {zp}, zs = {zs}"
+
+
+def _pose_names(result: Result, count: int) -> list[str]:
+    """Return names of the poses of a study by their shifts from the neutral pose; none if they are not its list."""
+    poses = result.study.objective.poses
+    if len(poses) not in (count, count - 1):
+        return []
+    return ["neutral"] * (count - len(poses)) + [_pose_name(pose) for pose in poses]
+
+
+def _pose_name(pose: Pose) -> str:
+    scale = " zp" if pose.unit == "zp" else ""
+    shifts = [f"{axis} {x:+.3g}{scale}" for axis, x in zip("xyz", pose.position, strict=True) if x]
+    turns = [f"θ{axis} {np.degrees(x):+.3g}°" for axis, x in zip("xyz", pose.rotation, strict=True) if x]
+    return ", ".join(shifts + turns).replace("-", "\N{MINUS SIGN}") or "neutral"
 
 
 def _curves(

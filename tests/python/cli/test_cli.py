@@ -5,10 +5,12 @@ import shlex
 import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 
+import ninedof as nd
 from ninedof.cli.app import app, main
 
 
@@ -43,8 +45,9 @@ def test_main_job(capsys, tmp_path):
     ):
         assert figure in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    stems = ("mechanism", "condition", "convergence")
-    assert names == {"record.json", "report.html"} | {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg")}
+    stems = ("mechanism", "condition")
+    drawn = {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg", "pdf")}
+    assert names == {"record.json", "report.html"} | drawn
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["study"]["solver"] == {"starts": 64, "seed": 0}
     assert {"ninedof", "python", "numpy"} <= set(record["versions"])
@@ -207,6 +210,18 @@ def test_paper_prints_a_verdict_on_every_number(capsys):
         r["where"] for r in rows
     }
     assert all(r["verdict"] for r in rows)
+
+
+def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkeypatch):
+    """Without Figs. 6 and 7, whose sweeps have tests of their own."""
+    few = {name: partial(nd.sweep_figure, name, points) for name, points in (("6", 5), ("7", 2))}
+    monkeypatch.setattr("ninedof.runs.paper_figures.sweep_figure", lambda name: few[name]())
+    status, _, err = run(capsys, "paper --figures --json --out figures")
+    assert status == 0
+    assert "drawing Fig. 5, the plates" in err
+    drawn = {f"figure_{k}.{kind}" for k in range(1, 8) for kind in ("png", "svg", "pdf")}
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == drawn
+    assert run(capsys, "paper --out other")[0] == 2
 
 
 @pytest.mark.parametrize("line", ["--help", "optimize --help", "evaluate -h", "paper --help"])

@@ -41,7 +41,7 @@ def test_a_circle_of_the_published_design(capsys, tmp_path):
     assert "limit breaks: l1 high, from t = 0.159" in out
     assert "never move: q1, q2, q3" in out
     assert "tracked back from the leg lengths, every step proved" in out
-    files = {"record.json", "legs.csv", "poses.csv", "motion.npz", "motion.png", "motion.svg"}
+    files = {"record.json", "legs.csv", "poses.csv", "motion.npz", "motion.png", "motion.svg", "motion.pdf"}
     assert {file.name for file in (tmp_path / "run").iterdir()} == files
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["kind"] == "motion"

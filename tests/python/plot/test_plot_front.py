@@ -9,6 +9,7 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.patches import Polygon
 from sizes import size
+from words import outside, overlaps
 
 import ninedof as nd
 from ninedof import plot
@@ -133,7 +134,7 @@ def test_plates_are_drawn_in_the_order_of_their_limits():
 
 def test_every_pose_is_drawn():
     axes = drawn("poses").axes[0]
-    first, second = ([y for _, y, colour in marks(axes, "o") if colour == c.lower()] for c in style.SERIES[:2])
+    first, second = ([y for _, y, _ in marks(axes, marker)] for marker in style.MARKS[:2])
     assert first == [4.0, 4.2, 4.1, 4.3]
     assert second == [3.8, 5.1, 4.4, 7.0]
     assert [label.get_text() for label in axes.get_xticklabels()] == POSES
@@ -154,30 +155,9 @@ def test_singular_poses_are_at_the_upper_edge():
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_nothing_leaves_the_figure(name):
-    figure = drawn(name)
-    low, high = figure.get_tightbbox().get_points()
-    assert np.all(low > 0)
-    assert np.all(high < figure.get_size_inches())
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_no_words_on_words(name):
-    """Titles, labels, ticks and legends of a figure keep apart."""
-    figure = drawn(name)
-    renderer = figure.canvas.get_renderer()
-    texts = [t for axes in figure.axes if axes.axison for t in (axes.xaxis.label, axes.yaxis.label)]
-    texts += [t for axes in figure.axes for t in (axes.title, axes._left_title)]
-    for axes in figure.axes:
-        low, high = axes.get_ylim()
-        texts += [t for t in axes.get_yticklabels() if axes.axison and low <= t.get_position()[1] <= high]
-    legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
-    boxes = [t.get_window_extent(renderer) for t in [*texts, *legends] if not hasattr(t, "get_text") or t.get_text()]
-    for k, box in enumerate(boxes):
-        assert not any(box.overlaps(other) for other in boxes[k + 1 :])
-    ticks = [t.get_window_extent(renderer) for axes in figure.axes for t in axes.get_xticklabels() if t.get_text()]
-    for legend in figure.legends:
-        assert not any(legend.get_window_extent(renderer).overlaps(tick) for tick in ticks)
+def test_no_words_on_words_and_nothing_outside(name):
+    assert overlaps(drawn(name)) == []
+    assert outside(drawn(name)) == []
 
 
 @pytest.mark.parametrize("name", size(["front with plates", "singular pose", "many poses"], FIGURES))

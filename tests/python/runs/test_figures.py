@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.runs.figures import _curves, figures_of
+from ninedof.runs.figures import _curves, _pose_name, figures_of
 from ninedof.runs.folder import write_run
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
@@ -24,6 +24,24 @@ def test_curves_pass_through_the_design_at_its_own_characteristic_length():
     assert kappa == best.condition_number
     assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(kappa, rel=1e-3)
     assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(kappa, rel=1e-3)
+
+
+def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
+    """It follows starts for longer than the optimization takes."""
+    monkeypatch.setattr("ninedof.runs.figures._traces", lambda result, form: [(4.0, 3.9)])
+    monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [folder / stem])
+    result, said = nd.optimize(STUDY, starts=4), []
+    default = figures_of(result, said.append)(tmp_path)
+    assert [path.name for path in default] == ["mechanism", "condition"]
+    assert not any("convergence" in words for words in said)
+    asked = figures_of(result, said.append, convergence=True)(tmp_path)
+    assert [path.name for path in asked] == ["mechanism", "condition", "convergence"]
+    assert any(words.startswith("tracing the starts") for words in said)
+
+
+def test_poses_are_named_by_their_shifts():
+    poses = (nd.Pose(), nd.Pose((0.1, 0.0, -0.2), unit="zp"), nd.Pose(rotation=(0.0, np.radians(10), 0.0)))
+    assert [_pose_name(pose) for pose in poses] == ["neutral", "x +0.1 zp, z \N{MINUS SIGN}0.2 zp", "θy +10°"]
 
 
 def test_no_figures_without_an_optimum(tmp_path):

@@ -235,7 +235,7 @@ def test_the_figure_has_the_given_sections_and_limits(found):
     assert titles[:2] == ["y = 0 m", "z = 4.8 m"]
     assert figure.axes[0].get_xlabel() == "x (m)"
     words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert set(words) == {"external legs", "upper internal legs", "condition number"}
+    assert set(words) == {"external legs", "upper internal legs", "condition number", "largest ball"}
     with pytest.raises(ValueError, match="sections: got 0"):
         plot.workspace([], found.limit_names, found.limits(), found.percentiles, found.levels)
 

@@ -42,6 +42,10 @@ def optimize(
     threads: Threads = None,
     figures: Figures = True,
     report: Report = True,
+    convergence: Annotated[
+        bool,
+        typer.Option("--convergence", help="Also follow many starts to their ends and draw how they converge."),
+    ] = False,
     check: Annotated[
         bool, typer.Option("--check", help="Verify the best design by independent methods and print the report.")
     ] = False,
@@ -51,18 +55,20 @@ def optimize(
     screen = Screen(json)
     thread_argument(threads)
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
+    if convergence and not figures:
+        raise ValueError("--convergence: got it with --no-figures, expected one of the two")
     directory = new_directory(out)
     run = _solve_paper(chosen, threads, screen) if study is None else _solve_study(chosen, study.name, threads, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
-    draw = figures_of(run, screen.say) if figures else None
+    draw = figures_of(run, screen.say, convergence) if figures else None
     record = write_run(run, directory, with_report(draw, figures and report, screen))
     if check and result.best is not None:
         verdict = examine(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     stems = sorted({path.stem for path in directory.glob("*.png")})
-    drawn = f", figures {', '.join(stems)} (PNG and SVG)" if stems else ""
+    drawn = f", figures {', '.join(stems)} (PNG, SVG, PDF)" if stems else ""
     screen.print(f"run folder {directory}: {record.name}{drawn}{report_words(directory)}")
     screen.data({**unit_entry(chosen.unit), **data, "record": str(record)})
     raise typer.Exit(exit_status(result))

@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Annotated
+
+import typer
 from rich.table import Table
 
 from ninedof.cli.options import Json, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts
+from ninedof.runs.directory import new_directory
+from ninedof.runs.paper_figures import paper_figures
+from ninedof.support.arrays import thread_argument
 
 PLACE = 7
-EXAMPLES = "[bold]Example[/bold]\n\n  ninedof paper --json | jq '.[].verdict'"
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof paper --json | jq '.[].verdict'
+
+  ninedof paper --figures --out figures    Figs. 1 to 7, drawn anew"""
 
 
-def paper(threads: Threads = None, json: Json = False) -> None:
-    """Print every number of the paper beside ours, and a verdict on each."""
+def paper(
+    figures: Annotated[bool, typer.Option("--figures", help="Draw the seven figures of the paper too.")] = False,
+    out: Annotated[Path | None, typer.Option(help="Folder of the figures; runs/<time> by default.")] = None,
+    threads: Threads = None,
+    json: Json = False,
+) -> None:
+    """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
     screen = Screen(json)
+    thread_argument(threads)
+    if out is not None and not figures:
+        raise ValueError(f"--out: got {out} without --figures, expected both")
+    directory = new_directory(out) if figures else None
     found = verdicts(threads)
     table = Table(
         title="The paper's numbers and ours, lengths in units of l_c", title_justify="left", title_style="bold"
@@ -24,4 +44,7 @@ def paper(threads: Threads = None, json: Json = False) -> None:
     for v in found:
         table.add_row(v.where, v.printed, v.ours, v.verdict, end_section=True)
     screen.print(table)
+    if directory is not None:
+        paper_figures(directory, screen.say)
+        screen.print(f"folder {directory}: figure_1 to figure_7 (PNG, SVG, PDF)")
     screen.data([{"where": v.where, "printed": v.printed, "ours": v.ours, "verdict": v.verdict} for v in found])

@@ -97,7 +97,7 @@ def pareto(
     drawn = figures and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
     record = write_run(front, directory, with_report(draw, figures and report, screen))
-    figure = ", figure front (PNG and SVG)" if drawn else ""
+    figure = ", figure front (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {record.parent}: {record.name}{figure}{report_words(directory)}")
     screen.data({"front": front.to_dict(), "record": str(record)})
     if front.interrupted:

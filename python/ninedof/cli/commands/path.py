@@ -120,7 +120,7 @@ def path(
     }
     drawing = partial(draw, found, screen, of_study) if figures else None
     record = write_motion(found, directory, drawing, question, of_study)
-    figure = ", figure motion (PNG and SVG)" if figures else ""
+    figure = ", figure motion (PNG, SVG, PDF)" if figures else ""
     screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")
     screen.data({"motion": plain(found, of_study), "record": str(record)})
     broken = found.breaks or (of_study is not None and of_study.breaks)

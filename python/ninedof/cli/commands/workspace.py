@@ -190,10 +190,11 @@ def workspace(
         screen.print(region_words(region_asked, share, given.unit))
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
-    outlined = None if region_asked is None or archetype == "orientation" else (region_asked, home)
-    drawing = with_report(partial(draw, found, screen, outlined) if drawn else None, figures and report, screen)
-    record = write_run(found, directory, drawing, question)
-    figure = ", figure workspace (PNG and SVG)" if drawn else ""
+    outlined = None if archetype == "orientation" else region_asked
+    drawing = partial(draw, found, screen, home, outlined) if drawn else None
+    record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
+    names = " and ".join(sorted(path.stem for path in directory.glob("*.png")))
+    figure = f", figures {names} (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, map.npz{figure}{report_words(directory)}")
     data = {"workspace": found.to_dict(), "record": str(record)}
     screen.data(data | ({} if share is None else {"region": share._asdict()}))
