@@ -216,11 +216,11 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkey
     """Without Figs. 6 and 7, whose sweeps have tests of their own."""
     few = {name: partial(nd.sweep_figure, name, points) for name, points in (("6", 5), ("7", 2))}
     monkeypatch.setattr("ninedof.runs.paper_figures.sweep_figure", lambda name: few[name]())
+    monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [(folder / f"{stem}.png").touch()])
     status, _, err = run(capsys, "paper --figures --json --out figures")
     assert status == 0
     assert "drawing Fig. 5, the plates" in err
-    drawn = {f"figure_{k}.{kind}" for k in range(1, 8) for kind in ("png", "svg", "pdf")}
-    assert {path.name for path in (tmp_path / "figures").iterdir()} == drawn
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {f"figure_{k}.png" for k in range(1, 8)}
     assert run(capsys, "paper --out other")[0] == 2
 
 

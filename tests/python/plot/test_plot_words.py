@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from sizes import size
 from words import outside, overlaps, unnamed
 
 import ninedof as nd
@@ -97,7 +98,10 @@ def made(name):
     return FIGURES[name]()
 
 
-@pytest.mark.parametrize("name", FIGURES)
+SLOW = ("maps", "margins", "atlas", "figure 2", "figure 4", "figure 5, joints coupled", "figure 1, joints apart")
+
+
+@pytest.mark.parametrize("name", size([name for name in FIGURES if name not in SLOW], FIGURES))
 def test_no_two_texts_intersect_and_axes_have_names(name):
     figure = made(name)
     with style.settings():
@@ -106,7 +110,7 @@ def test_no_two_texts_intersect_and_axes_have_names(name):
         assert outside(figure) == []
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", size([name for name in FIGURES if name not in SLOW], FIGURES))
 def test_figures_have_a_width_of_print(name):
     assert made(name).get_size_inches()[0] <= style.TWO_COLUMNS + 1e-9
 

@@ -1,5 +1,6 @@
 """The texts of a figure as they lie on the page: which of them intersect, and which axes lack a name or a unit."""
 
+import functools
 import itertools
 
 import numpy as np
@@ -22,6 +23,7 @@ def outside(figure):
     return found + ["ink"] * bool((edge < 250).any())
 
 
+@functools.lru_cache(maxsize=2)
 def words(figure):
     """Every text that is drawn, with its four corners in pixels, shape (4, 2)."""
     drawn = {}
