@@ -13,10 +13,11 @@ from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.motion import motion
 from ninedof.plot.paper_figures import figure_1, figure_2, figure_3, figure_4
+from ninedof.plot.paper_sweeps import figure_6, figure_7
 from ninedof.plot.pose_conditions import PoseConditions, poses
 from ninedof.plot.section import Section
 from ninedof.plot.style import save
-from ninedof.plot.sweep import figure_6, figure_7, sweep
+from ninedof.plot.sweep import sweep
 from ninedof.plot.workspace import workspace
 
 __all__ = [

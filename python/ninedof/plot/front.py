@@ -29,9 +29,9 @@ class Sketch(NamedTuple):
 
 # Joints are told apart by shape too; where two coincide the smaller lies on the larger.
 JOINTS: tuple[tuple[str, str, dict[str, Any]], ...] = (
-    ("base, external", style.EXTERNAL, {"marker": "o", "ms": 5.5, "mec": "white", "mew": 0.5, "ls": ""}),
+    ("base, external", style.EXTERNAL, {"marker": "o", "ms": 6.5, "mec": "white", "mew": 0.5, "ls": ""}),
     ("base, internal", style.LOWER, {"marker": "s", "ms": 3.8, "mec": "white", "mew": 0.5, "ls": ""}),
-    ("platform, external", style.EXTERNAL, {"marker": "o", "ms": 5.5, "mfc": "white", "mew": 1.1, "ls": ""}),
+    ("platform, external", style.EXTERNAL, {"marker": "o", "ms": 6.5, "mfc": "white", "mew": 1.1, "ls": ""}),
     ("platform, internal", style.UPPER, {"marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""}),
 )
 
