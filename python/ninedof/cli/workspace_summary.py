@@ -136,9 +136,11 @@ def draw(
     unit = "rad" if found.of_angles else found.unit
     figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)
     files = plot.save(figure, directory, "workspace")
+    if found.of_angles:
+        return files
     screen.say("drawing the body of the workspace")
     surface = found.surface()
-    if len(surface.faces) and not found.of_angles:
+    if len(surface.faces):
         lines = () if region is None else region_lines(region, home)
         body = plot.workspace_body(surface, found.coordinates, home=home.position, lines=lines, unit=found.unit)
         files += plot.save(body, directory, "workspace_body")

@@ -233,12 +233,12 @@ def test_help(capsys, line):
         assert "Example" in out
 
 
-def test_every_command_has_a_row_in_the_readme():
+def test_every_command_has_a_row_in_the_tour():
     commands = [command.callback.__name__ for command in app.registered_commands]
     assert len(commands) > 6
     assert commands[0] == "optimize"
-    readme = (Path(__file__).resolve().parents[3] / "README.md").read_text()
-    rows = [row for row in readme.splitlines() if row.startswith("| `ninedof")]
+    tour = (Path(__file__).resolve().parents[3] / "docs" / "tour.md").read_text()
+    rows = [row for row in tour.splitlines() if row.startswith("| `ninedof")]
     assert [name for name in commands if not any(f"ninedof {name}" in row for row in rows)] == []
 
 

@@ -193,8 +193,8 @@ def workspace(
     outlined = None if archetype == "orientation" else region_asked
     drawing = partial(draw, found, screen, home, outlined) if drawn else None
     record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
-    names = " and ".join(sorted(path.stem for path in directory.glob("*.png")))
-    figure = f", figures {names} (PNG, SVG, PDF)" if drawn else ""
+    names = sorted(path.stem for path in directory.glob("*.png"))
+    figure = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, map.npz{figure}{report_words(directory)}")
     data = {"workspace": found.to_dict(), "record": str(record)}
     screen.data(data | ({} if share is None else {"region": share._asdict()}))
