@@ -25,8 +25,8 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     ----------
     result : SweepResult
         The result of `ninedof.atlas`.
-    optimum : (radius_ratio, condition_number), optional
-        A known optimum to mark.
+    optimum : tuple of float, optional
+        Radius ratio and condition number of a known optimum, which is marked. Without it none is.
 
     Examples
     --------

@@ -1,0 +1,81 @@
+"""The tree of pages. The pages themselves stay plain Markdown: Sphinx gets its lists of pages from here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+# Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
+TREE = {
+    "index": [
+        ("Start", ["first-design", "requirement", "gallery/index"]),
+        (
+            "Guides",
+            [
+                f"guides/{name}"
+                for name in ["characteristic-length", "regions", "reading-a-map", "assembly-modes", "confidence"]
+            ],
+        ),
+        (
+            "Subjects",
+            [
+                "conventions",
+                "kinematics",
+                "workspace",
+                "optimization",
+                "sweeps",
+                "study-file",
+                "figures",
+                "viewer",
+                "report",
+                "exports",
+            ],
+        ),
+        ("The paper", ["paper", "values", "equations"]),
+        ("Theory and code", ["theory/index", "reference/index", "architecture", "extend", "comparison"]),
+        ("Project", ["project/*"]),
+    ],
+    "theory/index": [
+        (
+            "",
+            [
+                f"theory/{name}"
+                for name in [
+                    "velocity",
+                    "conditioning",
+                    "closed-form",
+                    "position",
+                    "singularity",
+                    "statics",
+                    "redundancy",
+                    "kernels",
+                    "design",
+                    "minimax",
+                    "limits",
+                    "workspace",
+                ]
+            ],
+        )
+    ],
+    "gallery/index": [("", ["gallery/examples/*"])],
+    "reference/index": [
+        ("Python", ["reference/python/*"]),
+        ("Command line", ["reference/commands/*"]),
+        ("C++", ["reference/cpp/*"]),
+    ],
+}
+
+
+def below(docs: Path, page: str) -> str:
+    """Return the lists of the pages below `page`, as Sphinx reads them; pages that do not exist are left out."""
+    lists = []
+    for heading, patterns in TREE.get(page, []):
+        names = [
+            str(path.relative_to(docs).with_suffix(""))
+            for pattern in patterns
+            for path in sorted(docs.glob(f"{pattern}.md"))
+        ]
+        shown = "hidden" if page in ("index", "gallery/index", "theory/index") else "titlesonly"
+        lists.append(
+            "\n".join(["\n\n```{toctree}", f":caption: {heading}", f":{shown}:", "", *(f"/{n}" for n in names), "```"])
+        )
+    return "".join(lists).replace(":caption: \n", "") + "\n"
