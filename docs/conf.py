@@ -36,7 +36,6 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_preprocess_types = False
 default_role = "public"  # `name` in a docstring is a link where the name is public
-python_use_unqualified_type_names = True
 add_module_names = False
 python_maximum_signature_line_length = 90
 
@@ -55,6 +54,7 @@ def setup(app):
     """Make the pages that come from the sources; complete each page as it is read."""
     app.add_role("public", docstrings.public_name)
     app.connect("autodoc-process-docstring", docstrings.read, priority=400)
+    app.connect("doctree-read", docstrings.keep_public_links)
     app.connect("doctree-read", formulas.lower_indices)
     app.connect("builder-inited", lambda app: builder.generate(DOCS))
     app.connect("source-read", lambda app, page, source: builder.complete(DOCS, page, source))

@@ -34,4 +34,15 @@ def complete(docs: Path, page: str, source: list[str]) -> None:
     text = links.within_site(source[0], here, here, docs)
     if page == "gallery/index":
         text += gallery.cards(docs / "gallery/examples")
-    source[0] = text + contents.below(docs, page)
+    source[0] = fences(text) + contents.below(docs, page)
+
+
+def fences(text: str) -> str:
+    """Return `text` with a name for each fenced block without one, so that it is told from an indented formula."""
+    lines, inside = text.split("\n"), False
+    for k, line in enumerate(lines):
+        if line.startswith("```"):
+            inside = not inside
+            if inside and line == "```":
+                lines[k] = "```text"
+    return "\n".join(lines)

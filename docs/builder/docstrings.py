@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from docutils import nodes
+from sphinx import addnodes
 from sphinx.roles import XRefRole
 
 import ninedof as nd
@@ -15,7 +16,7 @@ def read(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[s
     """Prepare the lines of a docstring in place, before the sections of numpy's style are read."""
     escape_bars(lines)
     if what in ("attribute", "property", "data"):
-        lines.insert(0, "")  # or the words before a colon in the first line are taken for a type
+        lines[:0] = ["..", ""]  # an empty comment, or the words before a colon in the first line are taken for a type
 
 
 def escape_bars(lines: list[str]) -> None:
@@ -37,3 +38,11 @@ def public_name(
         words = f"{text} <ninedof.{target}>"
         return XRefRole()("py:obj", f":py:obj:`{words}`", words, lineno, inliner, options or {}, list(content))
     return [nodes.literal(rawtext, text)], []
+
+
+def keep_public_links(app: Any, document: nodes.document) -> None:
+    """Make words of the types of parameters plain, in place, unless they are public names: "shape" is no attribute."""
+    for link in list(document.findall(addnodes.pending_xref)):
+        target = str(link.get("reftarget"))
+        if link.get("refdomain") == "py" and not target.startswith("ninedof.") and target not in nd.__all__:
+            link.replace_self(link.children)

@@ -8,20 +8,21 @@ from typing import Any
 from docutils import nodes
 
 # One letter, perhaps with accents of its own, then what is set lower: a word of up to three letters, or digits.
-INDEX = re.compile(r"(?<![\ẁ-ͯ])([^\W\d_][̀-ͯ]*)_((?:max|min|mid|[A-Za-z]|\d{1,2})(?![\w(]))")
+INDEX = re.compile(r"(?<![A-Za-z0-9_])([^\W\d_][\u0300-\u036f]*)_((?:max|min|mid|[A-Za-z]|\d{1,2})(?![A-Za-z0-9_]))")
 KEPT = (nodes.literal, nodes.raw, nodes.image)
 
 
 def lower_indices(app: Any, document: nodes.document) -> None:
     """Set indices lower, in text and in formulas, in place; code keeps its names."""
+    for block in document.findall(nodes.literal_block):
+        if block.get("language", "none") == "none":
+            block.rawsource = ""  # or Sphinx would highlight it, and lose the indices
     for text in list(document.findall(nodes.Text)):
         if INDEX.search(text) and not _is_code(text):
             block = text.parent
             at = block.index(text)
             block.remove(text)
             block.insert(at, _pieces(str(text)))
-            if isinstance(block, nodes.literal_block):
-                block.rawsource = ""  # or Sphinx would highlight it, and lose the indices
 
 
 def _is_code(text: nodes.Text) -> bool:

@@ -67,7 +67,8 @@ def run(path: Path, pages: Path) -> Example:
         robot = path if path.suffix == ".toml" and "evaluate" in command else Path(folder) / "run"
         if path.suffix == ".toml":
             draw(robot, drawn)
-        figure = f"{path.stem}.png" if drawn.is_file() else None
+        kind = "robot" if path.suffix == ".toml" else "figure"
+        figure = f"{kind}_{path.stem}.png" if drawn.is_file() else None
         if figure:
             shutil.copy(drawn, pages / figure)
     printed = re.sub(r"\n.*(run folder|figures?: ).*", "", done.stdout.replace(folder, "")).rstrip()
@@ -92,7 +93,7 @@ def draw(source: Path, file: Path) -> None:
     kappa = float(nd.condition_number(found.geometry, found.configuration, found.characteristic_length))
     panel = nd.plot.Mechanism("", found.geometry, found.configuration, kappa)
     with DRAWING:
-        nd.plot.mechanisms([panel]).savefig(file, dpi=110)
+        nd.plot.mechanisms([panel]).savefig(file, dpi=110, bbox_inches="tight")
 
 
 def title(code: str) -> str:
@@ -101,7 +102,7 @@ def title(code: str) -> str:
         words = ast.get_docstring(ast.parse(code)) or ""
     else:
         words = " ".join(line.lstrip("# ") for line in code.partition("\n\n")[0].splitlines() if line.startswith("#"))
-    first = re.split(r"(?<!qs)(?<=[.?!])\s|:\s|, for `", " ".join(words.split()))[0]
+    first = re.split(r"(?<!qs\.)(?<=[.?!])\s|:\s|, for `", " ".join(words.split()))[0]
     return first.rstrip(".").replace("`", "")
 
 
@@ -109,7 +110,11 @@ def cards(pages: Path) -> str:
     """Return the list of examples for the page of the gallery, those with a figure as pictures."""
     lines = ["", "", "````{container} gallery", ""]
     for path in sorted(pages.glob("*.md")):
-        name = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
-        picture = [f"  ![{name}](examples/{path.stem}.png)", ""] if path.with_suffix(".png").is_file() else []
-        lines += [f"- [{name}](examples/{path.name})", "", *picture]
+        text = path.read_text(encoding="utf-8")
+        name = text.partition("\n")[0].lstrip("# ")
+        printed = text.partition("It prints\n\n```text\n")[2].splitlines()[:9]
+        figures = sorted(path.parent.glob(f"*_{path.stem}.png"))
+        seen = [f"![{name}](examples/{figure.name})" for figure in figures] or ["```text", *printed]
+        seen += [] if figures or "```" in printed else ["```"]
+        lines += [f"- [{name}](examples/{path.name})", "", *(f"  {line}" for line in seen), ""]
     return "\n".join([*lines, "````", ""])
