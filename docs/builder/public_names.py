@@ -24,6 +24,9 @@ ROOMS = {
     "sweep": "Sweeps",
     "atlas": "Many designs at once",
     "runs": "Files and run folders",
+    "export": "Exports",
+    "report": "The report",
+    "viewer": "The viewer",
 }
 MODULES = {"poses": "Sets of poses: ninedof.poses", "plot": "Figures: ninedof.plot"}
 
