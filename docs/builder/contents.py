@@ -7,7 +7,7 @@ from pathlib import Path
 # Page: groups of (heading, pages). A pattern stands for all pages it matches, in the order of their names.
 TREE = {
     "index": [
-        ("Start", ["first-design", "requirement", "gallery/index"]),
+        ("Start", ["first-design", "requirement", "tour", "gallery/index"]),
         (
             "Guides",
             [
