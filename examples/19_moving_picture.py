@@ -47,7 +47,7 @@ def write(file: str) -> None:
         plot.draw_mechanism(space, g, best[k], limits=(3.7, 0.0, 5.4), legend=False)
         dot.set_data([degrees[k]], [curves["O at its best"][k]])
 
-    FuncAnimation(figure, draw, frames=FRAMES).save(file, writer=PillowWriter(fps=14), dpi=80)
+    FuncAnimation(figure, draw, frames=FRAMES).save(file, writer=PillowWriter(fps=14), dpi=100)
 
 
 for name in sys.argv[1:]:

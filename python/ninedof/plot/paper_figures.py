@@ -40,7 +40,7 @@ def figure_1(geometry: Geometry, configuration: Configuration, unit: str = "") -
     --------
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    >>> figure = nd.plot.figure_1(g, nd.Configuration([0.6, 0.3, 4.0], nd.rotation_vector([0.1, -0.1, 0.1]), [0, 0, 2]))
+    >>> figure = nd.plot.figure_1(g, nd.Configuration([0.6, 0.3, 4.0], internal_point=[0, 0, 2]))
 
     """
     points = all_points(geometry, configuration)

@@ -80,7 +80,7 @@ def test_the_command_prints_and_records(tmp_path, capsys):
     for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
         assert words in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    assert names == {"record.json", "front.png", "front.svg", "front.pdf", "chunks"}
+    assert names == {"record.json", "report.html", "front.png", "front.svg", "front.pdf", "chunks"}
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
