@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.screen import Screen
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
@@ -58,8 +59,9 @@ def write(
     draw: Callable[[], Iterable[tuple[str, Figure]]] | None,
     screen: Screen,
     data: Any,
+    report: bool = True,
 ) -> None:
-    """Write the result, its record and its figures, each with its name; print the names."""
+    """Write the result, its record, its figures, each with its name, and its report; print the names."""
     names: list[str] = []
 
     def drawn(folder: Path) -> list[Path]:
@@ -72,9 +74,10 @@ def write(
             files += plot.save(figure, folder, name)
         return files
 
-    record = write_run(result, directory, drawn if draw else None, results=data)
+    drawing = with_report(drawn if draw else None, report and draw is not None, screen)
+    record = write_run(result, directory, drawing, results=data)
     made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
-    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}")
+    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}{report_words(directory)}")
     screen.data({**data, "record": str(record)})
 
 

@@ -172,15 +172,6 @@ def _volume(found: WorkspaceMap) -> Html:
     return beside(facts(rows), ends)
 
 
-def of_others(record: Any, name: str) -> Page:
-    """Return the page of a run that has figures and a record only: a sweep, an atlas or a motion."""
-    sections = [
-        Section("question", "Question", paragraphs([f"A run of kind “{record.kind}”; its figures are below."])),
-        Section("again", "How to reproduce it", origin.of_question(record.asked, record)),
-    ]
-    return Page(record.kind, f"{record.kind.capitalize()} {name}", [("files", len(record.files))], sections)
-
-
 def of_comparison(rows: Any) -> Html:
     """Return the published optimum beside ours."""
     head = ("design", "condition number", "a1, a2", "b1, b2", "zp", "zs")

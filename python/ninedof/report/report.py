@@ -11,9 +11,10 @@ from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.report.figures import stems
 from ninedof.report.markup import Section, joined
-from ninedof.report.other_pages import of_comparison, of_front, of_others, of_workspace
+from ninedof.report.other_pages import of_comparison, of_front, of_workspace
 from ninedof.report.page import page
 from ninedof.report.pages import Page, of_result
+from ninedof.report.recorded import of_recorded
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import Record, load_record
@@ -87,7 +88,7 @@ def _page_of(found: Any, record: Record, name: str, point: bool = False) -> Page
     if isinstance(found, WorkspaceMap):
         return of_workspace(found, record, name)
     if not isinstance(found, Result):
-        return of_others(record, name)
+        return of_recorded(record, name)
     made = of_result(found, record, name)
     if record.kind != "comparison" or point:
         return made

@@ -42,6 +42,7 @@ def test_a_circle_of_the_published_design(capsys, tmp_path):
     assert "never move: q1, q2, q3" in out
     assert "tracked back from the leg lengths, every step proved" in out
     files = {"record.json", "legs.csv", "poses.csv", "motion.npz", "motion.png", "motion.svg", "motion.pdf"}
+    files.add("report.html")
     assert {file.name for file in (tmp_path / "run").iterdir()} == files
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["kind"] == "motion"

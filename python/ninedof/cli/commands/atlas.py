@@ -13,7 +13,7 @@ from rich.table import Table
 from ninedof.atlas import atlas as survey
 from ninedof.atlas.sample import squared_radius_ratio
 from ninedof.cli.long_run import compute, run_folder, write
-from ninedof.cli.options import Figures, Json, Out, Resume, Scheduler
+from ninedof.cli.options import Figures, Json, Out, Report, Resume, Scheduler
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.study import Study
@@ -38,6 +38,7 @@ def atlas(
     resume: Resume = False,
     scheduler: Scheduler = None,
     figures: Figures = True,
+    report: Report = True,
     json: Json = False,
 ) -> None:
     """Survey the hexagonal family: the distribution of its designs, and the best for each size of the base."""
@@ -68,7 +69,7 @@ def atlas(
         sides = np.array([[best.variables[name] for name in HEXAGONAL]])
         return [("atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number)))]
 
-    write(result, directory, "atlas", draw if figures else None, screen, data)
+    write(result, directory, "atlas", draw if figures else None, screen, data, report)
 
 
 def _table(result: SweepResult) -> Table:

@@ -10,8 +10,9 @@ import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
+from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.motion_summary import draw, legs_table, limits_table, sentences
-from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out
+from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.motion import Trajectory, follow
@@ -83,6 +84,7 @@ def path(
     lc: Lc = None,
     out: Out = None,
     figures: Figures = True,
+    report: Report = True,
     json: Json = False,
 ) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
@@ -119,8 +121,9 @@ def path(
         **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }
     drawing = partial(draw, found, screen, of_study) if figures else None
-    record = write_motion(found, directory, drawing, question, of_study)
+    record = write_motion(found, directory, with_report(drawing, figures and report, screen), question, of_study)
     figure = ", figure motion (PNG, SVG, PDF)" if figures else ""
+    figure += report_words(directory)
     screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")
     screen.data({"motion": plain(found, of_study), "record": str(record)})
     broken = found.breaks or (of_study is not None and of_study.breaks)

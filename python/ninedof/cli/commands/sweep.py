@@ -84,6 +84,7 @@ def sweep(
     scheduler: options.Scheduler = None,
     threads: options.Threads = None,
     figures: options.Figures = True,
+    report: options.Report = True,
     json: options.Json = False,
 ) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
@@ -127,7 +128,7 @@ def sweep(
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     screen.print(summary_table(summary, title, result.units))
     draw = (lambda: _figures(result, what)) if figures else None
-    write(result, directory, "sweep", draw, screen, json_data(result, summary))
+    write(result, directory, "sweep", draw, screen, json_data(result, summary), report)
 
 
 def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str, Values]:

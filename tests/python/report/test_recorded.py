@@ -1,0 +1,82 @@
+"""The pages of a motion, a sweep and an atlas say what their records hold."""
+
+import json
+import re
+
+import pytest
+
+from ninedof.cli.app import main
+
+DESIGN = """
+unit = "mm"
+[geometry]
+a1 = 0.0
+a2 = 581.24
+b1 = 290.62
+b2 = 0.0
+[configuration]
+zp = 398.28
+zs = 244.35
+"""
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "design.toml").write_text(DESIGN)
+    return tmp_path
+
+
+def run(*arguments):
+    with pytest.raises(SystemExit) as ended:
+        main([*arguments, "--out", "run"])
+    return ended.value.code
+
+
+def made(folder, *arguments):
+    status = run(*arguments)
+    text = (folder / "run" / "report.html").read_text()
+    return status, json.loads((folder / "run" / "record.json").read_text())["results"], text
+
+
+def shown(text):
+    return " ".join(re.sub(r"<[^>]*>", " ", text).split())
+
+
+def test_a_path(here):
+    asked = ["path", "design.toml", "--circle", "30", "--points", "41", "--legs", "200", "470", "--lc", "100"]
+    status, results, page = made(here, *asked)
+    motion, words = results["motion"], shown(page)
+    assert status == (3 if motion["breaks"] else 0)
+    assert f"condition number, worst {motion['condition_number']['worst']:.4f} at t =" in words
+    assert f"limits broken {len(motion['breaks'])}" in words
+    assert "longest (mm)" in words
+    assert f"{motion['legs']['l1']['longest']:.6g}" in words
+    assert "along 41 poses from t = 0 to 1" in words
+
+
+def test_a_sweep(here):
+    _, results, page = made(here, "sweep", "design.toml", "--over", "x_p=-50:50:11", "--lc", "100")
+    found = results["sweep"]["indices"]["condition_number"]
+    assert f"condition number {found['least']['value']:.4f} x_p = {found['least']['at']['x_p']:.6g}" in shown(page)
+    assert "How does condition number vary over x_p?" in shown(page)
+
+
+@pytest.mark.parametrize("asked", [["figure-6", "--points", "5"], ["--over", "x_p=-1:1:3", "--index", "leg_lengths"]])
+def test_axes_with_names(here, asked):
+    """Of coordinates or legs."""
+    _, results, page = made(here, "sweep", *asked)
+    (found,) = results["sweep"]["indices"].values()
+    name = next(value for value in found["least"]["at"].values() if isinstance(value, str))
+    assert f"= {name}" in shown(page)
+
+
+def test_an_atlas(here):
+    _, results, page = made(here, "atlas", "--designs", "2000")
+    assert "Which condition numbers have 2000 designs drawn at random?" in shown(page)
+    assert f"{results['atlas']['best'][0]['condition_number']:.4f}" in shown(page)
+
+
+def test_no_report_where_none_is_asked_for(here):
+    assert run("path", "design.toml", "--circle", "30", "--points", "41", "--no-report") == 0
+    assert not (here / "run" / "report.html").exists()
