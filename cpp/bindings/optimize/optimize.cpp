@@ -104,8 +104,8 @@ Array region_poses(const py::dict& region, const py::object& at) {
   return out;
 }
 
-/// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates where each
-/// leg is longest and shortest.
+/// Margins as (name, row, margin, coordinates of the pose), logarithms of the index with theirs, and the coordinates
+/// where each leg is longest and shortest.
 py::dict worst_of_region(const Problem& problem, const py::dict& region, const std::vector<double>& x, long samples,
                          std::uint64_t seed, int threads) {
   const Region r = region_from(region);
@@ -165,7 +165,8 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
   return py::make_tuple(near, moved);
 }
 
-/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its limit).
+/// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
+/// limit).
 /// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
 py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
                             double log_index, const py::sequence& ranges, const py::sequence& known, long samples,

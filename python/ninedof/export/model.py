@@ -92,12 +92,14 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     name : str
         Of the robot inside the file; other characters than letters, digits, "_" and "-" become "_".
     unit : str, optional
-        Name of the length unit; that of the study or of the design file by default.
+        Name of the length unit, "" for none; that of the study or of the design file by default. A Candidate or a
+        DesignPoint names none, so it must be given: a simulator would take millimetres for metres.
 
     Raises
     ------
     ValueError
-        If there is no design (a result without a candidate), or it has a stack of configurations.
+        If there is no design (a result without a candidate), it has a stack of configurations, its unit is not known,
+        or another unit is given than its own.
 
     """
     try:
@@ -109,6 +111,10 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     if np.shape(c.position) != (3,):
         raise ValueError(f"design: got a stack of configurations of shape {c.shape}, expected a single one")
     study = getattr(design, "study", None)
-    own = getattr(study or design, "unit", "") if unit is None else unit
+    own = getattr(study or design, "unit", None)
+    if own is None and unit is None:
+        raise ValueError(f'unit: got none, expected the length unit of a {type(design).__name__}, "" for none')
+    if own and unit and unit_argument(unit) != own:
+        raise ValueError(f"unit: got {unit}, expected {own}, the unit of the design")
     clean = "".join(x if x.isascii() and (x.isalnum() or x in "_-") else "_" for x in name) or "ninedof"
-    return Model(g, c, length, unit_argument(own), clean, study, design)
+    return Model(g, c, length, unit_argument(own or unit or ""), clean, study, design)

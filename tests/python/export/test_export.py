@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from sizes import LONG
 
 import ninedof as nd
+from ninedof.cli.app import main
 from ninedof.export.formats import FORMATS, format_named
 from ninedof.export.model import model_of
 
@@ -75,7 +76,7 @@ def test_ranges_of_legs_are_those_that_are_known():
     kept = machine.region or type("Report", (), {"leg_ranges": ((1.0, 2.0),) * 9})()
     placed = type("Placed", (), {"region": kept, "geometry": machine.geometry, "study": None})
     placed.configuration, placed.characteristic_length = machine.configuration, 1.0
-    assert model_of(placed()).leg_ranges == kept.leg_ranges
+    assert model_of(placed(), unit="").leg_ranges == kept.leg_ranges
 
 
 @pytest.mark.skipif(not LONG, reason="a search over a region takes seconds")
@@ -103,7 +104,28 @@ def test_ranges_over_a_region_are_those_of_random_poses_of_it():
 def test_what_a_model_says_of_a_design():
     model = model_of(exported.machine(), "a b/ü")
     assert (model.name, model.unit, model.length) == ("a_b__", "mm", 150.0)
-    assert model_of(exported.machine(), unit="m").unit == "m"
+    with pytest.raises(ValueError, match=r"^unit: got m, expected mm, the unit of the design"):
+        model_of(exported.machine(), unit="m")
+
+
+def test_the_unit_of_a_candidate_must_be_said():
+    """It names none, and a simulator would take millimetres for metres."""
+    result = nd.optimize(nd.Study.paper(), starts=1)
+    for design in (result.best, result.study.evaluate(result.variables)):
+        with pytest.raises(ValueError, match=r"^unit: got none, expected the length unit of a"):
+            model_of(design)
+        assert model_of(design, unit="mm").unit == "mm"
+        assert model_of(design, unit="").unit == ""
+
+
+def test_a_design_is_not_overwritten(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    nd.export(nd.optimize(nd.Study.paper(), starts=1), "csv", "joints.csv")
+    before = (tmp_path / "joints.csv").read_bytes()
+    with pytest.raises(SystemExit) as ended:
+        main(["export", "joints.csv", "--to", "csv"])
+    assert ended.value.code == 2
+    assert (tmp_path / "joints.csv").read_bytes() == before
     general = model_of(exported.general())
     expected = nd.characteristic_length(general.geometry, general.configuration, "optimal")
     assert general.length == expected

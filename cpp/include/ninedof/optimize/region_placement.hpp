@@ -45,8 +45,8 @@ struct PlacedWorst {
   long poses = 0;  ///< looked at
 };
 
-/// At each of many poses of a region, O is placed where the worst of the index and of all limits is least, and left there
-/// as soon as nothing is near its limit; from the poses that come out worst an ascent leads to a local worst.
+/// At each of many poses of a region, O is placed where the worst of the index and of all limits is least, and left
+/// there as soon as nothing is near its limit; from the poses that come out worst an ascent leads to a local worst.
 ///
 /// `problem` has no poses of its own. `known`: poses with an O that is good there; searches begin from the nearest.
 /// O stays between the plates and within zp of its neutral position along each axis, as in listed poses.

@@ -49,6 +49,8 @@ def export(
     name = _by_suffix(out) if to is None else choice("--to", to, FORMATS)
     chosen = named_design(design)
     file = out or Path(_stem(design) + FORMATS[name].suffix)
+    if file.resolve() == Path(design).resolve():
+        raise ValueError(f"--out: got {file}, the design itself, expected another file")
     given = {"leg_mass": leg_mass, "platform_mass": platform_mass, "gravity": gravity}
     kept = {key: value for key, value in given.items() if value is not None}
     own = chosen.unit if unit is None else unit_argument(unit)
