@@ -61,7 +61,7 @@ def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> 
     table.add_row(result.study.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
     if plain:
         return
-    several = len(result.solved.objective.poses) > 1
+    several = len(result.solved.objective.poses) > 1 and objective.region is None
     table.add_row("neutral condition number", *(f"{c.condition_number:.6f}" for c in shown), end_section=not several)
     if several:
         table.add_row("worst over the poses", *(f"{max(c.conditions):.6f}" for c in shown))

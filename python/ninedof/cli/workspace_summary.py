@@ -68,6 +68,8 @@ def workspace_table(found: WorkspaceMap) -> Table:
     for name, share in list(found.limits().items())[:SHOWN]:
         words = "ends of the torsion" if name == "box" and found.archetype == "orientation" else name.replace("_", " ")
         table.add_row(f"boundary by {words}", f"{100.0 * share:.1f} %")
+    if (rest := sum(list(found.limits().values())[SHOWN:])) > 0.0:
+        table.add_row("boundary by others", f"{100.0 * rest:.1f} %")
     return table
 
 

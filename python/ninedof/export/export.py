@@ -58,7 +58,10 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
 
     """
     module = format_named(format).load()
-    known_keys("options", options, [name for name in inspect.signature(module.text).parameters if name != "model"])
+    taken = [name for name in inspect.signature(module.text).parameters if name != "model"]
+    if options and not taken:
+        raise ValueError(f"options: got {', '.join(options)}, expected none: {format} takes no options")
+    known_keys("options", options, taken)
     file = Path(path)
     if not file.absolute().parent.is_dir():
         raise ValueError(f"path: got {file}, expected a file in a folder that exists")

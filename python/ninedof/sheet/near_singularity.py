@@ -42,14 +42,16 @@ class NearSingularity(NamedTuple):
     internal_point: tuple[float, ...]
 
 
-def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
+def near_singularities(
+    g: Geometry, c: Configuration, internal: str, most_poses: int = MOST_POSES
+) -> dict[str, NearSingularity]:
     """Return the nearest singularity of a stack of poses for each of MOTIONS.
 
     The least over the poses and over directions: many, then refined at the nearest poses. Along each direction no
-    singularity is missed (`distance_to_singularity`). Of very many poses those with the least determinants.
+    singularity is missed (`distance_to_singularity`). Of more than `most_poses` those with the least determinants.
     """
     least = np.abs(np.stack(singularity_margins(g, c))).min(axis=0)
-    poses = np.sort(np.argsort(least, kind="stable")[:MOST_POSES])
+    poses = np.sort(np.argsort(least, kind="stable")[:most_poses])
     longest = FARTHEST * float(leg_lengths(g, c).max())
     ways = _sphere()
     found = {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.sheet.clearance import clearances
 from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
 from ninedof.sheet.legs import forces_of
+from ninedof.sheet.near_singularity import near_singularities
 from ninedof.sheet.pose_limits import CONES, cone_angles
 from ninedof.sheet.region_search import Numbers, extreme_poses, finite_or_high
 from ninedof.sheet.softest import softest
@@ -30,6 +32,7 @@ from ninedof.support.arrays import Floats
 
 SAMPLES = 10_000
 PLACED = 2000  # the most where O is placed anew at every pose, which takes a thousand times as long
+TILTS = 24  # directions of the greatest tilt, at each corner
 PARTS = 8  # of the even sample, for the error of its mean
 
 
@@ -70,6 +73,7 @@ def look_over(
     region: Region = study.objective.region  # type: ignore[assignment]
     at = samples(region, count)
     worst, looked_at = extreme_poses(region, neutral, at, _numbers(study, g, neutral, asked))
+    worst = np.concatenate([worst, _near_singular(region, g, neutral, asked.motion)])
     even = configurations_at(region, neutral, at[:count])[1]
     look = _look(region, study, g, asked, even, looked_at)
     return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
@@ -85,6 +89,20 @@ def look_over_placed(
     worst = {int(k) for numbers in _numbers(study, g, neutral, asked) for k in np.argmin(finite_or_high(numbers(c)), 0)}
     rows = sorted(worst)
     return _look(region, study, g, asked, c[:count], len(c)), c[rows], tuple(poses[k] for k in rows)
+
+
+def _near_singular(region: Region, g: Geometry, neutral: Configuration, motion: Motion) -> Floats:
+    """Return the poses of the boundary, shape (3, 6), from which a singularity is nearest, one for each way of moving.
+
+    They need not be those of the least determinants.
+    """
+    reach, turns = np.asarray(region.reach), np.arange(TILTS) * 2.0 * np.pi / TILTS
+    signs = np.array(list(product(*((-1.0, 1.0) if length > 0.0 else (0.0,) for length in reach[[0, 1, 2, 5]]))))
+    at = np.repeat(reach * np.insert(signs, [3, 3], 0.0, axis=1), TILTS, axis=0)
+    at[:, 3:5] = region.tilt * np.tile(np.column_stack([np.cos(turns), np.sin(turns)]), (len(signs), 1))
+    near, c = configurations_at(region, neutral, at)
+    found = near_singularities(g, c, motion.internal, len(c))
+    return near[[one.pose for one in found.values()]]
 
 
 def _look(region: Region, study: Study, g: Geometry, asked: Asked, even: Configuration, looked_at: int) -> RegionLook:
