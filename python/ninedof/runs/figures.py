@@ -41,7 +41,9 @@ def figures_of(run: Result | Comparison, say: Say, convergence: bool = False) ->
     if isinstance(run, Result):
         # Without a least value there is no design to draw.
         shown = run.candidates[:1] if run.status != "unbounded" else ()
-        designs = [("optimum", c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in shown]
+        objective = run.study.objective
+        title = "optimum at the neutral pose" if objective.poses or objective.region is not None else "optimum"
+        designs = [(title, c.geometry, c.configuration, c.condition_number, c.characteristic_length) for c in shown]
         result, compared = run, {}
     else:
         rows = [("published, best zs", run.best_zs), ("optimum", run.same_class)] if run.same_class is not None else []
