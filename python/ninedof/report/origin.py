@@ -2,21 +2,41 @@
 
 from __future__ import annotations
 
+import math
 import re
+import shlex
 from base64 import b64encode
 from collections.abc import Mapping
 from typing import Any
 
 from ninedof.design.study import Study
+from ninedof.pareto import Front
+from ninedof.pareto.limited import with_degrees
 from ninedof.report.markup import Html, facts, joined, listing, paragraphs, tag
+from ninedof.support.angles import degrees_of
 from ninedof.support.json import encode
 
 SAME = "The same study and seed give the same bits, for any number of threads, with the same versions."
+SAME_LIMITS = (
+    "The same limits, starts and seed. Limits that the run selected itself are solved in another order here, so last "
+    "digits may differ."
+)
 LIST = re.compile(r"\[\n((?: +[-+.\w]+,\n)+) *\]")  # of numbers, one to a line
 
 
-def of_study(study: Study, command: str, record: Any) -> Html:
-    """Return how to solve a study again; `record` has the versions and the time."""
+def of_front(front: Front, record: Any, point: str = "") -> Html:
+    """Return how to solve a front again, or the whole front of a point, whose starts come from its neighbours."""
+    command = ["ninedof", "pareto", "study.toml", "--against", with_degrees(front.against)]
+    for limit in front.limits:
+        if math.isfinite(limit):
+            command += ["--value", repr(degrees_of(limit) if front.unit == "rad" else limit)]
+    again = of_study(front.study, shlex.join(command), record, SAME_LIMITS)
+    said = f"Point {point} of a front was solved with its neighbours' designs as starts: this solves the whole front."
+    return joined(paragraphs([said]), again) if point else again
+
+
+def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
+    """Return how to solve a study again; `record` has the versions and the time, `note` says what is the same."""
     import tomli_w
 
     text = LIST.sub(lambda found: f"[{', '.join(found[1].replace(',', ' ').split())}]", tomli_w.dumps(study.to_dict()))
@@ -26,7 +46,7 @@ def of_study(study: Study, command: str, record: Any) -> Html:
         tag("p", "Save the study file below as ", file, ", then:"),
         listing(command),
         _versions(record, [("starts", study.starts), ("seed", study.seed)]),
-        paragraphs([SAME], "note"),
+        paragraphs([note], "note"),
         tag("h3", "study.toml"),
         listing(text),
     )

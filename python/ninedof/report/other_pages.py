@@ -27,8 +27,6 @@ LENGTHS = ("leg_limits", "leg_clearance")
 def of_front(front: Front, record: Any, name: str) -> Page:
     """Return the page of a trade-off."""
     limit = front.limit_name.replace("_", " ")
-    values = " ".join(f"--value {_limit(front, x)}" for x in front.limits)
-    command = f"ninedof pareto study.toml --against {front.against} {values}".replace("_rad", "")
     asked = f"What does each value of {limit} cost? The study below is solved once for each."
     machines = [
         scene.machine(f"point {k}: {limit} {_limit(front, x)}", b.geometry, b.configuration, b.characteristic_length)
@@ -43,7 +41,7 @@ def of_front(front: Front, record: Any, name: str) -> Page:
             "sheet", "Engineering sheet", paragraphs([f"Each point has its own: ninedof sheet {name}#1 for the first."])
         ),
         Section("proof", "What is proved, and what is searched", proof.of_front(front)),
-        Section("again", "How to reproduce it", origin.of_study(front.study, command, record)),
+        Section("again", "How to reproduce it", origin.of_front(front, record)),
     ]
     found = [x for x in front.objectives if not math.isnan(x)]
     ends = f"{max(found):.6f} to {min(found):.6f}" if found else "no design"

@@ -9,7 +9,7 @@ from typing import Any
 from ninedof.optimize.result import Result, Status
 from ninedof.report import origin, proof, scene
 from ninedof.report.answer import answer
-from ninedof.report.markup import Section, paragraphs
+from ninedof.report.markup import Html, Section, paragraphs
 from ninedof.report.question import question
 from ninedof.report.sheet_part import sheet_part
 from ninedof.sheet.sheet import Sheet
@@ -34,8 +34,8 @@ def machine_section(hint: str = "") -> Section:
     return Section("machine", "Machine", paragraphs([hint] if hint else []))
 
 
-def of_result(result: Result, record: Any, name: str) -> Page:
-    """Return the page of an optimization."""
+def of_result(result: Result, record: Any, name: str, again: Html | None = None) -> Page:
+    """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not."""
     best, study = result.best, result.study
     sections = [Section("question", "Question", question(study)), Section("answer", "Answer", answer(result))]
     shown, found = None, None
@@ -43,9 +43,11 @@ def of_result(result: Result, record: Any, name: str) -> Page:
         found = result.sheet()
         sections += [machine_section(), Section("sheet", "Engineering sheet", sheet_part(found))]
         shown = _scene(result, found)
+    if again is None:
+        again = origin.of_study(study, "ninedof optimize study.toml", record)
     sections += [
         Section("proof", "What is proved, and what is searched", proof.of_result(result)),
-        Section("again", "How to reproduce it", origin.of_study(study, "ninedof optimize study.toml", record)),
+        Section("again", "How to reproduce it", again),
     ]
     headline = f"{_capital(study.words)}: no design" if found is None else _capital(study.words)
     return Page("optimization", headline, _key_figures(result, found), sections, shown, result.status == Status.OPTIMAL)

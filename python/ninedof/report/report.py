@@ -9,6 +9,7 @@ from typing import Any
 
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
+from ninedof.report import origin
 from ninedof.report.figures import stems
 from ninedof.report.markup import Section, joined
 from ninedof.report.other_pages import of_comparison, of_front, of_workspace
@@ -76,20 +77,21 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     folder = place if place.is_dir() else place.parent
     record = load_record(place)
     name = folder.resolve().name + (f"#{point}" if point else "")
-    found = load(run)
+    found, whole = load(run), load(place) if point else None
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    return _written(_page_of(found, record, name, bool(point)), record, file, None if point else folder, name)
+    return _written(_page_of(found, record, name, point, whole), record, file, None if point else folder, name)
 
 
-def _page_of(found: Any, record: Record, name: str, point: bool = False) -> Page:
-    """Return the page of what a record holds."""
+def _page_of(found: Any, record: Record, name: str, point: str = "", whole: Any = None) -> Page:
+    """Return the page of what a record holds, or of one point of the whole."""
     if isinstance(found, Front):
         return of_front(found, record, name)
     if isinstance(found, WorkspaceMap):
         return of_workspace(found, record, name)
     if not isinstance(found, Result):
         return of_recorded(record, name)
-    made = of_result(found, record, name)
+    again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
+    made = of_result(found, record, name, again)
     if record.kind != "comparison" or point:
         return made
     sections = [

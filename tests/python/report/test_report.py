@@ -1,10 +1,13 @@
 """The page of a run: all sections, everything escaped, nothing from elsewhere, small."""
 
 import json
+import math
 import re
+import shlex
 import tomllib
 from base64 import b64decode
 from dataclasses import replace
+from html import unescape
 from html.parser import HTMLParser
 
 import numpy as np
@@ -12,9 +15,13 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.pareto import Front
+from ninedof.pareto.limited import without_degrees
+from ninedof.report import origin
 from ninedof.report.body import surface_net
 from ninedof.report.markup import Html, table, tag
 from ninedof.report.scene import region_lines
+from ninedof.runs.folder import Record
 
 IMPOSSIBLE = {"height": (None, 1.0), "leg_length": (3.0, None), "footprint": (None, 1.0)}
 VOID = {"meta", "link", "img", "input", "br"}
@@ -137,7 +144,35 @@ def test_a_front_has_a_machine_for_each_point(tmp_path):
     assert front.results[0].reason.split(";")[0].replace("_", " ") in words
     point = nd.report(f"{tmp_path / 'front'}#2")
     assert point.name == "report-2.html"
-    assert "front#2" in read(point)[2]
+    words = read(point)[2]
+    assert "front#2" in words
+    assert "ninedof pareto study.toml --against footprint --value 1.0 --value 40.0 --value 60.0" in words
+    assert "optimize study.toml" not in words
+    assert "same bits" not in words
+
+
+@pytest.mark.parametrize(
+    ("against", "limits"),
+    [("leg_ratio at neutral", (1.4754638729041, 2.0)), ("base_cone", (0.5235987755982988, 0.7))],
+)
+def test_the_command_of_a_front_asks_for_the_same_limits_to_the_last_bit(monkeypatch, tmp_path, against, limits):
+    front = Front(nd.Study(starts=4), against, limits, ())
+    text = unescape(re.sub(r"<[^>]*>", " ", origin.of_front(front, Record("front", front.study, {}))))
+    command = shlex.split(next(line for line in text.splitlines() if "ninedof pareto" in line))
+    front.study.save(tmp_path / "study.toml")
+    asked = {}
+
+    def trace(study, against, values, points, **_):
+        asked.update(study=study, against=against, values=values)
+        raise ValueError("enough")
+
+    monkeypatch.setattr("ninedof.cli.commands.pareto.trace_front", trace)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit):
+        main(command[1:])
+    plain, degrees = without_degrees(asked["against"])
+    assert (asked["study"], plain) == (front.study, against)
+    assert tuple(math.radians(x) if degrees else x for x in asked["values"]) == limits
 
 
 def test_a_job_ends_with_its_report(tmp_path, capsys):
