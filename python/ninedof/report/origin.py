@@ -54,6 +54,8 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
 
 def of_question(asked: Mapping[str, Any], record: Any) -> Html:
     """Return what was asked of a run without a study."""
+    if not asked:
+        return joined(paragraphs(["The record does not hold what was asked."]), _versions(record, []))
     return joined(
         paragraphs(["Everything that was asked, as the record of the run has it:"]),
         listing(encode(asked)),

@@ -80,19 +80,14 @@ def _limit(front: Front, value: float) -> str:
 
 
 def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
-    """Return the page of a workspace."""
+    """Return the page of a workspace; without machine and question where the record does not hold them."""
     asked = record.asked
-    g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
-    home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
-    body = body_of(found)
-    box = [] if found.of_angles else [scene.numbers(line) for line in scene.box_lines(found.low, found.high)]
-    machines = [scene.machine("robot", g, home, float(asked.get("characteristic_length", 1.0)), (("home", 0),))]
+    shown = _scene(found, asked) if {"geometry", "home"} <= set(asked) else None
+    hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
     sections = [
-        Section("question", "Question", _asked(found, asked)),
+        *([Section("question", "Question", _asked(found, asked))] if "criteria" in asked else []),
         Section("answer", "Answer", _volume(found)),
-        machine_section(
-            "The body is the set of positions of the platform's origin; lines: the box looked at." if body else ""
-        ),
+        *([machine_section(hint if shown["body"] else "")] if shown else []),
         Section("proof", "What is proved, and what is searched", proof.of_workspace(found, asked)),
         Section("again", "How to reproduce it", origin.of_question(asked, record)),
     ]
@@ -104,7 +99,15 @@ def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
     ]
     headline = f"Workspace: {found.archetype.replace('_', ' ')}"
     good = found.status in ("converged", "limited")
-    return Page("workspace", headline, figures, sections, scene.scene(machines, found.unit, box, body), good)
+    return Page("workspace", headline, figures, sections, shown, good)
+
+
+def _scene(found: WorkspaceMap, asked: Any) -> dict[str, Any]:
+    g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
+    home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
+    box = [] if found.of_angles else [scene.numbers(line) for line in scene.box_lines(found.low, found.high)]
+    machines = [scene.machine("robot", g, home, float(asked.get("characteristic_length", 1.0)), (("home", 0),))]
+    return scene.scene(machines, found.unit, box, body_of(found))
 
 
 def _asked(found: WorkspaceMap, asked: Any) -> Html:

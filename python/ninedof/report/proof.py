@@ -40,7 +40,7 @@ def of_front(front: Front) -> Html:
 def of_workspace(found: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
     """Return the same of a workspace and what was asked."""
     checked = []
-    legs = any(name == "leg_limits" or name.endswith("_length") for name in asked["criteria"])
+    legs = any(name == "leg_limits" or name.endswith("_length") for name in asked.get("criteria", ()))
     of_positions = found.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
     if found.ball_radius > 0.0 and legs and of_positions:
         checked.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")

@@ -175,6 +175,14 @@ def test_the_command_of_a_front_asks_for_the_same_limits_to_the_last_bit(monkeyp
     assert tuple(math.radians(x) if degrees else x for x in asked["values"]) == limits
 
 
+@pytest.fixture(scope="module")
+def reach():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    home = nd.Configuration.neutral(3.9828, 2.4432)
+    box = ([-2.0, -2.0, 3.0], [2.0, 2.0, 7.0])
+    return nd.workspace(g, box, criteria={"leg_limits": (2.5, 6.5)}, home=home, tolerance=0.1)
+
+
 def test_a_job_ends_with_its_report(tmp_path, capsys):
     place = tmp_path / "reach"
     options = "--legs 2.5 6.5 --tolerance 0.05 --no-figures --out"
@@ -195,6 +203,17 @@ def test_a_job_ends_with_its_report(tmp_path, capsys):
     assert (points.min(axis=0) >= record.low - 1e-9).all()
     assert (points.max(axis=0) <= record.high + 1e-9).all()
     assert body_volume(scene["body"]) == pytest.approx(record.volume, rel=0.1)
+
+
+def test_a_workspace_that_was_saved_has_no_question_and_no_machine(tmp_path, reach):
+    nd.save(reach, tmp_path / "kept")
+    text, page, words = read(nd.report(tmp_path / "kept"))
+    assert not {"question", "machine"} & set(page.ids)
+    assert {"answer", "proof", "again"} <= set(page.ids)
+    assert scene_of(text) is None
+    assert f"{reach.volume:.6g}" in words
+    assert "The record does not hold what was asked." in words
+    assert "Proved: " not in words
 
 
 def test_optimize_writes_its_report_and_lists_it(tmp_path):
