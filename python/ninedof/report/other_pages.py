@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -91,10 +92,9 @@ def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
         Section("proof", "What is proved, and what is searched", proof.of_workspace(found, asked)),
         Section("again", "How to reproduce it", origin.of_question(asked, record)),
     ]
-    cubed = "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)
     figures = [
         ("status", found.status),
-        ("volume", amount(f"{found.volume:.6g} ± {found.error:.1g}", cubed)),
+        ("volume", amount(f"{found.volume:.6g} ± {found.error:.1g}", _cubed(found))),
         ("worst condition number", f"{found.worst_condition_number:.4f}"),
     ]
     headline = f"Workspace: {found.archetype.replace('_', ' ')}"
@@ -120,11 +120,21 @@ def _asked(found: WorkspaceMap, asked: Any) -> Html:
             ]
         else:
             rows.append((name.replace("_", " "), _criterion(name, limit, found.unit)))
-    low, high = (", ".join(short(x) for x in ends) for ends in (found.low, found.high))
-    where = "the box" if not found.of_angles else "coordinates"
+    turn, unit = _scale(found)
+    low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (found.low, found.high))
+    where = f"{'the box' if not found.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
     rule = _rule(asked.get("internal_point", "held"))
-    said = f"Which poses keep all limits below? Looked at: {where} from ({low}) to ({high}). O is {rule}."
+    said = f"Which poses keep all limits below? Looked at: {where}. O is {rule}."
     return joined(paragraphs([said]), table("Limits", ("limit", "allowed"), rows, (1,)))
+
+
+def _cubed(found: WorkspaceMap) -> str:
+    return "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)
+
+
+def _scale(found: WorkspaceMap) -> tuple[Callable[[float], float], str]:
+    """Return how coordinates of a workspace are shown, and their unit: angles in degrees."""
+    return (math.degrees, "deg") if found.of_angles else (float, found.unit)
 
 
 def _rule(given: Any) -> str:
@@ -149,18 +159,19 @@ def _criterion(name: str, limit: Any, unit: str) -> str:
 
 
 def _volume(found: WorkspaceMap) -> Html:
-    unit = "rad" if found.of_angles else found.unit
+    turn, unit = _scale(found)
     rows: list[tuple[object, object]] = [
-        (with_unit("volume", unit + "³" * bool(unit)), f"{found.volume:.6g}"),
+        (with_unit("volume", _cubed(found)), f"{found.volume:.6g}"),
         ("error, estimated", f"{found.error:.2g}"),
         ("share of what was looked at", f"{100.0 * found.share:.3g} %"),
         ("connected pieces", len(found.pieces)),
     ]
     if found.ball_radius > 0.0:
+        sides = found.box_high - found.box_low
         rows += [
-            (with_unit("largest ball, radius", unit), f"{found.ball_radius:.5g}"),
-            (with_unit("its centre", unit), ", ".join(f"{x:.4g}" for x in found.ball_centre)),
-            (with_unit("largest box, sides", unit), " × ".join(f"{x:.4g}" for x in found.box_high - found.box_low)),
+            (with_unit("largest ball, radius", unit), f"{turn(found.ball_radius):.5g}"),
+            (with_unit("its centre", unit), ", ".join(f"{turn(x):.4g}" for x in found.ball_centre)),
+            (with_unit("largest box, sides", unit), " × ".join(f"{turn(x):.4g}" for x in sides)),
         ]
     rows += [
         ("global conditioning index", f"{found.conditioning_index:.5f}"),

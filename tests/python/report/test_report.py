@@ -216,6 +216,22 @@ def test_a_workspace_that_was_saved_has_no_question_and_no_machine(tmp_path, rea
     assert "Proved: " not in words
 
 
+def test_an_orientation_workspace_is_shown_in_degrees(tmp_path):
+    place = tmp_path / "turns"
+    options = "--archetype orientation --angle-deg 60 --legs 1.5 6.5 --tolerance 0.1 --no-figures --out"
+    with pytest.raises(SystemExit):
+        main(["workspace", *options.split(), str(place)])
+    _, _, words = read(nd.report(place))
+    found = nd.load(place)
+    words = " ".join(words.split())
+    assert "from (-60, -60, -60) to (60, 60, 60) deg." in words
+    assert f"largest ball, radius (deg) {found.ball_radius * 180.0 / math.pi:.5g}" in words
+    sides = (found.box_high - found.box_low) * 180.0 / math.pi
+    assert f"largest box, sides (deg) {sides[0]:.4g} × {sides[1]:.4g}" in words
+    assert f"volume (rad³) {found.volume:.6g}" in words
+    assert "(rad)" not in words
+
+
 def test_optimize_writes_its_report_and_lists_it(tmp_path):
     study = tmp_path / "study.toml"
     study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\nheight = { max = 0.001 }\n[solver]\nstarts = 4\n")
