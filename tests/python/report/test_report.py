@@ -242,6 +242,35 @@ def test_optimize_writes_its_report_and_lists_it(tmp_path):
         assert ("report.html" in listed) == (name == "with") == (tmp_path / name / "report.html").is_file()
 
 
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (OSError(28, "No space left [on device]"), "[Errno 28] No space left [on device]"),
+        (ValueError("two\nlines"), "two lines"),
+        (KeyError("geometry"), "KeyError('geometry')"),
+        (ZeroDivisionError("division"), "ZeroDivisionError('division')"),
+    ],
+)
+def test_a_report_that_fails_does_not_fail_the_job(tmp_path, monkeypatch, capsys, error, said):
+    def fails(folder):
+        raise error
+
+    def drawn(folder):
+        (folder / "front.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
+        return [folder / "front.svg"]
+
+    monkeypatch.setattr("ninedof.cli.job_report.report", fails)
+    monkeypatch.setattr("ninedof.cli.commands.pareto._draw", lambda front, screen, folder: drawn(folder))
+    place = tmp_path / "run"
+    with pytest.raises(SystemExit) as ended:
+        main(["pareto", "--against", "radius_ratio", "--value", "2", "--starts", "2", "--out", str(place)])
+    assert ended.value.code == 0
+    assert f"the report could not be written: {said}\n" in capsys.readouterr().out
+    assert json.loads((place / "record.json").read_text())["files"] == ["front.svg"]
+    assert not (place / "report.html").exists()
+    assert len(nd.load(place)) == 1
+
+
 def test_the_command_names_its_option(folder, capsys):
     with pytest.raises(SystemExit) as ended:
         main(["report", str(folder), "--out", str(folder / "none" / "it.html")])
