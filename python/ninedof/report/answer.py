@@ -39,12 +39,18 @@ def _designs(result: Result) -> Html:
         for words, pick in (("worst", max), ("best", min)):
             rows.append((f"{words} over the poses", *(f"{pick(c.conditions):.6f}" for c in shown)))
     rows.append(())
+    numbers: list[tuple[str, str, list[float]]] = []
     for name in shown[0].variables:
         if name == LENGTH or name not in study.variables:
             continue
-        label = with_unit(name.replace("_", " "), study.unit_of(name))
-        rows.append((label, *(short(study.shown(name, c.variables[name])) for c in shown)))
-    rows.append((with_unit("characteristic length", study.unit), *(short(c.characteristic_length) for c in shown)))
+        values = [study.shown(name, c.variables[name]) for c in shown]
+        unit = study.unit_of(name)
+        numbers.append((with_unit(name.replace("_", " "), unit), unit, values))
+    length = [c.characteristic_length for c in shown]
+    numbers.append((with_unit("characteristic length", study.unit), study.unit, length))
+    for label, unit, values in numbers:
+        among = [x for _, other, listed in numbers if other == unit for x in listed]
+        rows.append((label, *(short(x, among) for x in values)))
     rows.append(())
     rows.append(("starts that ended here", *(str(c.reached) for c in shown)))
     rows.append(("stationarity", *(f"{c.optimality_residual:.1e}" for c in shown)))

@@ -22,6 +22,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.units import amount, with_unit
 from ninedof.workspace import WorkspaceMap
 
+NAMES = ("a1", "a2", "b1", "b2", "zp", "zs")
 LENGTHS = ("leg_limits", "leg_clearance")
 
 
@@ -187,9 +188,10 @@ def _volume(found: WorkspaceMap) -> Html:
 def of_comparison(rows: Any) -> Html:
     """Return the published optimum beside ours."""
     head = ("design", "condition number", "a1, a2", "b1, b2", "zp", "zs")
+    among = [row["variables"][name] for row in rows for name in NAMES]
     cells = []
     for row in rows:
         v = row["variables"]
-        pairs = (f"{short(v[a])}, {short(v[b])}" for a, b in (("a1", "a2"), ("b1", "b2")))
-        cells.append((row["title"], f"{row['condition_number']:.6f}", *pairs, short(v["zp"]), short(v["zs"])))
+        a1, a2, b1, b2, zp, zs = (short(v[name], among) for name in NAMES)
+        cells.append((row["title"], f"{row['condition_number']:.6f}", f"{a1}, {a2}", f"{b1}, {b2}", zp, zs))
     return table("The published optimum beside ours, lengths in units of l_c", head, cells)

@@ -28,7 +28,8 @@ def of_recorded(record: Any, name: str) -> Page:
         return _page(record, name, said, answer, [("indices", len(ends))], again)
     if (atlas := results.get("atlas")) is not None:
         best = atlas["best"][:: max(1, len(atlas["best"]) // SHOWN)]
-        rows = [(f"{b['radius_ratio']:.4g}", short(b["condition_number"])) for b in best]
+        among = [b["condition_number"] for b in best]
+        rows = [(f"{b['radius_ratio']:.4g}", short(b["condition_number"], among)) for b in best]
         answer = table(
             "The best design met up to a ratio of base to platform radius", ("up to", "condition number"), rows
         )

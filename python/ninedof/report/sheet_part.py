@@ -28,12 +28,12 @@ def sheet_part(found: Sheet) -> Html:
 
 def _lengths(found: Sheet) -> Html:
     head = ("leg", *(with_unit(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke")), "ratio")
+    longest, ratios = [leg.longest for leg in found.legs], [leg.stroke_ratio for leg in found.legs]
     rows: list[tuple[str, ...]] = []
     for k, leg in enumerate(found.legs):
         rows += [()] if k in (3, 6) else []
-        rows.append(
-            (leg.name, *(short(x) for x in (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio)))
-        )
+        lengths = (leg.shortest, leg.longest, leg.neutral, leg.stroke)
+        rows.append((leg.name, *(short(x, longest) for x in lengths), short(leg.stroke_ratio, ratios)))
     return table(f"Legs {over(found)}: lengths", head, rows)
 
 
@@ -118,7 +118,9 @@ def _joints(found: Sheet) -> Html:
     own = (with_unit(name, found.unit) for name in ("x", "y", "z"))
     head = ("joint", *own, *(with_unit(f"neutral {name}", found.unit) for name in ("x", "y", "z")))
     rows: list[tuple[str, ...]] = []
-    for k, (name, body, placed) in enumerate(found.joints()):
+    joints = list(found.joints())
+    among = [float(x) for _, body, placed in joints for x in (*body, *placed)]
+    for k, (name, body, placed) in enumerate(joints):
         rows += [()] if k and k % 3 == 0 else []
-        rows.append((name.replace("_", " "), *(short(round(float(x), 9) + 0.0) for x in (*body, *placed))))
+        rows.append((name.replace("_", " "), *(short(float(x), among) for x in (*body, *placed))))
     return table("Joints in the frame of base or platform, and in base axes at the neutral pose", head, rows)

@@ -58,7 +58,7 @@ def test_a_path(here):
 def test_a_sweep(here):
     _, results, page = made(here, "sweep", "design.toml", "--over", "x_p=-50:50:11", "--lc", "100")
     found = results["sweep"]["indices"]["condition_number"]
-    assert f"condition number {found['least']['value']:.4f} x_p = {found['least']['at']['x_p']:.6g}" in shown(page)
+    assert f"condition number {found['least']['value']:.5f} x_p = {found['least']['at']['x_p']:.6g}" in shown(page)
     assert "How does condition number vary over x_p?" in shown(page)
 
 

@@ -20,6 +20,7 @@ from ninedof.pareto.limited import without_degrees
 from ninedof.report import origin
 from ninedof.report.body import surface_net
 from ninedof.report.markup import Html, table, tag
+from ninedof.report.numbers import short
 from ninedof.report.scene import region_lines
 from ninedof.runs.folder import Record
 
@@ -79,7 +80,7 @@ def test_a_run_has_every_section_and_the_numbers_of_the_result(page, folder, res
     assert re.sub(r"[_ ]", "", result.agreement[:30]) in re.sub(r"[_ ]", "", words)
     found = result.sheet()
     for leg in found.legs:
-        assert f"{leg.longest:.4f}" in words
+        assert f"{leg.longest:.5f}" in words
     for row in found.limits:
         assert row.name.replace("_", " ") in words
 
@@ -295,6 +296,44 @@ def test_the_surface_net_of_a_ball_is_closed_and_faces_outward():
     assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
     assert np.linalg.norm(points - 11.5, axis=1) == pytest.approx(8.0, abs=0.25)
     assert body_volume({"vertices": points, "faces": faces}) == pytest.approx(4 / 3 * np.pi * 8.0**3, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("value", "among", "text"),
+    [
+        (0.0123456, (), "0.0123456"),
+        (0.581243, (), "0.581243"),
+        (0.0123456, (0.581243, -0.2), "0.012346"),
+        (-0.2, (0.581243,), "-0.200000"),
+        (581.24, (), "581.2400"),
+        (12.3456, (581.24,), "12.3456"),
+        (0.0, (581.24,), "0"),
+        (-1e-14, (581.24,), "0"),
+        (2e-6, (581.24,), "2.00000e-06"),
+        (1.234567e-4, (), "1.23457e-04"),
+        (1.234567e8, (), "1.23457e+08"),
+        (np.inf, (1.0,), "inf"),
+        (1.0, (np.inf, np.nan), "1.00000"),
+    ],
+)
+def test_numbers_keep_six_digits_in_any_unit(value, among, text):
+    assert short(value, among) == text
+
+
+def test_a_machine_in_metres_keeps_its_digits(tmp_path):
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 0.058124, "b1": 0.029062, "b2": 0.0, "theta_z": 0.0, "zp": 0.039828},
+        characteristic_length=0.01,
+        unit="m",
+        starts=1,
+    )
+    found = nd.optimize(study)
+    _, _, words = read(nd.report(found, tmp_path / "it.html"))
+    words = " ".join(words.split())
+    assert "a2 (m) 0.0581240 b1 (m) 0.0290620" in words
+    assert f"zs (m) {found.best.variables['zs']:.7f}" in words
+    for leg in found.sheet().legs:
+        assert f"{leg.longest:.7f}" in words
 
 
 @pytest.mark.parametrize(
