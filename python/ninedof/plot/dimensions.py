@@ -22,6 +22,8 @@ OUT = 0.17  # of the reach of a plate: how far its dimensions stand off
 def figure_5(geometry: Geometry, unit: str = "") -> Figure:
     """Return Fig. 5: base and platform from above, with joints, axes and the sides a1, a2, b1, b2.
 
+    Each plate fills its panel: the title of the platform has its scale to that of the base.
+
     Parameters
     ----------
     geometry : Geometry
@@ -42,9 +44,11 @@ def figure_5(geometry: Geometry, unit: str = "") -> Figure:
             ("base", geometry.base_external, geometry.base_internal, "a", style.BASE, 0.0),
             ("platform", geometry.platform_external, geometry.platform_internal, "b", style.PLATFORM, 0.5),
         )
+        reach = _reach(geometry.base_external, geometry.base_internal)
         for name, external, internal, letter, colour, left in plates:
             axes = figure.add_axes((left + 0.01, 0.08, 0.48, 0.84))
-            axes.set_title(name, loc="center")
+            scale = reach / _reach(external, internal)
+            axes.set_title(name + (f" (scale {scale:.3g} : 1)" if abs(scale - 1.0) > 0.01 else ""), loc="center")
             _plate(axes, np.asarray(external), np.asarray(internal), letter, colour, unit)
         keys = [
             style.key(style.EXTERNAL, marker="o", ms=6.5, mec="white", mew=0.5, ls="", label="external joint"),
@@ -57,9 +61,14 @@ def figure_5(geometry: Geometry, unit: str = "") -> Figure:
     return figure
 
 
+def _reach(external: Floats, internal: Floats) -> float:
+    """Return the largest coordinate of the joints of a plate: each is drawn at its own scale."""
+    return float(np.abs(np.vstack([external, internal])[:, :2]).max())
+
+
 def _plate(axes: Any, external: Floats, internal: Floats, letter: str, colour: str, unit: str) -> None:
     flat = np.vstack([external, internal])[:, :2]
-    reach = float(np.abs(flat).max())
+    reach = _reach(external, internal)
     for outline in outlines(np.column_stack([flat, np.zeros(6)])):
         axes.add_patch(Polygon(outline[:, :2], fc=colour, alpha=0.28, ec=style.INK, lw=0.9))
     away = OUT * reach
