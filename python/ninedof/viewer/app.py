@@ -7,6 +7,7 @@ import tempfile
 import threading
 import time
 import traceback
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
@@ -30,6 +31,7 @@ from ninedof.viewer.subject import Subject
 
 FRAME = 1.0 / 40.0  # seconds between two poses of a path that is played
 SETTLED = 0.5  # seconds without a change after which all sliders are set to the model
+PATIENCE = 10.0  # seconds that closing waits for the thread that works
 BRAND = (0, 114, 178)
 
 
@@ -96,13 +98,19 @@ class Viewer:
 
     def close(self) -> None:
         """Stop the threads and the server. A second call does nothing."""
-        if self._closed.is_set():
-            return
-        self._closed.set()
         with self._wake:
+            if self._closed.is_set():
+                return
+            self._closed.set()
             self._wake.notify_all()
         if threading.current_thread() is not self._worker:
-            self._worker.join(timeout=10.0)
+            self._worker.join(timeout=PATIENCE)
+            if self._worker.is_alive():
+                warnings.warn(
+                    f"the viewer is closed, but its thread is still at work after {PATIENCE:g} s",
+                    RuntimeWarning,
+                    stacklevel=2,
+                )
         self._job.close()
         stopped(self._server)
 
@@ -257,9 +265,11 @@ class Viewer:
         settled, last = True, time.monotonic()
         while not self._closed.is_set():
             playing = self.player is not None and self.player.playing
-            with self._wake:
-                if not self._pending:
-                    self._wake.wait(FRAME if playing else None if settled else SETTLED)
+            with self._wake:  # what ends the wait changes under the same lock: no call is missed
+                self._wake.wait_for(
+                    lambda: bool(self._pending) or self._closed.is_set(),
+                    FRAME if playing else None if settled else SETTLED,
+                )
                 changes, self._pending = list(self._pending.values()), {}
             now = time.monotonic()
             passed, last = now - last, now

@@ -90,6 +90,53 @@ def test_it_listens_at_home_and_closes_cleanly(capfd):
     assert capfd.readouterr() == ("", "")
 
 
+class AskedJustBefore(threading.Event):
+    """Not set when the worker asks before its sleep, and set before it goes on."""
+
+    def __init__(self):
+        super().__init__()
+        self.armed, self.asked = threading.Event(), threading.Event()
+
+    def is_set(self):
+        answer = super().is_set()
+        if self.armed.is_set() and threading.current_thread().name == "ninedof-viewer" and not self.asked.is_set():
+            self.asked.set()
+            self.wait(1.0)
+        return answer
+
+
+def test_closing_is_not_missed_between_a_look_and_the_sleep(monkeypatch):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    monkeypatch.setattr("ninedof.viewer.app.PATIENCE", 2.0)
+    viewer = nd.view(port=0)
+    closed, update = AskedJustBefore(), viewer.update
+    viewer._closed = closed
+
+    def last_before_the_sleep(settled=False):
+        update(settled)
+        if settled:
+            closed.armed.set()
+
+    viewer.update = last_before_the_sleep
+    viewer.submit("once more", lambda: None)
+    assert closed.asked.wait(10.0)
+    viewer.close()
+    assert not viewer._worker.is_alive()
+
+
+def test_closing_tells_of_a_thread_that_does_not_end(monkeypatch):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    monkeypatch.setattr("ninedof.viewer.app.PATIENCE", 0.05)
+    before, begun, go_on = set(threading.enumerate()), threading.Event(), threading.Event()
+    viewer = nd.view(port=0)
+    viewer.submit("long", lambda: begun.set() or go_on.wait(10.0))
+    assert begun.wait(10.0)
+    with pytest.warns(RuntimeWarning, match=r"still at work after 0\.05 s"):
+        viewer.close()
+    go_on.set()
+    assert free_of_threads(before) is True
+
+
 def test_closing_ends_a_search_for_a_workspace():
     pytest.importorskip("viser", reason="the viewer needs viser")
     before = set(threading.enumerate())
