@@ -66,6 +66,7 @@ class Viewer:
         self._camera()
         for name in ("platform", "O"):
             self._server_handle(name)
+        self._on_leaving()
 
     # --- for Python -----------------------------------------------------------------------------------------------
 
@@ -307,13 +308,23 @@ class Viewer:
         async def dragged(event: Any) -> None:  # not in a pool of threads, so that drags keep their order
             position = np.asarray(event.target.position) / self.scene.scale
             turn = from_quaternions(np.asarray(event.target.wxyz, dtype=np.float64)[None])[0]
-            self.scene.hold(name, event.phase != "end")
+            client, is_held = event.client_id, event.phase != "end"
+            self.submit(f"hold {name} {client}", lambda: self.scene.hold(name, client, is_held))
             if name == "O":
                 self.submit("O", lambda: self.state.set_internal_point(position))
             else:
                 self.submit("pose", lambda: self.state.set_pose(position=position, rotation=turn))
 
         handle.on_update(dragged)
+
+    def _on_leaving(self) -> None:
+        """Let the handles follow again that a client held when it left; its drag has no end."""
+
+        async def left(client: Any) -> None:  # in order with the drags
+            number = client.client_id
+            self.submit(f"left {number}", lambda: self.scene.release_all(number))
+
+        self._server.on_client_disconnect(left)
 
     def _theme(self, dark: bool) -> None:
         self._server.gui.configure_theme(

@@ -42,8 +42,8 @@ class Scene:
         self._server, self._api = server, server.scene
         self._sent: dict[Any, Any] = {}
         self._dark = dark
-        self.held: set[str] = set()
-        """Handles in the hand of the user: the browser knows best where they are."""
+        self.held: set[tuple[str, int]] = set()
+        """Handles in the hand of a user, with the client: that browser knows best where they are."""
         self._make()
         self.set_dark(dark)
 
@@ -52,16 +52,17 @@ class Scene:
     def draw(self, g: Geometry, c: Configuration, found: Numbers) -> None:
         """Show a machine in a pose."""
         pose = self.scale * c.position, to_quaternions(c.rotation[None])[0]
+        held = {name for name, _ in self.held}
         self._plate("/base", self.scale * np.vstack([g.base_external, g.base_internal]))
         self._plate("/platform", self.scale * np.vstack([g.platform_external, g.platform_internal]))
         for name in ("/platform", "/platform gizmo", "/platform axes"):
-            if name not in self.held:
+            if name not in held:
                 self._set(name, position=pose[0], wxyz=pose[1])
         points = self.scale * robot_points(g, c)
         self._legs(g, c, found)
         self._joints(points, found)
         for name in ("/O gizmo", "/O", "/labels/O"):
-            if name not in self.held:
+            if name not in held:
                 self._set(name, position=points[12])
 
     def draw_ellipsoid(self, c: Configuration, directions: Floats, semi_axes: Floats) -> None:
@@ -257,12 +258,20 @@ class Scene:
         """Return the handle that moves "platform" or "O"."""
         return self._nodes[f"/{name} gizmo"]
 
-    def hold(self, name: str, is_held: bool) -> None:
-        """Note that the user has taken or released a handle."""
-        node = f"/{name} gizmo"
+    def hold(self, name: str, client: int, is_held: bool) -> None:
+        """Note that the user of a client has taken or released a handle."""
+        hand = (f"/{name} gizmo", client)
         if is_held:
-            self.held.add(node)
+            self.held.add(hand)
         else:
-            self.held.discard(node)
+            self._release({hand})
+
+    def release_all(self, client: int) -> None:
+        """Release what a client holds, such as one that has left in the middle of a drag."""
+        self._release({hand for hand in self.held if hand[1] == client})
+
+    def _release(self, hands: set[tuple[str, int]]) -> None:
+        self.held -= hands
+        for node, _ in hands:
             for key in ("position", "wxyz"):
                 self._sent.pop((node, key), None)

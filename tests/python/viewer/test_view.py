@@ -1,5 +1,6 @@
 """The viewer as a program: what it says when something is missing, how it ends, and a browser that uses it."""
 
+import asyncio
 import socket
 import sys
 import threading
@@ -165,6 +166,28 @@ def test_only_what_changed_is_sent():
     named = {getattr(one, "name", "") for one in sent}
     assert {"/legs", "/O"} <= named
     assert not named & {"/base", "/platform", "/labels/l1", "/labels/l2", "/ground"}
+
+
+def shifted_along_x(point, by):
+    return point + np.array([by, 0.0, 0.0])
+
+
+def test_a_handle_follows_again_when_its_client_leaves():
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    with nd.view(port=0) as viewer:
+        gizmo, home = viewer.scene.gizmo("platform"), viewer.state.home.position
+        (dragged,), (left,) = gizmo._impl_aux.update_cb, viewer._server._client_disconnect_cb
+        until(lambda: np.allclose(gizmo.position, viewer.scene.scale * home))  # drawn for the first time
+        gizmo._impl.position = viewer.scene.scale * shifted_along_x(home, 0.5)  # as a browser has moved it
+        for client in (3, 4):
+            asyncio.run(dragged(SimpleNamespace(target=gizmo, phase="update", client_id=client)))
+        until(lambda: len(viewer.scene.held) == 2)
+        until(lambda: abs(viewer.design.configuration.position[0] - 0.5) < 1e-9)
+        asyncio.run(left(SimpleNamespace(client_id=3)))
+        until(lambda: viewer.scene.held == {("/platform gizmo", 4)})
+        asyncio.run(left(SimpleNamespace(client_id=4)))
+        viewer.submit("pose", viewer.state.go_home)
+        until(lambda: np.allclose(gizmo.position, viewer.scene.scale * home))
 
 
 def until(condition, seconds=20.0):
