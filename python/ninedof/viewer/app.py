@@ -47,7 +47,6 @@ class Viewer:
         self._lock = threading.RLock()
         self._closed = threading.Event()
         self._job = BodyJob(self._show_body, lambda why: self.panel.tell_body(f"Not found: {why}"))
-        self._modes: Any = None
         self._server = started(host, port)
         self.host, self.port = host, int(self._server.get_port())
         try:
@@ -156,22 +155,21 @@ class Viewer:
 
     def find_modes(self) -> None:
         """List the assembly modes of the leg lengths shown."""
-        found, kappa = self.state.modes()
-        order = np.argsort(kappa)
-        names = [f"{k + 1}: condition number {number(float(kappa[n]))}" for k, n in enumerate(order)]
-        self._modes = found[order] if len(order) else None
+        found, kappa, status = self.state.modes()
+        names = [f"{k}: condition number {number(value)}" for k, value in enumerate(kappa.tolist(), start=1)]
         here = self.state.configuration
         shown = 0
-        if self._modes is not None:
-            away = np.abs(self._modes.position - here.position).max(axis=1) / self.subject.size
-            away += np.abs(self._modes.rotation - here.rotation).max(axis=(1, 2))
-            shown = int(np.argmin(away + np.abs(self._modes.internal_point - here.internal_point).max(axis=1)))
-        self.panel.list_modes(names, f"none: {found.status}", shown)
+        if names:
+            away = np.abs(found.position - here.position).max(axis=1) / self.subject.size
+            away += np.abs(found.rotation - here.rotation).max(axis=(1, 2))
+            shown = int(np.argmin(away + np.abs(found.internal_point - here.internal_point).max(axis=1)))
+        self.panel.list_modes(names, f"none: {status}", shown)
 
     def show_mode(self, k: int) -> None:
         """Show one of the modes found."""
-        if self._modes is not None and k < len(self._modes):
-            self.state.set_configuration(self._modes[k])
+        listed = self.state.listed
+        if listed is not None and k < len(listed):
+            self.state.set_configuration(listed[k])
 
     def read_path(self, file: Any) -> None:
         """Open a path that the browser has sent."""

@@ -13,6 +13,7 @@ from ninedof.viewer.html import limits_html, numbers_html
 from ninedof.viewer.numbers import Numbers
 
 TURN = 60.0  # degrees: end of the sliders of the rotation
+NOT_SEARCHED = "not searched"
 REACH = 0.35  # of the size of the machine: end of the sliders of positions, from home
 RULE_WORDS = {
     "carried": "carried with the platform",
@@ -73,6 +74,8 @@ class Panel:
             value = state.variables[name]
             slider.show(math.degrees(value) if name in self._angles else value, settled)
         _write(self._rule, "value", RULE_WORDS[state.rule])
+        if state.listed is None and self._mode.options != (NOT_SEARCHED,):  # they were those of another design
+            self.list_modes([], NOT_SEARCHED, 0)
         if (player := self._viewer.player) is not None:
             self._time.show(player.time)
             _write(self._play, "label", "Pause" if player.playing else "Play")
@@ -142,7 +145,7 @@ class Panel:
         gui, viewer = self._gui, self._viewer
         find = gui.add_button("Find all", icon="search", hint="Every configuration with the leg lengths shown")
         find.on_click(lambda _: viewer.submit("modes", viewer.find_modes))
-        self._mode = gui.add_dropdown("Mode", ["not searched"], disabled=True)
+        self._mode = gui.add_dropdown("Mode", [NOT_SEARCHED], disabled=True)
 
         def chosen(event: Any) -> None:
             if event.client_id is not None and self._mode.value in self._mode_names:

@@ -13,7 +13,7 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.internal_point import RULES
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
-from ninedof.position.forward_position import AssemblyModes, forward_position
+from ninedof.position.forward_position import PositionStatus, forward_position
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -43,6 +43,8 @@ class State:
         self.rule = _rule_of(subject)
         self.note = ""
         """One sentence where something could not be done, such as a design that does not exist; "" otherwise."""
+        self.listed: Configuration | None = None
+        """The assembly modes found last, of the design shown; None without any, such as after a change of it."""
         self._problem = self._problem_of(subject)
         self.geometry: Geometry = subject.geometry
         self.home: Configuration = subject.home
@@ -118,6 +120,7 @@ class State:
         turn = self.configuration.rotation @ self.home.rotation.T
         move = self.configuration.internal_point - self.home.internal_point
         self.note, self.variables, self.geometry, self.home = "", wanted, geometry, home
+        self.listed = None
         self.yardstick = self._yardstick()
         p, q = home.position + shift, turn @ home.rotation
         self._stand(p, q, home.internal_point + move)
@@ -141,12 +144,24 @@ class State:
         """Return the numbers of the pose shown."""
         return numbers(self.yardstick, self.geometry, self.configuration)
 
-    def modes(self) -> tuple[AssemblyModes, Floats]:
-        """Return every configuration with the leg lengths shown, the best conditioned first, and condition numbers."""
+    def modes(self) -> tuple[Configuration, Floats, PositionStatus]:
+        """Return every configuration with the leg lengths shown, and `listed` then has them.
+
+        Returns
+        -------
+        modes : Configuration of shape (count,)
+            The best conditioned first.
+        condition_numbers : ndarray, shape (count,)
+        status : PositionStatus
+
+        """
         found = forward_position(self.geometry, leg_lengths(self.geometry, self.configuration))
-        if not found.count:
-            return found, np.zeros(0)
-        return found, np.asarray(condition_number(self.geometry, found, self.yardstick.length))
+        kappa = np.zeros(0)
+        if found.count:
+            kappa = np.asarray(condition_number(self.geometry, found, self.yardstick.length))
+        order = np.argsort(kappa, kind="stable")
+        self.listed = found[order]
+        return self.listed, kappa[order], found.status
 
     def body_question(self, condition_limit: float = math.inf) -> BodyQuestion:
         """Return what the workspace of the orientation shown is asked of."""

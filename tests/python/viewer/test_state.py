@@ -142,11 +142,36 @@ def test_a_design_that_does_not_exist_changes_nothing():
 
 def test_modes_have_the_lengths_shown():
     state = State(subject_of())
-    modes, kappa = state.modes()
     lengths = nd.leg_lengths(state.geometry, state.configuration)
-    assert modes.count == len(kappa) >= 2
+    modes, kappa, status = state.modes()
+    assert status == "found"
+    assert len(modes) == len(kappa) == nd.forward_position(state.geometry, lengths).count >= 2
     state.set_configuration(modes[1])
     np.testing.assert_allclose(state.numbers().leg_lengths, lengths, rtol=1e-9)
+
+
+def test_the_best_conditioned_mode_is_the_first():
+    state = State(subject_of())
+    state.set_pose(position=shifted(state.home.position, [0.3, -0.2, 0.1]), turn_deg=(4.0, -3.0, 8.0))
+    modes, kappa, _ = state.modes()
+    assert (np.diff(kappa) >= 0.0).all()
+    assert kappa[-1] > 1.1 * kappa[0]
+    own = [nd.condition_number(state.geometry, modes[k]) for k in range(len(modes))]
+    np.testing.assert_allclose(kappa, own, rtol=1e-9)
+
+
+def test_modes_of_another_design_are_not_listed():
+    state = State(subject_of())
+    found, _, _ = state.modes()
+    state.set_configuration(found[1])
+    assert state.listed == found  # another pose of the same design
+    state.set_variables({"a1": 0.0, "a2": 0.0})  # no such design
+    assert state.listed == found
+    state.set_variables({"a1": 0.3})
+    assert state.listed is None
+    state.modes()
+    state.reset_design()
+    assert state.listed is None
 
 
 def test_what_is_shown_is_a_design_file(tmp_path):

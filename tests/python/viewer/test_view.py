@@ -211,8 +211,12 @@ def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
         for kind in ELLIPSOIDS:
             viewer.panel.ellipsoid = kind
             viewer.submit(kind, lambda: None)
+        until(lambda: viewer.panel._mode.options[0].startswith("1: condition number"))
         viewer.submit("variable", lambda: viewer.state.set_variables({"a1": 0.3}))
-        until(lambda: viewer.state.variables["a1"] == 0.3)
+        viewer.submit("late", lambda: viewer.show_mode(1))
+        until(lambda: viewer.panel._mode.value == "not searched")
+        assert viewer.panel._mode.disabled
+        assert viewer.state.variables["a1"] == 0.3
         for part in ("labels", "handles", "axes"):
             viewer.show(part, False)
         viewer.set_dark(False)
