@@ -46,7 +46,7 @@ class Viewer:
         self._wake = threading.Condition()
         self._lock = threading.RLock()
         self._closed = threading.Event()
-        self._job = BodyJob(self._show_body, lambda why: self.panel.tell_body(f"Not found: {why}"))
+        self._job = BodyJob(self._found_body, self._found_no_body)
         self._server = started(host, port)
         self.host, self.port = host, int(self._server.get_port())
         try:
@@ -211,19 +211,30 @@ class Viewer:
     def compute_body(self, condition_limit: float) -> None:
         """Draw the workspace as soon as it is known; one that is still sought is given up."""
         with self._lock:
-            question = self.state.body_question(condition_limit if condition_limit >= 1.0 else math.inf)
-        self.panel.tell_body("Computing ...")
-        self._job.begin(question)
+            self._job.begin(self.state.body_question(condition_limit if condition_limit >= 1.0 else math.inf))
+            self.panel.tell_body("Computing ...")
 
     def remove_body(self) -> None:
         """Remove the workspace."""
-        self._job.cancel()
-        self.panel.tell_body("")
-        self.submit("body", self.scene.remove_body)
+        with self._lock:
+            self._job.cancel()
+            self.panel.tell_body("")
+        self.submit("remove body", self.scene.remove_body)
 
-    def _show_body(self, found: Body) -> None:
-        self.submit("body", lambda: self.scene.draw_body(found.vertices, found.faces))
-        self.panel.tell_body(self.panel.body_words(found.volume, found.open))
+    def _found_body(self, search: int, found: Body) -> None:
+        def show() -> None:  # under the lock under which a search begins and is given up
+            if self._job.counts(search):
+                self.panel.tell_body(self.panel.body_words(found.volume, found.open))
+                self.scene.draw_body(found.vertices, found.faces)
+
+        self.submit(f"body {search}", show)
+
+    def _found_no_body(self, search: int, why: str) -> None:
+        def tell() -> None:
+            if self._job.counts(search):
+                self.panel.tell_body(f"Not found: {why}")
+
+        self.submit(f"body {search}", tell)
 
     # --- what the browser asks for --------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import traceback
 from collections.abc import Callable
 
 from ninedof.viewer.body import Body, BodyQuestion, body
@@ -11,47 +12,63 @@ PATIENCE = 10.0  # seconds that closing waits for a search to notice
 
 
 class BodyJob:
-    """At most one search that counts.
+    """At most one search that counts. Any thread may begin or cancel.
 
     Parameters
     ----------
     found : callable
-        Called with the body, from the thread of the search.
+        Called with the number of the search and the body, from the thread of the search. Who shows it asks `counts`
+        when that is done: the search may be given up in between.
     failed : callable
-        Called with a sentence where there is none.
+        Called with the number of the search and a sentence where there is none.
 
     """
 
-    def __init__(self, found: Callable[[Body], None], failed: Callable[[str], None]) -> None:
+    def __init__(self, found: Callable[[int, Body], None], failed: Callable[[int, str], None]) -> None:
         self._found, self._failed = found, failed
-        self._stop = threading.Event()
+        self._lock = threading.Lock()
+        self._newest = 0
+        self._closed = False
         self._threads: list[threading.Thread] = []
 
     def begin(self, question: BodyQuestion) -> None:
-        """Search, in place of the search before."""
-        self.cancel()
-        stop = self._stop = threading.Event()
-
-        def work() -> None:
-            try:
-                made = body(question, stop.is_set)
-            except ValueError as error:
-                if not stop.is_set():
-                    self._failed(str(error))
+        """Search, in place of the search before; nothing once closed."""
+        with self._lock:
+            if self._closed:
                 return
-            if made is not None and not stop.is_set():
-                self._found(made)
+            self._newest += 1
+            thread = threading.Thread(
+                target=self._work, args=(self._newest, question), name="ninedof-viewer-workspace", daemon=True
+            )
+            self._threads = [*(one for one in self._threads if one.is_alive()), thread]
+            thread.start()
 
-        thread = threading.Thread(target=work, name="ninedof-viewer-workspace", daemon=True)
-        self._threads = [*(one for one in self._threads if one.is_alive()), thread]
-        thread.start()
+    def counts(self, search: int) -> bool:
+        """Return whether a search is the newest and not given up."""
+        return search == self._newest
 
     def cancel(self) -> None:
         """Give up the search."""
-        self._stop.set()
+        with self._lock:
+            self._newest += 1
 
     def close(self) -> None:
         """Give up the search and wait for its threads: none is left inside the core when Python ends."""
-        self.cancel()
-        for thread in self._threads:
+        with self._lock:
+            self._closed = True
+            self._newest += 1
+            threads = self._threads
+        for thread in threads:
             thread.join(timeout=PATIENCE)
+
+    def _work(self, search: int, question: BodyQuestion) -> None:
+        try:
+            made = body(question, lambda: not self.counts(search))
+        except Exception as error:  # whatever it is, the user is waiting for an answer
+            if self.counts(search):
+                if not isinstance(error, ValueError):  # a mistake of the program is shown where it was started
+                    traceback.print_exc()
+                self._failed(search, str(error) or type(error).__name__)
+            return
+        if made is not None:
+            self._found(search, made)

@@ -1,5 +1,8 @@
 """The workspace of the viewer: its surface, and its volume beside the search of the package."""
 
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +10,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.viewer.body import body
+from ninedof.viewer.body_job import BodyJob
 from ninedof.viewer.state import State
 from ninedof.viewer.subject import subject_of
 from ninedof.viewer.surface import surface, volume
@@ -53,6 +57,29 @@ def test_the_volume_is_that_of_the_workspace_search():
 
 def test_a_search_is_given_up():
     assert body(State(subject_of()).body_question(5.0), lambda: True) is None
+
+
+def test_only_the_newest_of_many_searches_counts(monkeypatch):
+    running, found = [], []
+
+    def until_given_up(question, stopped):
+        running.append(question)
+        while not stopped():
+            time.sleep(0.001)
+
+    monkeypatch.setattr("ninedof.viewer.body_job.body", until_given_up)
+    job = BodyJob(lambda *answer: found.append(answer), lambda *why: found.append(why))
+    with ThreadPoolExecutor(8) as pool:  # as clicks come
+        for k in range(40):
+            pool.submit(job.begin, k)
+    assert [job.counts(k) for k in range(1, 41)] == [False] * 39 + [True]
+    threads = [t for t in threading.enumerate() if t.name == "ninedof-viewer-workspace"]
+    assert set(job._threads) >= set(threads)  # each is known, so that closing waits for it
+    job.close()
+    assert not any(t.is_alive() for t in threads)
+    job.begin("late")
+    assert len(running) == 40
+    assert found == []
 
 
 def test_the_spread_of_a_study_bounds_the_body():

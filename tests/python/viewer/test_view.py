@@ -14,6 +14,8 @@ import pytest
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.support.extras import MissingExtra
+from ninedof.viewer import shapes
+from ninedof.viewer.body import Body
 from ninedof.viewer.panel import ELLIPSOIDS
 
 NUMBER = "document.getElementById('ninedof-{}')?.textContent"
@@ -166,6 +168,40 @@ def test_only_what_changed_is_sent():
     named = {getattr(one, "name", "") for one in sent}
     assert {"/legs", "/O"} <= named
     assert not named & {"/base", "/platform", "/labels/l1", "/labels/l2", "/ground"}
+
+
+@pytest.mark.parametrize("error", [ValueError("no limits"), MemoryError(), ZeroDivisionError("by nothing")])
+def test_a_search_that_fails_is_told(monkeypatch, capfd, error):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+
+    def fails(question, stopped):
+        raise error
+
+    monkeypatch.setattr("ninedof.viewer.body_job.body", fails)
+    with nd.view(port=0) as viewer:
+        viewer.compute_body(6.0)
+        until(lambda: f"Not found: {error or type(error).__name__}" in viewer.panel._body.content)
+    assert ("Traceback" in capfd.readouterr().err) != isinstance(error, ValueError)
+
+
+def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    ball = shapes.ball()
+    made = Body(ball[0].astype(np.float64), ball[1], 4.2, False)
+    monkeypatch.setattr("ninedof.viewer.body_job.body", lambda question, stopped: made)
+    with nd.view(port=0) as viewer:
+        shown = "/workspace"
+        viewer.compute_body(6.0)
+        until(lambda: shown in viewer.scene._nodes)
+        with viewer._lock:  # the thread that works waits
+            viewer.compute_body(6.0)
+            until(lambda: not [t for t in threading.enumerate() if t.name == "ninedof-viewer-workspace"])
+            viewer.remove_body()
+        done = threading.Event()
+        viewer.submit("done", done.set)
+        assert done.wait(10.0)
+        assert shown not in viewer.scene._nodes
+        assert "Volume" not in viewer.panel._body.content
 
 
 def shifted_along_x(point, by):
