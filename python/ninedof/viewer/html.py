@@ -18,6 +18,11 @@ _FAINT = "opacity:0.62"
 _TABLE = '<table style="width:100%;border-collapse:collapse">'
 
 
+def words_html(text: str) -> str:
+    """Return a sentence as it is: what looks like HTML or Markdown in the name of a file stays text."""
+    return f'{_WRAP}<span style="overflow-wrap:anywhere">{escape(text)}</span></div>' if text else ""
+
+
 def numbers_html(found: Numbers, unit: str, note: str) -> str:
     """Return condition number, singular values, determinants and legs."""
     kappa = number(found.condition_number, 5)

@@ -9,7 +9,7 @@ from ninedof.motion.internal_point import RULES
 from ninedof.statics.ellipsoid import force_ellipsoid, velocity_ellipsoid
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.controls import Slider
-from ninedof.viewer.html import limits_html, numbers_html
+from ninedof.viewer.html import limits_html, numbers_html, words_html
 from ninedof.viewer.numbers import Numbers
 
 TURN = 60.0  # degrees: end of the sliders of the rotation
@@ -172,11 +172,11 @@ class Panel:
         button.on_click(lambda _: viewer.compute_body(float(self._most.value)))
         clear = gui.add_button("Remove", icon="trash")
         clear.on_click(lambda _: viewer.remove_body())
-        self._body = gui.add_markdown("")
+        self._body = gui.add_html("")
 
     def tell_body(self, text: str) -> None:
         """Say how the workspace stands."""
-        _write(self._body, "content", text)
+        _write(self._body, "content", words_html(text))
 
     def body_words(self, size: float, is_open: bool) -> str:
         """Return the sentence about a workspace that is drawn."""
@@ -191,7 +191,7 @@ class Panel:
         gui, viewer = self._gui, self._viewer
         upload = gui.add_upload_button("Open CSV", icon="upload", mime_type=".csv", hint="Columns t, x, y, z and turns")
         upload.on_upload(lambda _: viewer.submit("path", lambda: viewer.read_path(upload.value)))
-        self._path_text = gui.add_markdown("No path is open.")
+        self._path_text = gui.add_html(words_html("No path is open."))
         self._play = gui.add_button("Play", icon="player-play", disabled=True)
         self._play.on_click(lambda _: viewer.submit("play", viewer.toggle_play))
         self._speed = gui.add_slider("speed", 0.1, 5.0, 0.1, 1.0)
@@ -202,7 +202,8 @@ class Panel:
     def offer_path(self, name: str, duration: float, count: int) -> None:
         """Make the controls of a path that was opened."""
         viewer = self._viewer
-        _write(self._path_text, "content", f"{name}: {count} poses, {duration:g} s")
+        long = amount(f"{duration:g}", "s" if self._unit else "")
+        _write(self._path_text, "content", words_html(f"{name}: {count} poses, duration {long}"))
         self._play.disabled = False
         if self._time is not None:
             self._time.handle.remove()

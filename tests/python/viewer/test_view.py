@@ -204,6 +204,22 @@ def test_a_body_found_as_it_is_given_up_is_not_shown(monkeypatch):
         assert "Volume" not in viewer.panel._body.content
 
 
+@pytest.mark.parametrize(("unit", "duration"), [("mm", "duration 2 s<"), ("", "duration 2<")])
+def test_names_and_errors_are_text_and_time_has_a_unit_where_lengths_have(unit, duration):
+    pytest.importorskip("viser", reason="the viewer needs viser")
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0), nd.Configuration.neutral(3.98, 2.44)
+    with nd.view(nd.Design(g, home, unit=unit), port=0) as viewer:
+        name = "<img src=x onerror=alert(1)> *a*.csv"
+        path = nd.Trajectory.circle(home, radius=0.5, duration=2.0, points=21)
+        viewer.submit("path", lambda: viewer._open_path(name, path))
+        until(lambda: "21 poses" in viewer.panel._path_text.content)
+        assert f"&lt;img src=x onerror=alert(1)&gt; *a*.csv: 21 poses, {duration}" in viewer.panel._path_text.content
+        viewer.panel.tell_body("Not found: <b>")
+        assert "Not found: &lt;b&gt;" in viewer.panel._body.content
+        viewer.panel.tell_body("")
+        assert viewer.panel._body.content == ""
+
+
 def shifted_along_x(point, by):
     return point + np.array([by, 0.0, 0.0])
 
@@ -257,7 +273,7 @@ def test_a_path_is_played_and_every_control_works(tmp_path, capfd):
             viewer.show(part, False)
         viewer.set_dark(False)
         viewer.compute_body(6.0)
-        until(lambda: viewer.panel._body.content.startswith("Volume about"))
+        until(lambda: "Volume about" in viewer.panel._body.content)
         viewer.remove_body()
         bad = SimpleNamespace(name="mine.csv", content=b"t,x,y\n")
         viewer.submit("path", lambda: viewer.read_path(bad))
