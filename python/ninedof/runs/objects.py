@@ -65,6 +65,9 @@ def load(path: str | os.PathLike[str]) -> Kept:
         if point:
             raise ValueError(f"{os.fspath(path)}: got a point of a design file, expected one of a run")
         return load_design(place) if place.suffix == ".toml" else Design(*read_design(place))
+    if place.suffix and place.suffix != ".json" and place.is_file():
+        readable = ", ".join([".toml", *READERS])
+        raise ValueError(f"{place}: got a file that ends in {place.suffix}, expected {readable}, or a run folder")
     found = _run(place)
     return _point(found, point, os.fspath(path)) if point else found
 

@@ -118,6 +118,24 @@ def test_the_unit_of_a_candidate_must_be_said():
         assert model_of(design, unit="").unit == ""
 
 
+def test_a_suffix_of_another_format_is_refused(tmp_path, capsys):
+    """Else MuJoCo would be given a file of SDFormat."""
+    nd.export(exported.machine(), "csv", tmp_path / "j.csv")
+    with pytest.raises(SystemExit) as ended:
+        main(["export", str(tmp_path / "j.csv"), "--to", "sdf", "--out", str(tmp_path / "j.urdf")])
+    assert ended.value.code == 2
+    assert "with --to sdf, expected a file that ends in .sdf" in " ".join(capsys.readouterr().err.split())
+    assert not (tmp_path / "j.urdf").exists()
+
+
+def test_what_cannot_be_read_back_is_named(tmp_path):
+    nd.export(exported.machine(), "urdf", tmp_path / "j.urdf")
+    with pytest.raises(
+        ValueError, match=r"j.urdf: got a file that ends in .urdf, expected .toml, .xml, .csv, or a run"
+    ):
+        nd.load(tmp_path / "j.urdf")
+
+
 def test_a_design_is_not_overwritten(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     nd.export(nd.optimize(nd.Study.paper(), starts=1), "csv", "joints.csv")

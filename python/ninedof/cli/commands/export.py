@@ -47,6 +47,9 @@ def export(
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
     screen = Screen(json)
     name = _by_suffix(out) if to is None else choice("--to", to, FORMATS)
+    others = [row.suffix for key, row in FORMATS.items() if row.suffix != FORMATS[name].suffix]
+    if out is not None and out.suffix.lower() in others:
+        raise ValueError(f"--out: got {out} with --to {name}, expected a file that ends in {FORMATS[name].suffix}")
     chosen = named_design(design)
     file = out or Path(_stem(design) + FORMATS[name].suffix)
     if file.resolve() == Path(design).resolve():
