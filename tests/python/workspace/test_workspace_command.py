@@ -129,6 +129,17 @@ def test_ctrl_c_before_the_first_level_leaves_a_record(tmp_path, capsys, monkeyp
     assert "interrupted" in out.err
 
 
+def test_ctrl_c_after_the_search_keeps_the_map(tmp_path, capsys, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(importlib.import_module("ninedof.cli.commands.workspace"), "workspace_table", interrupted)
+    asked = ["--legs", "2.5", "6.5", "--tolerance", "0.1", "--out", str(tmp_path / "run")]
+    status, _ = run(asked, capsys)
+    assert status == 130
+    assert nd.load(tmp_path / "run").volume > 0.0
+
+
 def test_the_command_starts_from_the_published_design_at_its_best(tmp_path, capsys):
     code, _ = run(["--legs", "0", "1", "--json", "--no-figures", "--out", str(tmp_path / "run")], capsys)
     assert code == 3

@@ -179,6 +179,8 @@ def workspace(
     asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position, about)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
+    question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
+    write_run(found, directory, None, question)  # at once: an interruption of what follows does not lose the map
     for line in asked_lines(asked, home, own, left, given.unit):
         screen.print(line)
     screen.print(workspace_table(found))
@@ -189,7 +191,6 @@ def workspace(
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
         screen.print(region_words(region_asked, share, given.unit))
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
-    question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
     outlined = None if archetype == "orientation" else region_asked
     drawing = partial(draw, found, screen, home, outlined) if drawn else None
     record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
