@@ -1,6 +1,6 @@
 """Where the published robot can work with legs of 2.5 to 6.5, and what a better place for O is worth.
 
-With --figure FILE the workspace is drawn in two sections.
+With --figure FILE the workspace is drawn in three sections.
 """
 
 import sys
@@ -33,7 +33,7 @@ rules = {
     "half way between the plates": 0.5,
     "six tenths of the way": 0.6,
     "fixed in the base": [0.0, 0.0, 2.4],
-    "carried by the platform": {"platform": [0.0, 0.0, -2.4]},
+    "carried as a point of the platform": {"platform": [0.0, 0.0, -2.4]},
 }
 for name, rule in rules.items():
     w = nd.workspace(geometry, box, criteria=criteria, home=home, internal_point=rule)
@@ -49,7 +49,7 @@ if "--figure" in sys.argv:
     from ninedof import plot
 
     sections = []
-    for name, at, drawn in (("y", 0.0, [0, 2]), ("z", 4.8, [0, 1])):
+    for name, at, drawn in (("y", 0.0, [0, 2]), ("x", 0.0, [1, 2]), ("z", 4.8, [0, 1])):
         off = at - found.ball_centre["xyz".index(name)]
         ball = (found.ball_centre[drawn], np.sqrt(found.ball_radius**2 - off**2))
         box_inside = (found.box_low[drawn], found.box_high[drawn])

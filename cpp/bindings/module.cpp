@@ -17,5 +17,9 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_accuracy(m);
   ninedof::python::bind_ellipsoid(m);
   ninedof::python::bind_design(m);
+  ninedof::python::bind_interval(m);
+  ninedof::python::bind_bounds(m);
+  ninedof::python::bind_machine(m);
   ninedof::python::bind_optimize(m);
+  ninedof::python::bind_optimum(m);
 }

@@ -22,6 +22,8 @@ TREE = {
                 "kinematics",
                 "workspace",
                 "optimization",
+                "certificate",
+                "certify",
                 "sweeps",
                 "study-file",
                 "figures",
@@ -51,6 +53,8 @@ TREE = {
                     "design",
                     "minimax",
                     "limits",
+                    "proof",
+                    "proof-machine",
                     "workspace",
                 ]
             ],

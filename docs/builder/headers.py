@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 TITLES = {
-    "math": "types, errors, rotations, dual numbers",
+    "math": "types, errors, rotations, dual numbers, intervals",
     "robot": "geometry, configuration, legs",
     "kinematics": "velocities and accelerations",
     "conditioning": "condition number and other indices",
@@ -16,6 +16,7 @@ TITLES = {
     "batch": "stacks",
     "redundancy": "the best internal point",
     "design": "families, poses, objectives, constraints",
+    "proof": "certified numbers, the certified optimum",
     "optimize": "optimization",
     "workspace": "workspaces",
 }

@@ -16,6 +16,7 @@ ROOMS = {
     "redundancy": "The best internal point",
     "motion": "Along a path",
     "design": "Studies and designs",
+    "proof": "Proof",
     "optimize": "Optimization",
     "verify": "A second opinion",
     "pareto": "Trade-offs",

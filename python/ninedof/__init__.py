@@ -7,6 +7,8 @@ from importlib import import_module as _import_module
 from typing import TYPE_CHECKING
 from typing import Any as _Any
 
+from ninedof.support import starting as _starting  # noqa: F401  # first: Ctrl-C while the rest is loaded
+
 try:
     from ninedof import _core
 except ImportError as error:  # a source tree without its compiled part
@@ -43,12 +45,26 @@ from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.pareto import Front, pareto
 from ninedof.position.forward_position import AssemblyModes, PositionStatus, forward_position
 from ninedof.position.tracking import Tracked, TrackStatus, track
+from ninedof.proof.bounds import (
+    Bounds,
+    DeterminantBounds,
+    axis_condition_number_bounds,
+    condition_number_bounds,
+    determinant_bounds,
+    hexagonal_condition_number_bounds,
+    jacobian_bounds,
+    leg_length_bounds,
+    singular_value_bounds,
+)
+from ninedof.proof.machine_record import LimitProof, MachineCertificate
+from ninedof.proof.optimum import OptimumProof, check_certificate, prove_optimum
 from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
+from ninedof.runs.machine_file import load_certificate
 from ninedof.runs.objects import load, save
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
@@ -84,10 +100,12 @@ __version__: str = _core.version
 
 __all__ = [
     "AssemblyModes",
+    "Bounds",
     "Candidate",
     "Configuration",
     "Design",
     "DesignPoint",
+    "DeterminantBounds",
     "Ellipsoid",
     "ErrorBounds",
     "Followed",
@@ -98,11 +116,14 @@ __all__ = [
     "InternalPointStatus",
     "LegForces",
     "LimitBreak",
+    "LimitProof",
     "LowerBound",
+    "MachineCertificate",
     "MapAudit",
     "Mechanism",
     "NearestSingularity",
     "Objective",
+    "OptimumProof",
     "PathLimits",
     "Pose",
     "PositionStatus",
@@ -126,13 +147,17 @@ __all__ = [
     "WorkspaceStatus",
     "applicable_bounds",
     "atlas",
+    "axis_condition_number_bounds",
     "axis_singular_values",
     "best_internal_map",
     "best_internal_path",
     "best_internal_point",
     "characteristic_length",
     "check",
+    "check_certificate",
     "condition_number",
+    "condition_number_bounds",
+    "determinant_bounds",
     "distance_to_singularity",
     "error_bounds",
     "error_map",
@@ -144,26 +169,32 @@ __all__ = [
     "forward_position",
     "forward_velocity",
     "hexagonal_condition_number",
+    "hexagonal_condition_number_bounds",
     "internal_velocity",
     "inverse_acceleration",
     "inverse_velocity",
     "isotropy_residual",
     "jacobian",
+    "jacobian_bounds",
     "jacobian_rate",
     "leg_forces",
+    "leg_length_bounds",
     "leg_lengths",
     "load",
+    "load_certificate",
     "manipulability",
     "nearest_singularity",
     "null_motion",
     "optimize",
     "pareto",
     "path_limits",
+    "prove_optimum",
     "reciprocal_condition_number",
     "report",
     "save",
     "self_stress",
     "sheet",
+    "singular_value_bounds",
     "singular_values",
     "singularity",
     "singularity_margins",

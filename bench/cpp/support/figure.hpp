@@ -57,6 +57,7 @@ Figures batch();
 Figures sensitivity();
 Figures redundancy();
 Figures symmetric();
+Figures proof();
 Figures optimization();
 Figures studies();
 

@@ -26,7 +26,7 @@ Figures all_figures() {
   Figures all;
   for (Figures (*make)() :
        {bench::legs, bench::velocity, bench::acceleration, bench::position, bench::conditioning, bench::batch,
-        bench::sensitivity, bench::redundancy, bench::symmetric, bench::optimization, bench::studies}) {
+        bench::sensitivity, bench::redundancy, bench::symmetric, bench::proof, bench::optimization, bench::studies}) {
     Figures f = make();
     std::move(f.timed.begin(), f.timed.end(), std::back_inserter(all.timed));
     std::move(f.counted.begin(), f.counted.end(), std::back_inserter(all.counted));

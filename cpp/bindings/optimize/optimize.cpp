@@ -9,6 +9,7 @@
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
+#include "support/region.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -55,23 +56,6 @@ py::dict fields_of(const Problem& problem, const Result& r) {
   out["runs_abandoned"] = r.runs_abandoned;
   out["runs_completed"] = r.runs_completed;
   out["interrupted"] = r.interrupted;
-  return out;
-}
-
-Region region_from(const py::dict& d) {
-  Region out;
-  const auto shape = d["shape"].cast<std::string>();
-  if (shape == "ball") out.shape = Region::Shape::ball;
-  else if (shape == "cylinder") out.shape = Region::Shape::cylinder;
-  else if (shape == "path") out.shape = Region::Shape::path;
-  using Three = std::array<double, 3>;
-  const auto three = [](const Three& v) { return Vec3(v[0], v[1], v[2]); };
-  out.size = three(d["size"].cast<Three>());
-  for (const Three& corner : d["corners"].cast<std::vector<Three>>()) out.corners.push_back(three(corner));
-  out.tilt = d["tilt"].cast<double>();
-  out.yaw = d["yaw"].cast<double>();
-  out.carried = d["carried"].cast<bool>();
-  out.in_zp = d["in_zp"].cast<bool>();
   return out;
 }
 

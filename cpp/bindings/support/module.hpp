@@ -19,6 +19,10 @@ void bind_statics(py::module_& m);
 void bind_accuracy(py::module_& m);
 void bind_ellipsoid(py::module_& m);
 void bind_design(py::module_& m);
+void bind_interval(py::module_& m);
+void bind_bounds(py::module_& m);
+void bind_machine(py::module_& m);
 void bind_optimize(py::module_& m);
+void bind_optimum(py::module_& m);
 
 }  // namespace ninedof::python

@@ -4,7 +4,7 @@
 
 namespace ninedof {
 
-Mat3 null_space_part(const Mat3& c, const Mat3& b) {
+Mat36 null_space(const Mat3& c, const Mat3& b) {
   Eigen::Matrix<double, 6, 3> a;
   a << c, b;
   Eigen::Matrix<double, 6, 3> reflectors = Eigen::Matrix<double, 6, 3>::Zero();
@@ -20,13 +20,13 @@ Mat3 null_space_part(const Mat3& c, const Mat3& b) {
     reflectors.col(k) = v;
     beta[k] = scale;
   }
-  Mat3 nq;
+  Mat36 basis;
   for (Eigen::Index j = 0; j < 3; ++j) {
     Vec6 column = Vec6::Unit(3 + j);
     for (Eigen::Index k = 2; k >= 0; --k) column -= (beta[k] * reflectors.col(k).dot(column)) * reflectors.col(k);
-    nq.row(j) = column.head<3>();
+    basis.row(j) = column;
   }
-  return nq;
+  return basis;
 }
 
 }  // namespace ninedof

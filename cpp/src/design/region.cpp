@@ -58,7 +58,7 @@ Pose Region::pose(const Vec6& at) const {
   Pose out;
   out.in_zp = in_zp;
   out.position = shape == Shape::path ? along(corners, 0.5 * (1.0 + at[0])) : Vec3(at.head<3>());
-  if (carried) out.internal = out.position;
+  if (shifted) out.internal = out.position;
   const Vec3 turn(at[3], at[4], 0.0), about_z(0.0, 0.0, at[5]);
   if (at[5] == 0.0) out.rotation = turn;
   else if (turn.isZero(0.0)) out.rotation = about_z;

@@ -191,14 +191,14 @@ class PlacedProgram {
   double best_merit_ = infinity;
 };
 
-/// Start `k` of the low-discrepancy sequence, O carried and held by turns.
+/// Start `k` of the low-discrepancy sequence, O shifted and held by turns.
 PlacedDesign start_design(const Problem& problem, const std::vector<Pose>& poses, int k, std::uint64_t seed) {
   const Coordinates coordinates(problem, size_limits(problem).front());
   PlacedDesign out{coordinates.variables(coordinates.start(k, seed)), {}};
   const double zp = out.variables[design_family(problem.family).index("zp")];
   for (const Pose& pose : poses) {
-    const bool carried = optimizes_internal_point(pose) && k % 2 == 0;
-    out.shifts.push_back(carried ? Vec3(pose.position / (pose.in_zp ? 1.0 : zp)) : Vec3(Vec3::Zero()));
+    const bool shifted = optimizes_internal_point(pose) && k % 2 == 0;
+    out.shifts.push_back(shifted ? Vec3(pose.position / (pose.in_zp ? 1.0 : zp)) : Vec3(Vec3::Zero()));
   }
   return out;
 }

@@ -27,7 +27,7 @@ struct Hot {
   double excess;
 };
 
-/// Places O from known places and from the carried and held ones.
+/// Places O from known places and from the shifted and held ones.
 class Placing {
  public:
   Placing(const Problem& problem, const Region& region, const Eigen::VectorXd& variables, const PlacementGoal& goal,

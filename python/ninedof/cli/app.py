@@ -11,6 +11,10 @@ from typing import Annotated
 import typer
 
 from ninedof.cli import commands
+from ninedof.cli.interruption import interruptible
+from ninedof.support.command import running
+
+PROGRAM = "ninedof"
 
 app = typer.Typer(
     add_completion=False,
@@ -58,9 +62,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")
     try:
-        app(given, prog_name="ninedof")
+        with interruptible(), running(PROGRAM, given):
+            app(given, prog_name=PROGRAM)
     except ValueError as error:
-        typer.echo(f"ninedof: {error}", err=True)
+        typer.echo(f"ninedof: {as_typed(str(error), given)}", err=True)
         raise SystemExit(2) from None
     except BrokenPipeError:  # the reader closed the pipe, as `head` does
         sys.stderr.close()
@@ -71,3 +76,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except KeyboardInterrupt:
         typer.echo("ninedof: interrupted", err=True)
         raise SystemExit(130) from None
+
+
+def as_typed(message: str, given: Sequence[str]) -> str:
+    """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
+    name, _, rest = message.partition(": ")
+    option = f"--{name.replace('_', '-')}"
+    typed = any(word == option or word.startswith(f"{option}=") for word in given)
+    return f"{option}: {rest}" if typed else message

@@ -8,32 +8,39 @@ from pathlib import Path
 from rich.markup import escape
 
 from ninedof.cli.screen import Screen
-from ninedof.report.report import report
+from ninedof.report.report import FILE, report
 
 Draw = Callable[[Path], Sequence[Path]]
 
 
-def with_report(draw: Draw | None, wanted: bool, screen: Screen) -> Draw | None:
+def with_report(draw: Draw | None, wanted: bool, screen: Screen) -> Draw:
     """Return a function that draws the figures of a run, if there are any, and then writes its report, if wanted.
 
-    A report that fails does not fail the job: the screen says why in one line.
+    A report that fails does not fail the job: the screen says why in one line. The report of an interrupted run that
+    was continued is removed at first: it would not agree with the record.
     """
-    if not wanted:
-        return draw
 
     def drawn(folder: Path) -> list[Path]:
-        files = [] if draw is None else list(draw(folder))
+        (folder / FILE).unlink(missing_ok=True)
+        try:
+            files = [] if draw is None else list(draw(folder))
+            return files + written(folder) if wanted else files
+        except KeyboardInterrupt:
+            screen.print(escape(f"interrupted while drawing; run folder {folder} has the record"))
+            raise
+
+    def written(folder: Path) -> list[Path]:
         screen.say("writing the report")
         try:
-            files.append(report(folder))
+            return [report(folder)]
         except Exception as error:  # whatever it is: the run is solved and kept, its report can be written again
             words = str(error) if isinstance(error, OSError | ValueError) else repr(error)
             screen.print(escape(f"the report could not be written: {' '.join(words.split())}"))
-        return files
+        return []
 
     return drawn
 
 
 def report_words(directory: Path) -> str:
     """Return how a message goes on where the folder has a report."""
-    return ", report.html" if (directory / "report.html").is_file() else ""
+    return f", {FILE}" if (directory / FILE).is_file() else ""

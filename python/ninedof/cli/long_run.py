@@ -65,7 +65,7 @@ def write(
     names: list[str] = []
 
     def drawn(folder: Path) -> list[Path]:
-        screen.say("drawing")
+        screen.say(f"drawing the {stem}")
         from ninedof import plot
 
         files: list[Path] = []

@@ -5,20 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from rich.table import Table
 
 from ninedof.cli.screen import Screen
 from ninedof.motion import Followed
-from ninedof.sheet.path_limits import PathLimits
+from ninedof.redundancy.rules import where_o
+from ninedof.sheet.path_limits import LENGTHS, PathLimits, row_words
 from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount, heading, per
 
 SHOWN = 12  # breaks of limits
-LENGTHS = ("leg_clearance", "stroke")
 
 
 def legs_table(found: Followed) -> Table:
@@ -56,24 +55,16 @@ def limits_table(of_study: PathLimits, unit: str) -> Table:
     for k, words in enumerate(("limit", "", "allowed", "worst", "margin", "at t")):
         table.add_column(words, justify="right" if k > 1 else "left")
     for row in of_study.worst():
-        cone = "limit_deg" in row
-        values = (f"{row['limit_deg']:.2f}°", f"{row['value_deg']:.2f}°") if cone else _pair(row, unit)
-        margin = f"{row['margin']:.4f}" if row["name"] == "singularity_free" else f"{100.0 * row['margin'] + 0.0:.2f} %"
-        name = f"{row['name']} {row['part']}".strip()
-        table.add_row(name, row["side"], *values, margin, f"{row['at']:.6g}")
+        table.add_row(*row_words(row, unit))
     return table
-
-
-def _pair(row: dict[str, Any], unit: str) -> tuple[str, str]:
-    of_length = unit if row["name"] in LENGTHS else ""
-    return amount(f"{row['limit']:.6g}", of_length), amount(f"{row['value']:.6g}", of_length)
 
 
 def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:
     """Yield remarks on the table, one sentence each."""
     about = found.to_dict()
     kappa, near = about["condition_number"], about["nearest_singularity"]
-    yield f"{about['poses']} poses from t = {about['begin']:g} to {about['end']:g}; O: {about['internal_point']}"
+    o = where_o(about["internal_point"])
+    yield f"{about['poses']} poses from t = {about['begin']:g} to {about['end']:g}; O: {o}"
     if found.idle_legs:
         yield f"never move: {', '.join(found.idle_legs)}; with --internal-point best or 0.5 they help"
     ends = f"{kappa['first']:.4f} at the start, {kappa['last']:.4f} at the end"

@@ -12,6 +12,7 @@ import typer
 from ninedof.cli.chosen_design import Chosen
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.sheet.pose_words import pose_words
 from ninedof.support.arguments import vector
@@ -29,7 +30,9 @@ RotationDeg = Annotated[
 ]
 InternalPoint = Annotated[
     str | None,
-    typer.Option(help='O at that pose: carried (default), held, best, a fraction between the plates, or "X Y Z".'),
+    typer.Option(
+        help='O at that pose: carried (default), shifted, held, best, a fraction between the plates, or "X Y Z".'
+    ),
 ]
 AllPoses = Annotated[bool, typer.Option("--all-poses", help="All poses of the run's study, the neutral one first.")]
 
@@ -85,8 +88,10 @@ def poses_data(c: Configuration) -> list[dict[str, Floats]]:
 def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
     home, g = chosen.configuration, chosen.geometry
     carried: Floats = p + q @ (home.rotation.T @ (home.internal_point - home.position))
-    if rule in ("carried", "held"):
-        return carried if rule == "carried" else home.internal_point
+    shifted: Floats = p + home.internal_point - home.position
+    fixed = {"carried": carried, "shifted": shifted, "held": home.internal_point}
+    if rule in fixed:
+        return fixed[rule]
     if rule == "best":
         found = best_internal_point(g, p, q, characteristic_length=length_at_home(chosen), start=carried)
         if np.isnan(found.configuration.internal_point).any():
@@ -96,7 +101,7 @@ def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
     if len(given) == 3:
         return np.array(given)
     if len(given) != 1:
-        raise ValueError(f'--internal-point: got {rule!r}, expected carried, held, best, a fraction or "X Y Z"')
+        raise ValueError(f'--internal-point: got {rule!r}, expected {", ".join(RULES)}, a fraction or "X Y Z"')
     below, above = g.base_internal.mean(axis=0), p + q @ g.platform_internal.mean(axis=0)
     return np.asarray(below + given[0] * (above - below))
 

@@ -44,6 +44,20 @@ def result_table(result: Result) -> Table:
     return table
 
 
+def proof_words(result: Result) -> str:
+    """Return what is proved of all designs of the study, and how near the best one is to it."""
+    proof, best = result.proof, result.condition_number
+    assert proof is not None
+    assert best is not None
+    said = f"[bold]{proof.words}[/bold]\nThe best design is within {proof.gap(best):.1e} of that, relatively"
+    rest = (
+        ""
+        if proof.complete
+        else f"; the search ended before {proof.target:.6g} was proved, {proof.open} boxes are left"
+    )
+    return f"{said}; {proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}."
+
+
 def price_text(result: Result) -> list[str]:
     """Return the shadow prices of the best candidate, and what the starts show."""
     if result.best is None:
@@ -58,7 +72,7 @@ def _add_indices(table: Table, result: Result, shown: tuple[Candidate, ...]) -> 
     """Add the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
     objective = result.study.objective
     plain = objective.index == "condition_number" and not objective.poses and objective.region is None
-    table.add_row(result.study.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
+    table.add_row(result.words, *(f"{c.objective:.6f}" for c in shown), style="bold", end_section=plain)
     if plain:
         return
     several = len(result.solved.objective.poses) > 1 and objective.region is None

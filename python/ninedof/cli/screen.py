@@ -80,6 +80,11 @@ class Screen:
         columns = (BarColumn(bar_width=12), count, TimeRemainingColumn(), "to go")
         return self._bar(title, columns, lambda volume: "" if volume is None else f", volume {volume:.4g}")
 
+    def boxes(self, title: str) -> AbstractContextManager[Bar]:
+        """Show a bar of boxes of poses, of which nobody knows how many there will be."""
+        columns = ("{task.completed:,.0f} boxes of poses", TimeElapsedColumn())
+        return self._bar(title, columns, lambda _: "", at_once=True)
+
     @contextmanager
     def _bar(
         self,

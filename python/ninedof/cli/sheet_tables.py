@@ -9,7 +9,7 @@ import numpy as np
 from rich.table import Table
 
 from ninedof.cli.result_table import short
-from ninedof.sheet.limit_rows import LimitRow
+from ninedof.sheet.limit_rows import limit_amount, margin_words
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Extreme, Sheet
 from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
@@ -183,16 +183,9 @@ def limits_table(found: Sheet) -> Table:
     where = "at its poses" if found.region is None else "over its region"
     table = _table(f"Limits of the study, {where}", "limit", "", "allowed", "here", "margin")
     for row in found.limits:
-        margin = f"{row.margin:.4f}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
-        allowed, here = (_in_unit(row, value, found.unit) for value in (row.limit, row.value))
-        table.add_row(row.name, row.side, allowed, here, margin)
+        allowed, here = (limit_amount(row, value, short, found.unit) for value in (row.limit, row.value))
+        table.add_row(row.name, row.side, allowed, here, margin_words(row.margin, row.unit))
     return table
-
-
-def _in_unit(row: LimitRow, value: float, unit: str) -> str:
-    if row.unit == "angle":
-        return f"{math.degrees(value):.2f}°"
-    return amount(short(value), unit if row.unit == "length" else "")
 
 
 def _pose(found: Sheet, k: int) -> str:

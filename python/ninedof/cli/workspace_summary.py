@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.table import Table
@@ -13,11 +13,15 @@ from rich.table import Table
 from ninedof.cli.screen import Screen
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.region import Region
+from ninedof.design.region_outline import region_lines, section_outline
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import with_unit
 from ninedof.workspace import IndexStatistics, WorkspaceMap
-from ninedof.workspace.region_share import RegionShare, outline, region_lines
+from ninedof.workspace.region_share import RegionShare
+
+if TYPE_CHECKING:
+    from ninedof.plot import Section
 
 SHOWN = 8  # limits in the table
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
@@ -107,9 +111,10 @@ def region_words(region: Region, found: RegionShare, unit: str = "") -> str:
 def draw(
     found: WorkspaceMap, screen: Screen, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
-    """Draw two sections at round values near the centre of the largest ball, or else the worst pose; return the files.
+    """Draw sections and, of positions, the body; return the files.
 
-    The region of a study is outlined; the sections go through its middle then. Home is marked near its plane.
+    Vertical sections are at round values near the centre of the largest ball, or else the worst pose, or in the middle
+    of the region of a study, which is outlined. The horizontal one goes through home, which is marked near its plane.
     """
     screen.say("drawing the workspace")
     from ninedof import plot
@@ -117,24 +122,7 @@ def draw(
     middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
     if region is not None:
         middle = home.position
-    spans = [float(np.ptp(axis)) for axis in found.field.axes]
-    sections = []
-    for fixed in (1, 2):
-        drawn = [k for k in range(3) if k != fixed]
-        at = _round(float(middle[fixed]), spans[fixed], found, fixed)
-        plane = found.slice(found.coordinates[fixed], at, smooth=True)
-        marked = None
-        if found.archetype != "orientation" and abs(float(home.position[fixed]) - at) <= spans[fixed] / NEAR:
-            marked = home.position[drawn]
-        if region is not None:
-            sections.append(plot.Section(plane, region=outline(region, home, fixed, at), home=marked))
-            continue
-        off = at - float(middle[fixed])
-        radius = np.sqrt(max(found.ball_radius**2 - off**2, 0.0))
-        ball = (middle[drawn], radius) if radius > 0.0 else None
-        known = np.isfinite(found.box_low).all() and found.box_low[fixed] <= at <= found.box_high[fixed]
-        inner = (found.box_low[drawn], found.box_high[drawn]) if known else None
-        sections.append(plot.Section(plane, ball, inner, home=marked))
+    sections = [_section(found, home, region, middle, *plane) for plane in _planes(found, home, middle)]
     unit = "rad" if found.of_angles else found.unit
     figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)
     files = plot.save(figure, directory, "workspace")
@@ -147,6 +135,37 @@ def draw(
         body = plot.workspace_body(surface, found.coordinates, home=home.position, lines=lines, unit=found.unit)
         files += plot.save(body, directory, "workspace_body")
     return files
+
+
+def _planes(found: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:
+    """Return the number of the fixed coordinate and its value for each section."""
+    spans = [float(np.ptp(axis)) for axis in found.field.axes]
+    round_values = [_round(float(middle[k]), spans[k], found, k) for k in range(3)]
+    if found.of_angles:
+        return [(k, round_values[k]) for k in (1, 2)]
+    height = float(home.position[2])
+    heights = found.field.axes[2]
+    through_home = heights[0] <= height <= heights[-1]
+    return [(1, round_values[1]), (0, round_values[0]), (2, height if through_home else round_values[2])]
+
+
+def _section(
+    found: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
+) -> Section:
+    """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
+    from ninedof.plot import Section
+
+    drawn = [k for k in range(3) if k != fixed]
+    plane = found.slice(found.coordinates[fixed], at, smooth=True)
+    near = abs(float(home.position[fixed]) - at) <= float(np.ptp(found.field.axes[fixed])) / NEAR
+    marked = home.position[drawn] if near and not found.of_angles else None
+    if region is not None:
+        return Section(plane, region=section_outline(region, home, fixed, at), home=marked)
+    radius = np.sqrt(max(found.ball_radius**2 - (at - float(middle[fixed])) ** 2, 0.0))
+    ball = (middle[drawn], radius) if radius > 0.0 else None
+    known = np.isfinite(found.box_low).all() and found.box_low[fixed] <= at <= found.box_high[fixed]
+    inner = (found.box_low[drawn], found.box_high[drawn]) if known else None
+    return Section(plane, ball, inner, home=marked)
 
 
 def _round(value: float, span: float, found: WorkspaceMap, fixed: int) -> float:

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from ninedof.design.indices import LEGS
 from ninedof.design.pose import ZERO, Pose
+from ninedof.redundancy.rules import WORDS
 from ninedof.support.arrays import Floats
 
 IDLE = 1e-9  # of the longest length: a leg whose stroke is shorter does not move
-WORDS = {"carried": "carried with the platform", "held": "held", "best": "best", "given": "given"}
+GIVEN = "given"
 
 
 def idle_legs(lengths: Floats) -> NDArray[np.bool_]:
@@ -29,13 +30,17 @@ def idle_words(lengths: Floats) -> str:
 
 def rule_words(poses: Sequence[Pose]) -> str:
     """Return where O is: one word for all poses, or how many poses follow each."""
-    rules = Counter(p.internal_point if isinstance(p.internal_point, str) else "given" for p in poses)
+    rules = Counter(p.internal_point if isinstance(p.internal_point, str) else GIVEN for p in poses)
     if any(p.position != ZERO for p in poses) and len(rules) > 1:
-        at_rest = [p for p in poses if p.position == ZERO and p.internal_point == "carried"]
-        if len(at_rest) == rules["carried"]:  # where the platform has not moved, carried and held are the same
-            del rules["carried"]
+        at_rest = [p for p in poses if p.position == ZERO and p.internal_point == "shifted"]
+        if len(at_rest) == rules["shifted"]:  # where the platform has not moved, shifted and held are the same
+            del rules["shifted"]
             rules[next(iter(rules))] += len(at_rest)
     if len(rules) == 1:
-        return f"O is {WORDS[next(iter(rules))]} at every pose"
-    counts = (f"{WORDS[rule]} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
+        return f"O is {_words(next(iter(rules)))} at every pose"
+    counts = (f"{_words(rule)} at {count} {'pose' if count == 1 else 'poses'}" for rule, count in rules.most_common())
     return f"O is {', '.join(counts)}"
+
+
+def _words(rule: str) -> str:
+    return WORDS.get(rule, rule)

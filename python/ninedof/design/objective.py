@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import signature
 from typing import Any, TypeVar
 
@@ -107,9 +107,15 @@ class Objective:
         """The objective in words."""
         return self.worded()
 
-    def worded(self, unit: str = "") -> str:
-        """Return the objective in words, with the name of the length unit where a length stands."""
+    def worded(self, unit: str = "", imposed: int = 0) -> str:
+        """Return the objective in words, with the name of the length unit where a length stands.
+
+        Of a region all poses count, or only so many imposed ones, at which O is not placed yet.
+        """
         index = objectives()[self.index].words
+        if self.region is not None and imposed:
+            where = replace(self.region, internal_point="shifted").worded(unit)
+            return f"{AGGREGATES[self.aggregate].format(index=index)} over {imposed} poses of {where}"
         if self.region is not None:
             listed = f" and {len(self.poses)} poses" if self.poses else ""
             return f"{AGGREGATES[self.aggregate].format(index=index)} over {self.region.worded(unit)}{listed}"

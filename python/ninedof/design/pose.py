@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ninedof.redundancy.rules import study_rule
 from ninedof.support.angles import rotation_entry, vector_argument
-from ninedof.support.arguments import Vector, choice, finite, known_keys, shown, vector
+from ninedof.support.arguments import Vector, finite, known_keys, shown, vector
 from ninedof.support.short import short_repr
 from ninedof.support.units import scale_argument
 
 ZERO: Vector = (0.0, 0.0, 0.0)
-INTERNAL_POINTS = ("carried", "held", "best")
-DEFAULT_INTERNAL_POINT = "carried"
+DEFAULT_INTERNAL_POINT = "shifted"
 POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit", "weight")
 
 
@@ -28,8 +28,8 @@ class Pose:
         Shift of p from its neutral position (0, 0, zp), base frame. Zero by default.
     rotation : (3,) floats
         Rotation vector in radians, base axes, applied after the neutral rotation. Zero by default.
-    internal_point : (3,) floats, "carried", "held" or "best"
-        Shift of s from its neutral position (0, 0, zs), base frame. "carried", the default, is the shift of p: r1 r2 r3
+    internal_point : (3,) floats, "shifted", "held" or "best"
+        Shift of s from its neutral position (0, 0, zs), base frame. "shifted", the default, is the shift of p: r1 r2 r3
         follow the platform, and q1 q2 q3 its rotation. "held" is no shift: r1 r2 r3 never move. With "best" the
         optimizer chooses the position.
     unit : {"length", "zp"}
@@ -50,7 +50,7 @@ class Pose:
     >>> import math
     >>> from ninedof.design.pose import Pose
     >>> Pose(position=(0.1, 0, 0), rotation=(0, math.radians(10), 0), unit="zp").internal_point
-    'carried'
+    'shifted'
 
     """
 
@@ -64,9 +64,9 @@ class Pose:
         """Check and normalize every entry."""
         point = self.internal_point
         if isinstance(point, str):
-            chosen: Vector | str = choice("internal_point", point, INTERNAL_POINTS)
+            chosen: Vector | str = study_rule(point)
         elif point is None:
-            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'carried', 'held' or 'best'")
+            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'shifted', 'held' or 'best'")
         else:
             chosen = vector("internal_point", point)
         object.__setattr__(self, "position", vector("position", self.position))
@@ -108,11 +108,11 @@ class Pose:
     def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool, float]:
         """Return position, rotation vector, shift of s, whether the optimizer chooses s or shifts are in zp, weight."""
         point = self.internal_point
-        shift = point if not isinstance(point, str) else self.position if point == "carried" else ZERO
+        shift = point if not isinstance(point, str) else self.position if point == "shifted" else ZERO
         return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp", self.weight
 
 
 def _named(point: Vector | str, position: Vector) -> Vector | str:
     """Return the word for a shift of s that has one, so that the same pose is equal to itself."""
     shift = ZERO if point == "held" else point
-    return "carried" if shift == position else "held" if shift == ZERO else point
+    return "shifted" if shift == position else "held" if shift == ZERO else point

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ninedof.redundancy.rules import study_rule
 from ninedof.support.angles import exact_degrees
-from ninedof.support.arguments import Vector, choice, finite, items, known_keys, pair, vector
+from ninedof.support.arguments import Vector, finite, items, known_keys, pair, vector
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale_argument
 
 SHAPES = ("box", "ball", "cylinder", "path")
 ANGLES = ("tilt", "yaw")
 REGION_KEYS = (*SHAPES, *ANGLES, *(f"{name}_deg" for name in ANGLES), "internal_point", "unit")
-INTERNAL_POINTS = ("carried", "held", "best")
 
 
 @short_repr
@@ -38,12 +38,12 @@ class Region:
         Shifts of p at the corners of a path, straight between them.
     tilt, yaw : float
         Greatest angle of a tilt about any horizontal axis, and of a yaw in both directions; radians, 0 by default.
-    internal_point : {"carried", "held", "best"}
-        "carried", the default: s - p stays as at the neutral pose, in base axes; without turns q1, q2, q3 do not move.
+    internal_point : {"shifted", "held", "best"}
+        "shifted", the default: s - p stays as at the neutral pose, in base axes; without turns q1, q2, q3 do not move.
         "held": s stays, and r1, r2, r3 never move. "best": O is placed anew at every pose, where the worst of the
         index and of all limits is least: between the plates, at most zp from its neutral position along each axis.
         Limits on strokes give each leg a range of lengths, the same at every pose. The index is at most that of
-        "carried"; the solution takes ten times as long.
+        "shifted"; the solution takes ten times as long.
     unit : {"length", "zp"}
         Scale of positions: the length unit of the study (default), or the height zp of the design. The name of the
         length unit is the `unit` of the study.
@@ -68,7 +68,7 @@ class Region:
     path: tuple[Vector, ...] | None = None
     tilt: float = 0.0
     yaw: float = 0.0
-    internal_point: str = "carried"
+    internal_point: str = "shifted"
     unit: str = "length"
 
     def __post_init__(self) -> None:
@@ -83,7 +83,7 @@ class Region:
             "path": None if self.path is None else _corners(self.path),
             "tilt": finite("tilt", self.tilt, 0.0, math.pi),
             "yaw": finite("yaw", self.yaw, 0.0, math.pi),
-            "internal_point": choice("internal_point", self.internal_point, INTERNAL_POINTS),
+            "internal_point": study_rule(self.internal_point),
             "unit": scale_argument(self.unit),
         }.items():
             object.__setattr__(self, name, value)
@@ -165,7 +165,7 @@ class Region:
             "corners": self.path or (),
             "tilt": self.tilt,
             "yaw": self.yaw,
-            "carried": self.internal_point == "carried",
+            "shifted": self.internal_point == "shifted",
             "in_zp": self.unit == "zp",
         }
 

@@ -57,8 +57,7 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     'robot.xml'
 
     """
-    module = format_named(format).load()
-    taken = [name for name in inspect.signature(module.text).parameters if name != "model"]
+    module, taken = format_named(format).load(), options_of(format)
     if options and not taken:
         raise ValueError(f"options: got {', '.join(options)}, expected none: {format} takes no options")
     known_keys("options", options, taken)
@@ -72,3 +71,8 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     for place, text in contents.items():
         write_whole(place, text if isinstance(text, bytes) else text.encode())
     return file
+
+
+def options_of(format: str) -> list[str]:
+    """Return the names of the options that a format takes."""
+    return [name for name in inspect.signature(format_named(format).load().text).parameters if name != "model"]

@@ -22,6 +22,10 @@ class Format(NamedTuple):
     suffix: str
     words: str
     """What the file is, for people."""
+    mark: str = "written by ninedof"
+    """What every such file holds."""
+    beside: tuple[tuple[str, str], ...] = ()
+    """Suffixes of the files beside it, with their marks."""
 
     def load(self) -> ModuleType:
         """Return the module that writes the format."""
@@ -30,11 +34,13 @@ class Format(NamedTuple):
 
 FORMATS = {
     "mjcf": Format("mjcf", ".xml", "MuJoCo model with closed loops and nine actuators"),
-    "urdf": Format("urdf", ".urdf", "URDF tree, with the table of its loops beside it"),
+    "urdf": Format(
+        "urdf", ".urdf", "URDF tree, with the table of its loops beside it", beside=((".loops.json", "ninedof-loops-"),)
+    ),
     "sdf": Format("sdf", ".sdf", "SDFormat model with closed loops"),
-    "csv": Format("csv", ".csv", "coordinates of the joints"),
-    "step": Format("step", ".step", "STEP skeleton: points and axes"),
-    "dxf": Format("dxf", ".dxf", "drawing of the two plates"),
+    "csv": Format("csv", ".csv", "coordinates of the joints", ",base x"),
+    "step": Format("step", ".step", "STEP skeleton: points and axes", "'ninedof "),
+    "dxf": Format("dxf", ".dxf", "drawing of the two plates", "NINEDOF"),
     "c": Format("c_header", ".h", "C header of constants with the inverse kinematics"),
     "latex": Format("latex", ".tex", "LaTeX tables"),
 }

@@ -52,7 +52,7 @@ def follow(
     home : Configuration
         The neutral configuration, a single one: it says where O is.
     internal_point : {"carried", "shifted", "held", "best"} or float
-        O along the trajectory. "carried", the default: as if fixed to the platform, so that O keeps its side of the
+        O along the trajectory. "carried", the default: as a point of the platform, so that O keeps its side of the
         upper internal joints on every trajectory; while the platform does not turn, the upper internal legs do not
         move. "shifted": with the platform's origin, s - p as at home in base axes, as regions of studies have it.
         "held": where it is at home; the lower internal legs never move. `idle_legs` names such legs. A number:
@@ -62,7 +62,8 @@ def follow(
         Least and greatest leg lengths, each a number or shape (9,). None by default. They are reported, and respected
         by "best" only.
     characteristic_length : float or str
-        Length l_c of the condition number, or a kind of `characteristic_length`, taken at home.
+        Length l_c of the condition number, or a kind of `characteristic_length`, taken at home; 1 by
+        default; a Result and a Design have their own, `found.characteristic_length`.
     force, moment : array_like, shape (3,) or (n, 3), optional
         Load on the platform at its origin, base axes, for the leg forces.
     unit : str, optional

@@ -8,12 +8,12 @@ import numpy as np
 
 from ninedof.motion.trajectory import Trajectory
 from ninedof.redundancy.redundancy import best_internal_path
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats
 
-RULES = ("carried", "shifted", "held", "best")
 MOST_SEARCHED = 201  # poses at which the best O is searched
 
 
@@ -65,7 +65,7 @@ def _best(
         why = ", ".join(found.active[k]) or str(found.status[k])
         raise ValueError(
             f"internal_point: got 'best', but no position of O is allowed at t = {t[k]:g} ({why}); expected wider "
-            "limits of the legs, or 'carried', 'held' or a fraction"
+            "limits of the legs, or 'carried', 'shifted', 'held' or a fraction"
         )
     s = found.configuration.internal_point
     if len(picks) == n:

@@ -139,7 +139,7 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
     -------
     list of LowerBound
         Of the condition number at the neutral pose. The bounds of symmetric designs are left out where the design has
-        no three-fold symmetry.
+        no three-fold symmetry, and those that are not proved and lie below `Result.lower_bound`.
 
     Raises
     ------
@@ -155,11 +155,15 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
             "isotropy", 1.0, True, "no design is isotropic: the condition number stays above 1 at every finite size"
         )
     ]
+    if result.proof is not None:
+        sentence = result.proof.words.removeprefix("Proved: ").removesuffix(".")
+        found.append(LowerBound("certificate", result.proof.lower_bound, True, sentence))
     if result.study.family == "hexagonal":
         found.append(_hexagonal(result.study.variables["theta_z"]))
     if _is_symmetric(best.geometry, best.configuration):
         found.extend(_symmetric(best.geometry, best.configuration, best.characteristic_length))
-    return sorted(found, key=lambda bound: -bound.value)
+    known = result.lower_bound or 0.0
+    return sorted((b for b in found if b.proved or b.value > known), key=lambda bound: -bound.value)
 
 
 def _hexagonal(theta_z: float | tuple[float, float]) -> LowerBound:

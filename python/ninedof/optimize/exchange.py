@@ -75,8 +75,10 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
             found = solve(posed(study, poses), starts, warm)
             if found.best is None and starts < study.starts and not found.interrupted:
                 found = solve(posed(study, poses), study.starts, warm)  # no verdict from a single start
-            result, imposed, look = found, poses, None
             evaluations += found.evaluations
+            if found.best is None and found.interrupted and result is not None:
+                raise KeyboardInterrupt  # the round before has a design
+            result, imposed, look = found, poses, None
             if found.best is None or found.interrupted:
                 break
             look = search(study, poses, found.best, QUICK, rounds, threads)
@@ -96,9 +98,11 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
     except KeyboardInterrupt:
         if result is None:
             raise
-        look, reason = None, "interrupted between two rounds; the best design so far, not an optimum of the region"
-        result = replace(result, status=Status.STOPPED, interrupted=True, reason=reason)
+        look, result = None, replace(result, status=Status.STOPPED, interrupted=True)
     assert result is not None
+    if result.interrupted and result.best is not None:
+        reason = f"interrupted in round {rounds}; the best so far at the poses imposed, not an optimum of the region"
+        result = replace(result, reason=reason)
     report = None
     if result.best is not None:
         if look is None:

@@ -41,7 +41,7 @@ NEIGHBOURS = 0.05  # of the region: of nearer poses only the worst does, since t
 SAME_END = 1e-6  # of logarithms of the index: starts that agree
 SETTLED = 12  # rounds after which poses are added only, so that the exchange comes to an end
 NEAR = 1e-5  # relative: as in `exchange`
-SHARE = 8  # one start in so many is run with O placed; the others with O carried
+SHARE = 8  # one start in so many is run with O placed; the others with O shifted
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class _Program:
         x, y, z = (size * v for v in shift)
         return Pose(position, rotation, (x, y, z), self.region.unit)
 
-    def carried(self, at: At, x: Sequence[float]) -> Shift:
+    def shifted(self, at: At, x: Sequence[float]) -> Shift:
         size = x[self.height] if self.region.unit == "length" else 1.0
         a, b, c = (float(v) / size for v in _core.region_pose(self.region.for_core(), at)[0])
         return a, b, c
@@ -196,15 +196,15 @@ class _Program:
 def optimize_placed(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
     """Solve a region study with O placed at every pose; `solve` as in `exchange.optimize_region`.
 
-    The start is the optimum with O carried, so that the result is not worse than that. While poses join, a quick solver
+    The start is the optimum with O shifted, so that the result is not worse than that. While poses join, a quick solver
     is used that places O inside; at the end `solve` has O at the ruling poses as variables, and its checks decide.
     """
     begin = perf_counter()
     program = _Program(study, threads)
-    carried = _carried(study, solve, warm, threads)
-    if carried.interrupted:
-        return carried
-    state = _State(carried, *_first(program, carried))
+    shifted = _shifted(study, solve, warm, threads)
+    if shifted.interrupted:
+        return shifted
+    state = _State(shifted, *_first(program, shifted))
     try:
         for state.rounds in range(1, MOST_ROUNDS + 1):
             if not _round(program, solve, state):
@@ -223,7 +223,7 @@ def optimize_placed(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
 class _State:
     """Where the exchange is."""
 
-    carried: Result
+    shifted: Result
     ruling: list[Place]
     given: list[Design]
     found: Result | None = None
@@ -242,7 +242,7 @@ class _State:
 
     def __post_init__(self) -> None:
         """Count what was spent already."""
-        self.evaluations = self.carried.evaluations
+        self.evaluations = self.shifted.evaluations
 
 
 def _round(program: _Program, solve: Solve, state: _State) -> bool:
@@ -342,12 +342,12 @@ def _finished(program: _Program, state: _State) -> Result:
 
 
 def _unfinished(program: _Program, solve: Solve, state: _State, interrupted: bool) -> Result:
-    """Return the optimum with O carried, or why there is no design."""
-    carried = state.carried
-    reason = "interrupted while O was being placed; the design is the optimum with O carried"
-    if carried.best is None or carried.region is None:
+    """Return the optimum with O shifted, or why there is no design."""
+    shifted = state.shifted
+    reason = "interrupted while O was being placed; the design is the optimum with O shifted"
+    if shifted.best is None or shifted.region is None:
         if interrupted:
-            return replace(carried, status=Status.STOPPED, interrupted=True, reason=reason.partition(";")[0])
+            return replace(shifted, status=Status.STOPPED, interrupted=True, reason=reason.partition(";")[0])
         found = solve(program.posed(state.ruling), program.study.starts, None)
         if found.best is None:
             return found
@@ -356,27 +356,27 @@ def _unfinished(program: _Program, solve: Solve, state: _State, interrupted: boo
         )
         return replace(found, status=Status.STOPPED, reason=reason, candidates=())
     if not interrupted:
-        reason = "no start with O placed passed the checks; the design is the optimum with O carried"
-    report = replace(carried.region, looked_at=0)
-    return replace(carried, status=Status.STOPPED, interrupted=interrupted, reason=reason, region=report)
+        reason = "no start with O placed passed the checks; the design is the optimum with O shifted"
+    report = replace(shifted.region, looked_at=0)
+    return replace(shifted, status=Status.STOPPED, interrupted=interrupted, reason=reason, region=report)
 
 
-def _carried(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
+def _shifted(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
     region = study.objective.region
     assert region is not None
-    with_carried = replace(study.objective, region=replace(region, internal_point="carried"))
-    found = optimize_region(replace(study, objective=with_carried), solve, warm, threads)
+    with_shifted = replace(study.objective, region=replace(region, internal_point="shifted"))
+    found = optimize_region(replace(study, objective=with_shifted), solve, warm, threads)
     return replace(found, study=study)
 
 
-def _first(program: _Program, carried: Result) -> tuple[list[Place], list[Design]]:
+def _first(program: _Program, shifted: Result) -> tuple[list[Place], list[Design]]:
     """Return the poses of the first round and the design to start from, if there is one."""
     every = first_poses(program.region)
-    best = carried.best
+    best = shifted.best
     if best is None:
         return [(at, (0.0, 0.0, 0.0)) for at in every], []
     x = tuple(best.variables[name] for name in program.plain.names)
-    ruling = [(at, program.carried(at, x)) for at in every]
+    ruling = [(at, program.shifted(at, x)) for at in every]
     listed = [_shift(best.variables, k) for k in range(program.listed)]
     return ruling, [Design(x, (*listed, *(shift for _, shift in ruling)))]
 

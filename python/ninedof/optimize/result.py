@@ -15,6 +15,9 @@ from ninedof.optimize.agreement import agreement_words
 from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result_html import result_html
+from ninedof.proof.machine import certify
+from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.optimum import OptimumProof
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -117,6 +120,8 @@ class Result:
     """Starts among those done that were given up after a short run."""
     region: RegionReport | None = field(default=None, kw_only=True)
     """Of a region study: what was looked at, and the worst that was found."""
+    proof: OptimumProof | None = field(default=None, kw_only=True)
+    """What is proved of every design of the study, where a proof was asked for."""
     runs_completed: int | None = field(default=None, kw_only=True)
     """Starts followed to their end in the round that found the best design, where that is known; warm starts, which are
     no evidence, are not counted."""
@@ -165,6 +170,18 @@ class Result:
     optimality_residual = _OfBest(lambda c: c.optimality_residual, "Stationarity of the best candidate.")
     constraint_violation = _OfBest(lambda c: c.constraint_violation, "Violation of the best candidate.")
 
+    @property
+    def lower_bound(self) -> float | None:
+        """The proved bound that no condition number of the study is below; None without a proof."""
+        return None if self.proof is None else self.proof.lower_bound
+
+    @property
+    def words(self) -> str:
+        """What `objective` is: that of the study, or that at a few poses of a region not looked at between them."""
+        if self.region is None or self.region.looked_at > 0:
+            return self.study.words
+        return self.study.objective.worded(self.study.unit, len(self.solved.objective.poses))
+
     def to_dict(self) -> dict[str, Any]:
         """Return every field but the study as plain values, and the confidence; the candidates come last."""
         plain = _to_dict(self)
@@ -194,7 +211,7 @@ class Result:
         """Show the status, and the objective and active limits of the best candidate."""
         if self.best is None:
             return f"<Result: {self.status}, causes: {', '.join(self.causes) or 'none found'}>"
-        value = f"{self.study.words} = {self.best.objective:.6f}"
+        value = f"{self.words} = {self.best.objective:.6f}"
         return f"<Result: {self.status}, {value}, limits reached: {', '.join(self.best.active) or 'nothing'}>"
 
     def _repr_html_(self) -> str:
@@ -204,6 +221,34 @@ class Result:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""
         return sheet(self, poses, **options)
 
+    def certify(self, **options: Any) -> MachineCertificate:
+        """Prove the limits of the study at every pose of its region, and enclose the worst condition number there.
+
+        Parameters
+        ----------
+        **options
+            condition_number : a bound of the condition number to be proved too. gap : relative width of the enclosure
+            of the worst one, 0.05. time_limit : seconds for it, 300. tolerance : by which limits may be passed,
+            relative, 1e-6. threads : 0, one per processor. resume : an earlier certificate to go on with. progress :
+            called with boxes done, 0 and the worst condition number met.
+
+        Returns
+        -------
+        MachineCertificate
+            Of each limit: proved, violated or undecided.
+
+        Raises
+        ------
+        ValueError
+            Without a design; for a bad option; for a region where O is searched for at every pose.
+
+        """
+        best = self.best
+        if best is None:
+            raise ValueError(f"result: got one without a design, expected one to be proved: {self.reason}")
+        configurations = best.configurations[: 1 + len(self.study.objective.poses)]
+        return certify(self.study, best.geometry, configurations, best.characteristic_length, **options)
+
     def summary(self) -> str:
         """Return a few lines: status, objective, active limits and their prices, what the starts show."""
         lines = [f"{self.status}: {self.reason}"]
@@ -211,7 +256,7 @@ class Result:
         if best is None:
             return lines[0]
         objective = self.study.objective
-        value = f"{self.study.words} {best.objective:.6f}"
+        value = f"{self.words} {best.objective:.6f}"
         if objective.index != "condition_number" or objective.poses or objective.region is not None:
             value += f"; condition number {best.condition_number:.6f} at the neutral pose"
         if len(best.conditions) > 1:
@@ -247,6 +292,7 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     problem = (study if region is None else region.posed(study)).problem()
     known = _known(Result, data) | {
         "region": region,
+        "proof": OptimumProof.from_dict(data["proof"]) if data.get("proof") else None,
         "status": Status(data["status"]),
         "candidates": tuple(candidate_from(problem, entry) for entry in data["candidates"]),
     }
@@ -260,7 +306,7 @@ def _to_dict(found: Candidate | Result) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     if isinstance(value, Status):
         return str(value)
-    if isinstance(value, RegionReport):
+    if isinstance(value, RegionReport | OptimumProof):
         return value.to_dict()
     return list(value) if isinstance(value, tuple) else value
 

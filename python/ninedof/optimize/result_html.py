@@ -23,7 +23,7 @@ def _rows(result: Any, shown: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
     if not shown:
         yield "causes", ", ".join(result.causes) or "none found"
         return
-    yield result.study.words, *(f"{c.objective:.6f}" for c in shown)
+    yield result.words, *(f"{c.objective:.6f}" for c in shown)
     yield "condition number, neutral pose", *(f"{c.condition_number:.6f}" for c in shown)
     for name, bound in result.study.variables.items():
         if isinstance(bound, tuple):

@@ -24,7 +24,7 @@ class Rounds:
         self._total = 0
         last = self._starts == 1 or (self._number > 1 and starts == self._starts)
         ahead = 0 if last else self._starts
-        phase(self._progress, f"round {self._number}, {poses} poses")
+        phase(self._progress, f"round {self._number}, at {poses} poses")
 
         def report(done: int, total: int, value: float | None) -> None:
             self._total = total

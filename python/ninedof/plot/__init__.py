@@ -8,6 +8,7 @@ from ninedof.plot.body import workspace_body
 from ninedof.plot.convergence import convergence
 from ninedof.plot.dimensions import figure_5
 from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
+from ninedof.plot.files import save
 from ninedof.plot.front import Sketch, front
 from ninedof.plot.landscape import DesignCurves, condition_curves
 from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
@@ -16,7 +17,6 @@ from ninedof.plot.paper_figures import figure_1, figure_2, figure_3, figure_4
 from ninedof.plot.paper_sweeps import figure_6, figure_7
 from ninedof.plot.pose_conditions import PoseConditions, poses
 from ninedof.plot.section import Section
-from ninedof.plot.style import save
 from ninedof.plot.sweep import sweep
 from ninedof.plot.workspace import workspace
 

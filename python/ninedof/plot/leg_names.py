@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,12 +16,14 @@ LEAST = 1.2  # least distance of two names, in their distance from the legs
 ALONG = np.linspace(0.2, 0.8, 25)  # where a name may stand on its leg
 
 
-def write_names(axes: Any, legs: list[tuple[str, Floats, Floats]], o: Floats, away: float) -> None:
-    """Write l1 to r3 beside the legs and O beside its point, `away` to one side."""
+def write_names(
+    axes: Any, legs: list[tuple[str, Floats, Floats]], o: Floats, away: float, clear_of: Sequence[Floats] = ()
+) -> None:
+    """Write l1 to r3 beside the legs and O beside its point, `away` to one side, clear of further lines (2, 3)."""
     halo = [patheffects.withStroke(linewidth=1.8, foreground="white")]
     options: dict[str, Any] = {"path_effects": halo, "zorder": 30, "ha": "center", "va": "center"}
     left = scene.to_the_left()
-    lines = [scene.seen(np.stack([start, end])) for _, start, end in legs]
+    lines = [scene.seen(np.stack([start, end])) for _, start, end in legs] + [scene.seen(line) for line in clear_of]
     up = np.cross(scene.towards_eye(), -left)
     turn = np.linspace(0.0, 2.0 * np.pi, 25)[:-1, None]
     around = o + 1.4 * away * (np.cos(turn) * left + np.sin(turn) * up)

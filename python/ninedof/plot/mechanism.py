@@ -51,6 +51,7 @@ def draw_mechanism(
     lines: Sequence[ArrayLike] = (),
     numbers: bool = True,
     bare: bool = False,
+    clear_of: Sequence[ArrayLike] = (),
 ) -> None:
     """Draw one manipulator on 3-D axes, at equal scale in all directions.
 
@@ -74,6 +75,8 @@ def draw_mechanism(
         Whether to write the name of each leg on it.
     bare : bool
         Leave out the axes and their numbers.
+    clear_of : sequence of array_like, each of shape (2, 3)
+        Lines drawn by the caller, such as vectors, from which the names of legs keep away.
 
     Raises
     ------
@@ -105,7 +108,7 @@ def draw_mechanism(
     else:
         axes3d.plot([0, 0], [0, 0], [0, top], color=style.MUTED, lw=0.6, ls=(0, (5, 4)), zorder=2)
     for line in outline:
-        axes3d.plot(*line.T, color=style.INK, lw=0.8, ls=REGION, zorder=24)
+        axes3d.plot(*line.T, color=style.REGION, lw=0.8, zorder=2)  # behind legs and platform
     legs = [("l", *ends) for ends in zip(base[:3], platform[:3], strict=True)]
     legs += [("q", o, end) for end in platform[3:]]
     legs += [("r", start, o) for start in base[3:]]
@@ -114,7 +117,8 @@ def draw_mechanism(
     joints = np.vstack([distinct(base), distinct(platform)])
     axes3d.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes3d.plot(*o[:, None], "o", color="white", ms=4.6, mec=style.INK, mew=1.1, zorder=22)
-    write_names(axes3d, legs if numbers else [], o, 0.05 * float(np.ptp(axes3d.get_xlim())))
+    others = [np.asarray(line, dtype=np.float64) for line in clear_of]
+    write_names(axes3d, legs if numbers else [], o, 0.05 * float(np.ptp(axes3d.get_xlim())), others)
     if title:
         axes3d.set_title(title, loc="center", size=style.TITLE_SIZE, weight="bold", color=style.INK, pad=0)
     if legend:
@@ -150,7 +154,7 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
     with style.settings():
         share = 1.0 / len(panels)
         words, keys = 0.52, 0.52 if single or every else 0.36  # inches for captions above, keys below
-        width = style.ONE_COLUMN if single else style.TWO_COLUMNS
+        width = (1.3 if every else 1.0) * style.ONE_COLUMN if single else style.TWO_COLUMNS
         figure = style.new_figure(width, words + keys + scene.height(*corners, width * share))
         height = float(figure.get_size_inches()[1])
         for k, panel in enumerate(panels):
@@ -167,14 +171,13 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
                 text.set(ha="center", va="baseline", color=style.MUTED if down > 0.4 else style.INK)
         names = _keys()
         if every:
-            names.append(style.key(style.INK, lw=0.8, ls=REGION, label="region of poses"))
+            names.append(style.key(style.REGION, lw=0.8, label="region of poses"))
         columns = 3 if single else 4 if every else 6
         figure.legend(handles=names, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=columns, **_LEGEND)
     return figure
 
 
 _LEGEND: dict[str, Any] = {"fontsize": style.SMALL_SIZE, "frameon": False, "handlelength": 1.5, "columnspacing": 1.2}
-REGION: Any = (0, (4, 2))  # dashes of the outline of a region
 
 
 def _keys() -> list[Any]:

@@ -31,6 +31,7 @@ def motion(
     Parameters
     ----------
     time : array_like, shape (n,)
+        In seconds where lengths have a unit, as in `ninedof.follow`; else in any unit.
     leg_lengths : array_like, shape (n, 9)
         In the order of `ninedof.leg_lengths`.
     conditions : array_like, shape (n,)
@@ -58,6 +59,7 @@ def motion(
         raise ValueError(f"time, leg_lengths, conditions: got shapes {got}, expected (n,), (n, 9) and (n,)")
     low, high = (np.zeros(9), np.full(9, np.inf)) if limits is None else (np.broadcast_to(x, 9) for x in limits)
     shown = _drawn(kappa)
+    time_words = "time (s)" if unit else "time (in the unit of the path)"
     with style.settings():
         rows = (1.0, 0.85, 0.85) if margins else (1.0, 0.85)
         figure = style.new_figure(style.TWO_COLUMNS, 2.15 * sum(rows))
@@ -69,12 +71,14 @@ def motion(
             _limits(axes, low[these], high[these], lengths[:, these])
             axes.set_title(title, size=style.TEXT_SIZE)
             axes.set_xlim(t[0], t[-1])
-            axes.set_xlabel("time")
+            axes.set_xlabel(time_words)
             axes.set_ylabel(style.with_unit("length", unit))
         _condition(figure.add_subplot(grid[1, :]), t[shown], kappa[shown])
+        figure.axes[3].set_xlabel(time_words)
         if margins:
             given = {name: np.asarray(values, dtype=np.float64) for name, values in margins.items()}
             _margins(figure.add_subplot(grid[2, :]), t, given)
+            figure.axes[4].set_xlabel(time_words)
         bottom, top = (0.1, 0.94) if not margins else (0.07, 0.96)
         figure.subplots_adjust(left=0.085, right=0.98, bottom=bottom, top=top, hspace=0.5, wspace=0.36)
         figure.align_ylabels([figure.axes[0], *figure.axes[3:]])
@@ -118,7 +122,7 @@ def _limits(axes: Any, low: Floats, high: Floats, lengths: Floats) -> None:
 
 def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
     axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0])
-    axes.set(xlabel="time", ylabel="condition number")
+    axes.set(ylabel="condition number")
     axes.set_xlim(t[0], t[-1])
     finite = kappa[np.isfinite(kappa)]
     if finite.size and finite.max() > RANGE * finite.min():
@@ -149,5 +153,5 @@ def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     axes.set_xlim(t[0], t[-1])
     words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
     axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
-    axes.set(xlabel="time", ylabel="margin (%)")
+    axes.set(ylabel="margin (%)")
     axes.legend(loc="upper center", ncols=min(5, len(margins)), handlelength=2.2, columnspacing=1.0)

@@ -50,7 +50,8 @@ def figure_1(geometry: Geometry, configuration: Configuration, unit: str = "") -
         width = 1.3 * style.ONE_COLUMN
         figure = style.new_figure(width, 0.3 + scene.height(low, high, width))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), projection="3d")
-        draw_mechanism(axes, geometry, configuration, unit=unit, legend=False, bare=True)
+        vectors = [np.stack([np.zeros(3), end]) for end in (configuration.position, configuration.internal_point)]
+        draw_mechanism(axes, geometry, configuration, unit=unit, legend=False, bare=True, clear_of=vectors)
         share = 0.3 / float(figure.get_size_inches()[1])
         scene.fit(axes, low, high, (0.0, share, 1.0, 1.0 - share))
         length = 0.16 * half
@@ -62,8 +63,8 @@ def figure_1(geometry: Geometry, configuration: Configuration, unit: str = "") -
                 _arrow(axes, origin, origin + 1.4 * length * along, style.MUTED, 0.8)
                 aside = 0.5 * scene.to_the_left() if name[0] == "z" else 0.0
                 _word(axes, origin + length * ((1.2 if name[0] == "z" else 1.8) * along + aside), name, style.MUTED)
-        _arrow(axes, np.zeros(3), configuration.position, style.INK, 1.2)
-        _arrow(axes, np.zeros(3), configuration.internal_point, style.INK, 1.2)
+        for start, end in vectors:
+            _arrow(axes, start, end, style.INK, 1.2)
         side = scene.to_the_left() * length
         _word(axes, 0.5 * configuration.position - 0.6 * side, r"$\mathbf{p}$", style.INK, style.TITLE_SIZE)
         _word(axes, 0.55 * configuration.internal_point + 0.7 * side, r"$\mathbf{s}$", style.INK, style.TITLE_SIZE)
@@ -99,7 +100,9 @@ def _flat(axes: Any, point: Floats) -> tuple[float, float]:
 
 def _arrow(axes: Any, start: Floats, end: Floats, colour: str, width: float) -> None:
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": width, "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", _flat(axes, end), _flat(axes, start), arrowprops=arrow, zorder=25)
+    drawn = axes.annotate("", _flat(axes, end), _flat(axes, start), arrowprops=arrow, zorder=25)
+    rim = patheffects.Stroke(linewidth=width + 1.0, foreground="white")  # seen on the dark plate too
+    drawn.arrow_patch.set_path_effects([rim, patheffects.Normal()])
 
 
 def _word(axes: Any, at: Floats, text: str, colour: str, size: float = style.SMALL_SIZE) -> None:

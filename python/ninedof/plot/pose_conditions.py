@@ -15,6 +15,9 @@ from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
+LONGEST = 24  # letters of a name on the axis; longer ones are a list below it, by number
+WORST_NAMED = 9  # of more poses than MOST_NAMED, those in the list
+LETTER, LINE = 0.056, 0.135  # inches, of the list
 RANGE = 30.0  # times the least: larger values are arrows at the upper edge
 LEAST_SPAN = 0.2  # of the least value, shown by the axis
 WORST: Any = (0, (5, 3))
@@ -29,11 +32,13 @@ class PoseConditions:
     """Condition number at each pose, shape (n,); infinite where singular."""
 
 
-def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: str = "condition number") -> Figure:
+def poses(
+    designs: Sequence[PoseConditions], names: Sequence[str] = (), index: str = "condition number", note: str = ""
+) -> Figure:
     """Return a figure of the condition number at each pose: a mark for each design, its worst value as a dashed line.
 
     There are no bars, as the axis does not begin at zero; it shows at least a fifth of the least value, so that small
-    differences look small.
+    differences look small. Long names are listed below the axis by number; of more than 40 poses those of the worst.
 
     Parameters
     ----------
@@ -43,6 +48,8 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
         Names of the poses; their numbers by default.
     index : str
         Name of the index.
+    note : str
+        Words above that list, such as the unit.
 
     Raises
     ------
@@ -64,16 +71,22 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
         raise ValueError(f"designs: got conditions of shapes {[v.shape for v in values]}, expected one shape (n,)")
     if len(names) not in (0, count):
         raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
+    longest = max((len(name) for name in names), default=0)
+    listed = _listed(values, names) if longest > LONGEST or count > MOST_NAMED else []
+    if listed:
+        names, longest = (), 0
     with style.settings():
-        longest = max((len(name) for name in names), default=0) if count <= MOST_NAMED else 0
-        single = count <= 12 and longest < 24
+        single = count <= 12 and not listed
         width = style.ONE_COLUMN if single else style.TWO_COLUMNS
         above = 0.1 + 0.155 * len(designs) if single else 0.1 + 0.155 * -(-len(designs) // 2)  # inches, for the key
-        below = max(0.4, 0.12 + 0.052 * longest)  # for slanted names
+        columns = _columns(listed, width)
+        list_height = LINE * (len(columns[0]) + bool(note)) + 0.1 if columns else 0.0
+        below = max(0.4, 0.12 + 0.052 * longest) + list_height  # for slanted names
         height = 1.9 + above + below
         figure = style.new_figure(width, height)
         left = 0.5 / width + (0.02 * longest / width if slanted(names, count) else 0.0)
         axes = figure.add_axes((left, below / height, 1.0 - left - 0.1 / width, 1.9 / height))
+        _write(figure, columns, note, left, list_height / height)
         axes.set_ylabel(index)
         _scale(axes, values)
         for k, (colour, v) in enumerate(zip(style.SERIES, values, strict=False)):
@@ -86,6 +99,37 @@ def poses(designs: Sequence[PoseConditions], names: Sequence[str] = (), index: s
         options: dict[str, Any] = {"loc": "upper left", "ncols": 1 if single else 2, "handlelength": 3.0}
         figure.legend(handles=keys, bbox_to_anchor=(left, 1.0), borderpad=0.2, **options)
     return figure
+
+
+def _listed(values: Sequence[Floats], names: Sequence[str]) -> list[str]:
+    """Return the lines of the list: all poses, or the worst of many in the order of their numbers."""
+    shown = range(len(names))
+    if len(names) > MOST_NAMED:
+        worst = np.argsort(-np.max(values, axis=0), kind="stable")[:WORST_NAMED]
+        shown = sorted(worst.tolist())  # type: ignore[assignment]
+    return [f"{k + 1}: {names[k]}" for k in shown]
+
+
+def _columns(lines: Sequence[str], width: float) -> list[list[str]]:
+    """Return the list in as many columns as there is room for, the first the longest."""
+    if not lines:
+        return []
+    count = max(1, int((width - 0.5) / (LETTER * (2 + max(map(len, lines))))))
+    rows = -(-len(lines) // count)
+    return [list(lines[k : k + rows]) for k in range(0, len(lines), rows)]
+
+
+def _write(figure: Figure, columns: Sequence[Sequence[str]], note: str, left: float, top: float) -> None:
+    """Write the list below the axes, line by line."""
+    line = LINE / float(figure.get_size_inches()[1])
+    first = top - 0.4 * line
+    if columns and note:
+        figure.text(left, first, note, size=style.SMALL_SIZE, color=style.MUTED, va="top")
+        first -= line
+    for k, lines in enumerate(columns):
+        at = left + k * (1.0 - left) / len(columns)
+        for row, words in enumerate(lines):
+            figure.text(at, first - row * line, words, size=style.SMALL_SIZE, va="top")
 
 
 def _label(name: str, values: Floats) -> str:

@@ -13,7 +13,7 @@ from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
 ELEVATION, AZIMUTH = 17.0, -76.0  # degrees: low enough to show the heights of base, O and platform
-ROOM = np.array([0.06, 0.36, 0.5, 0.2])  # inches beside the box: left, below, right, above
+ROOM = np.array([0.14, 0.36, 0.5, 0.2])  # inches beside the box: left, below, right, above
 
 Limits = tuple[float, float, float]
 """Half width in x and y, lowest and highest z."""
@@ -46,7 +46,7 @@ def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Fl
         axis._axinfo["grid"].update(color=style.GRID, linewidth=0.5)
         axis.set_tick_params(labelsize=style.SMALL_SIZE, pad=0 if name == "z" else -3)
         axis.set_rotate_label(False)
-        axis.labelpad = {"x": -4, "y": 1}.get(name, 0)
+        axis.labelpad = {"x": -3, "y": 1}.get(name, 0)
     # No ticks at the corners that two axes share.
     for axis, first, size, most in zip((axes.xaxis, axes.yaxis), low[:2], span[:2], (4, 3), strict=True):
         values = MaxNLocator(most).tick_values(first, first + size)

@@ -31,8 +31,8 @@ KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, wor
     "leg_clearance": ("leg clearance", "#7B4B00", (0, (5.0, 1.0))),
     "condition_number": ("condition number", style.INK, "-"),
     "det": ("singularity", "#CC3311", (0, (1.5, 0.6))),
-    "region": ("region", style.MUTED, "-"),
-    "box": ("box of the map", style.MUTED, "-"),
+    "region": ("region", style.MUTED, (0, (2.0, 1.6))),
+    "box": ("box of the map", style.MUTED, (0, (2.0, 1.6))),
     "internal_point": ("no admissible O", "#999933", (0, (4.0, 1.5))),
 }
 
@@ -82,7 +82,7 @@ def draw_section(axes: Any, section: Section, kinds: Sequence[str], levels: Floa
         axes.plot(*turn(np.asarray(section.home, dtype=np.float64)), **home_mark())
     axes.grid(visible=False)
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
-    axes.set_title(f"{s.plane[0]} = {amount(f'{at:.4g}', unit)}")
+    axes.set_title(f"{s.plane[0]} = {amount(style.signed(at), unit)}")
     if lines:
         ends = np.concatenate([np.asarray(line) for line in lines])
         low, high = ends.min(axis=0), ends.max(axis=0)

@@ -1,13 +1,10 @@
-"""The style of all figures: sizes as printed, colours, dashes, axes, and how a figure is created and saved."""
+"""The style of all figures: sizes as printed, colours, dashes, axes, and how a figure is created."""
 
 from __future__ import annotations
 
-import io
 import math
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +16,6 @@ from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatt
 from numpy.typing import ArrayLike
 
 from ninedof.support.arrays import Floats
-from ninedof.support.files import write_whole
 from ninedof.support.units import with_unit as with_unit
 
 # Okabe and Ito's palette, which is safe for colour-blind readers.
@@ -36,6 +32,7 @@ GRID = "#E3E7EB"
 
 # Paul Tol's "bright" without the colours of the legs: for designs and methods in one figure, in this order.
 SERIES = ("#566370", "#AA3377", "#117799", "#B07D00")
+REGION = SERIES[3]  # the outline of a region of poses, in the viewer too
 ALARM = UPPER  # failures and warnings
 CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-blind readers
 
@@ -124,6 +121,11 @@ def power_of_ten(value: float, position: object = None) -> str:
     return "10" + str(round(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
+def signed(value: float) -> str:
+    """Return a number of four digits for a title, with the minus sign that axes have."""
+    return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
+
+
 def plain_numbers(axis: Any, ticks: Sequence[float]) -> None:
     """Label a logarithmic axis with these numbers, without powers of ten; numbers below 1 as fractions."""
     axis.set_major_locator(FixedLocator(ticks))
@@ -169,47 +171,3 @@ def round_to(value: float, span: float) -> float:
 def key(colour: str, **line: Any) -> Line2D:
     """Return a legend entry without data."""
     return Line2D([], [], color=colour, **line)
-
-
-def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
-    """Write a figure as PNG, SVG and PDF.
-
-    Each file appears whole or not at all, and equal figures give equal bytes.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    directory : path
-        Created if it does not exist.
-    stem : str
-        File name without suffix.
-
-    Returns
-    -------
-    list of pathlib.Path
-        The PNG (200 dots per inch), the SVG and the PDF.
-
-    Raises
-    ------
-    OSError
-        If the directory cannot be written to; no partial file is left.
-
-    Examples
-    --------
-    >>> from ninedof import plot
-    >>> paths = plot.save(figure, "run", "mechanism")  # doctest: +SKIP
-
-    """
-    folder = Path(directory)
-    folder.mkdir(parents=True, exist_ok=True)
-    metadata: dict[str, dict[str, Any]] = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    paths = []
-    with settings():
-        if (engine := figure.get_layout_engine()) is not None:
-            engine.execute(figure)  # once for all files
-            figure.set_layout_engine("none")
-        for kind, entries in metadata.items():
-            image = io.BytesIO()
-            figure.savefig(image, format=kind, dpi=DPI, metadata=entries)
-            paths.append(write_whole(folder / f"{stem}.{kind}", image.getvalue()))
-    return paths

@@ -64,7 +64,7 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
             values, name = values[..., 0], f"{name}, {labels[0]}"
         picks = np.unique(np.linspace(0, len(values) - 1, min(PANELS, len(values))).round().astype(int))
         first, unit = _values(result, swept[0])
-        titles = [f"{plain_name(swept[0])} = {amount(f'{first[k]:.4g}', unit)}" for k in picks]
+        titles = [f"{plain_name(swept[0])} = {amount(style.signed(first[k]), unit)}" for k in picks]
         return _maps(result, name, swept[1:], values[picks], titles)
 
 

@@ -17,6 +17,7 @@ from ninedof.support.arrays import Floats
 
 MOST_SECTIONS = 3
 MOST_SHARES = 9
+LOWER = 1.93  # inches, the height of the lower row
 RANGE = 30.0  # times the least condition number: the colours end there
 USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest value if it is so little above it
 
@@ -69,8 +70,10 @@ def workspace(
     kinds = [kind_of(name) for name in limit_names]
     known = np.asarray(percentiles, dtype=np.float64)
     with style.settings():
-        figure = style.new_figure(style.TWO_COLUMNS, 5.3, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
-        parts: Any = figure.subfigures(2, 1, height_ratios=[1.75, 1.0])
+        upper = 3.37 if len(sections) < MOST_SECTIONS else 2.75  # inches
+        engine = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
+        figure = style.new_figure(style.TWO_COLUMNS, upper + LOWER, layout=engine)
+        parts: Any = figure.subfigures(2, 1, height_ratios=[upper, LOWER])
         above, below = parts
         bands, most = _bands(known, sections)
         shown: Any = None

@@ -8,16 +8,18 @@ from html import escape
 from pathlib import Path
 
 from ninedof.report.markup import Html, joined, tag
+from ninedof.runs.paper_figures import FIGURES
 
 CAPTIONS = {
     "mechanism": "The mechanism at its neutral pose.",
     "condition": "Condition number along the height of O and along the twist, other variables as in the design.",
-    "poses": "Condition number at each pose that was imposed.",
+    "poses": "Condition number at each pose that was imposed, numbered as in the sheet.",
     "convergence": "Convergence of single starts, with the smooth minimax form and with the plain objective.",
     "front": "The least objective for each value of the limit, and designs from above.",
     "workspace": "Sections of the workspace, what limits it, the spread of the condition number, and how the volume "
     "became known.",
-    "motion": "Leg lengths, rates and margins along the path.",
+    "motion": "Leg lengths, condition number and margins along the path.",
+    **{stem: f"{name}." for stem, name in FIGURES.items()},
 }
 KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 

@@ -21,7 +21,7 @@ SAME_LIMITS = (
     "The same limits, starts and seed. Limits that the run selected itself are solved in another order here, so last "
     "digits may differ."
 )
-LIST = re.compile(r"\[\n((?: +[-+.\w]+,\n)+) *\]")  # of numbers, one to a line
+LIST = re.compile(r"\[\n((?: +[-+.\w]+,?\n)+) *\]")  # of numbers, one to a line
 
 
 def of_front(front: Front, record: Any, point: str = "") -> Html:
@@ -39,11 +39,17 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
     """Return how to solve a study again; `record` has the versions and the time, `note` says what is the same."""
     import tomli_w
 
-    text = LIST.sub(lambda found: f"[{', '.join(found[1].replace(',', ' ').split())}]", tomli_w.dumps(study.to_dict()))
+    text = _flat(tomli_w.dumps(study.to_dict()))
     data = b64encode(text.encode()).decode()
     file = tag("a", "study.toml", href=f"data:text/plain;base64,{data}", download="study.toml")
     return joined(
-        tag("p", "Save the study file below as ", file, ", then:"),
+        _made_by(record),
+        tag(
+            "p",
+            f"{'From this page alone: save' if record.command else 'Save'} the study file below as ",
+            file,
+            ", then:",
+        ),
         listing(command),
         _versions(record, [("starts", study.starts), ("seed", study.seed)]),
         paragraphs([note], "note"),
@@ -55,12 +61,28 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
 def of_question(asked: Mapping[str, Any], record: Any) -> Html:
     """Return what was asked of a run without a study."""
     if not asked:
-        return joined(paragraphs(["The record does not hold what was asked."]), _versions(record, []))
+        missing = "" if record.command else "The record does not hold what was asked."
+        return joined(_made_by(record), paragraphs([missing]), _versions(record, []))
     return joined(
+        _made_by(record),
         paragraphs(["Everything that was asked, as the record of the run has it:"]),
-        listing(encode(asked)),
+        listing(_flat(encode(asked))),
         _versions(record, []),
     )
+
+
+def _flat(text: str) -> str:
+    """Return TOML or JSON with each list of numbers in one line."""
+    return LIST.sub(lambda found: f"[{', '.join(found[1].replace(',', ' ').split())}]", text)
+
+
+def _made_by(record: Any) -> Html:
+    """Return the command line of the run, where the record has it."""
+    if not record.command:
+        return Html()
+    resumed = "--resume" in shlex.split(record.command)
+    said = "It continued an interrupted run: without --resume it begins anew." if resumed else ""
+    return joined(paragraphs(["The command that made it:"]), listing(record.command), paragraphs([said], "note"))
 
 
 def _versions(record: Any, more: list[tuple[str, object]]) -> Html:

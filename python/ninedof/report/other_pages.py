@@ -1,4 +1,4 @@
-"""The pages of fronts, of workspaces and of runs that only have figures."""
+"""The page of a workspace, and the table of the comparison with the published design."""
 
 from __future__ import annotations
 
@@ -9,76 +9,20 @@ from typing import Any
 import numpy as np
 
 from ninedof.design.indices import LEGS
-from ninedof.pareto import Front
-from ninedof.pareto.front import row_words
+from ninedof.design.region_outline import box_lines
 from ninedof.report import origin, proof, scene
 from ninedof.report.body import body_of
 from ninedof.report.markup import Html, Section, beside, facts, joined, paragraphs, table
 from ninedof.report.numbers import short
 from ninedof.report.pages import Page, machine_section
-from ninedof.report.question import question
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.units import amount, with_unit
 from ninedof.workspace import WorkspaceMap
+from ninedof.workspace.question_words import rule_words
 
 NAMES = ("a1", "a2", "b1", "b2", "zp", "zs")
 LENGTHS = ("leg_limits", "leg_clearance")
-
-
-def of_front(front: Front, record: Any, name: str) -> Page:
-    """Return the page of a trade-off."""
-    limit = front.limit_name.replace("_", " ")
-    asked = f"What does each value of {limit} cost? The study below is solved once for each."
-    machines = [
-        scene.machine(f"point {k}: {limit} {_limit(front, x)}", b.geometry, b.configuration, b.characteristic_length)
-        for k, (x, result) in enumerate(zip(front.limits, front.results, strict=True), start=1)
-        if (b := result.best) is not None and not math.isnan(front.objectives[k - 1])
-    ]
-    sections = [
-        Section("question", "Question", joined(paragraphs([asked]), question(front.study))),
-        Section("answer", "Answer", _front_table(front)),
-        *([machine_section()] if machines else []),
-        Section(
-            "sheet", "Engineering sheet", paragraphs([f"Each point has its own: ninedof sheet {name}#1 for the first."])
-        ),
-        Section("proof", "What is proved, and what is searched", proof.of_front(front)),
-        Section("again", "How to reproduce it", origin.of_front(front, record)),
-    ]
-    found = [x for x in front.objectives if not math.isnan(x)]
-    ends = f"{max(found):.6f} to {min(found):.6f}" if found else "no design"
-    figures = [
-        ("limits solved", len(front)),
-        ("objective", ends),
-        ("interrupted", "yes" if front.interrupted else "no"),
-    ]
-    headline = f"{front.study.words[:1].upper()}{front.study.words[1:]} against {limit}"
-    shown = scene.scene(machines, front.study.unit) if machines else None
-    return Page("trade-off", headline, figures, sections, shown, bool(found) and not front.interrupted)
-
-
-def _front_table(front: Front) -> Html:
-    unit = "deg" if front.unit == "rad" else front.unit
-    limit = with_unit(f"{front.limit_name.replace('_', ' ')} at most", unit)
-    head = (
-        "no.",
-        limit,
-        "objective",
-        "neutral condition number",
-        "price, % for 1 %",
-        "limits reached, or why no design",
-    )
-    rows = []
-    for k, row in enumerate(front.table(), start=1):
-        missing = row["objective"] is None
-        price = "-" if row["price"] is None else f"{row['price']:.3f}"
-        values = ("-", "-") if missing else (f"{row['objective']:.6f}", f"{row['condition_number']:.6f}")
-        rows.append((k, _limit(front, row["limit"]), *values, price, row_words(front, row).replace("_", " ")))
-    return table(f"{front.study.words} for each limit", head, rows, (5,))
-
-
-def _limit(front: Front, value: float) -> str:
-    return f"{math.degrees(value) if front.unit == 'rad' else value:.5g}"
 
 
 def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
@@ -89,7 +33,7 @@ def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
     sections = [
         *([Section("question", "Question", _asked(found, asked))] if "criteria" in asked else []),
         Section("answer", "Answer", _volume(found)),
-        *([machine_section(hint if shown["body"] else "")] if shown else []),
+        *([machine_section(hint if shown["machines"][0]["body"] else "")] if shown else []),
         Section("proof", "What is proved, and what is searched", proof.of_workspace(found, asked)),
         Section("again", "How to reproduce it", origin.of_question(asked, record)),
     ]
@@ -106,9 +50,9 @@ def of_workspace(found: WorkspaceMap, record: Any, name: str) -> Page:
 def _scene(found: WorkspaceMap, asked: Any) -> dict[str, Any]:
     g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
     home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
-    box = [] if found.of_angles else [scene.numbers(line) for line in scene.box_lines(found.low, found.high)]
-    machines = [scene.machine("robot", g, home, float(asked.get("characteristic_length", 1.0)), (("home", 0),))]
-    return scene.scene(machines, found.unit, box, body_of(found))
+    box = [] if found.of_angles else box_lines(found.low, found.high)
+    length = float(asked.get("characteristic_length", 1.0))
+    return scene.scene([scene.machine("robot", g, home, length, (("home", 0),), box, body_of(found))], found.unit)
 
 
 def _asked(found: WorkspaceMap, asked: Any) -> Html:
@@ -124,8 +68,9 @@ def _asked(found: WorkspaceMap, asked: Any) -> Html:
     turn, unit = _scale(found)
     low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (found.low, found.high))
     where = f"{'the box' if not found.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
-    rule = _rule(asked.get("internal_point", "held"))
-    said = f"Which poses keep all limits below? Looked at: {where}. O is {rule}."
+    said = f"Which poses keep all limits below? Looked at: {where}."
+    if "internal_point" in asked:
+        said += f" O is {rule_words(asked, found.unit)}."
     return joined(paragraphs([said]), table("Limits", ("limit", "allowed"), rows, (1,)))
 
 
@@ -136,16 +81,6 @@ def _cubed(found: WorkspaceMap) -> str:
 def _scale(found: WorkspaceMap) -> tuple[Callable[[float], float], str]:
     """Return how coordinates of a workspace are shown, and their unit: angles in degrees."""
     return (math.degrees, "deg") if found.of_angles else (float, found.unit)
-
-
-def _rule(given: Any) -> str:
-    if isinstance(given, str):
-        return {"best": "at its best place for each pose"}.get(given, given)
-    if isinstance(given, int | float):
-        return f"at a share of {given:.4g} of the way between the plates"
-    if isinstance(given, dict):
-        return "fixed to the platform"
-    return f"at ({', '.join(f'{x:.6g}' for x in given)})"
 
 
 def _criterion(name: str, limit: Any, unit: str) -> str:

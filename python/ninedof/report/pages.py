@@ -6,13 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ninedof.design.region_outline import region_lines
+from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
+from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin, proof, scene
-from ninedof.report.answer import answer
+from ninedof.report.answer import SHOWN, answer
+from ninedof.report.body import quick_body
 from ninedof.report.markup import Html, Section, paragraphs
 from ninedof.report.question import question
 from ninedof.report.sheet_part import sheet_part
+from ninedof.robot.configuration import Configuration
 from ninedof.sheet.sheet import Sheet
+from ninedof.support.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -34,40 +40,52 @@ def machine_section(hint: str = "") -> Section:
     return Section("machine", "Machine", paragraphs([hint] if hint else []))
 
 
-def of_result(result: Result, record: Any, name: str, again: Html | None = None) -> Page:
-    """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not."""
+def of_result(
+    result: Result,
+    record: Any,
+    run: str = "RUN",
+    again: Html | None = None,
+    certificate: MachineCertificate | None = None,
+) -> Page:
+    """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not.
+
+    `run` is the run in the commands of the page: "RUN#7" for a point of a front.
+    """
     best, study = result.best, result.study
     sections = [Section("question", "Question", question(study)), Section("answer", "Answer", answer(result))]
     shown, found = None, None
     if best is not None and result.status != Status.UNBOUNDED:  # without a least value there is no design to build
         found = result.sheet()
-        sections += [machine_section(), Section("sheet", "Engineering sheet", sheet_part(found))]
-        shown = _scene(result, found)
+        body, said = quick_body(result, run)
+        sections += [machine_section(said), Section("sheet", "Engineering sheet", sheet_part(found))]
+        shown = _scene(result, found, body)
     if again is None:
         again = origin.of_study(study, "ninedof optimize study.toml", record)
     sections += [
-        Section("proof", "What is proved, and what is searched", proof.of_result(result)),
+        Section("proof", "What is proved, and what is searched", proof.of_result(result, certificate)),
         Section("again", "How to reproduce it", again),
     ]
-    headline = f"{_capital(study.words)}: no design" if found is None else _capital(study.words)
+    headline = f"{_capital(study.words)}: no design" if found is None else _capital(result.words)
     return Page("optimization", headline, _key_figures(result, found), sections, shown, result.status == Status.OPTIMAL)
 
 
-def _scene(result: Result, found: Sheet) -> dict[str, Any]:
+def _scene(result: Result, found: Sheet, body: Mapping[str, Any] | None) -> dict[str, Any]:
     best, study = result.best, result.study
     assert best is not None
-    machines = [
-        scene.machine(
-            "best design", best.geometry, found.configurations, best.characteristic_length, scene.worst_poses(found)
-        )
-    ]
-    for k, other in enumerate(result.candidates[1:4], start=2):
-        machines.append(
-            scene.machine(f"optimum no. {k}", other.geometry, other.configuration, other.characteristic_length)
-        )
+    poses = scene.worst_poses(found)
+    lines = region_of(study, best.configuration)
+    length = best.characteristic_length
+    machines = [scene.machine("best design", best.geometry, found.configurations, length, poses, lines, body)]
+    for k, other in enumerate(result.candidates[1:SHOWN], start=2):
+        home, length = other.configuration, other.characteristic_length
+        machines.append(scene.machine(f"optimum no. {k}", other.geometry, home, length, lines=region_of(study, home)))
+    return scene.scene(machines, study.unit)
+
+
+def region_of(study: Study, home: Configuration) -> list[Floats]:
+    """Return the region of a study about a home pose as lines; none without a region."""
     region = study.objective.region
-    lines = [] if region is None else scene.region_lines(region, best.configuration)
-    return scene.scene(machines, study.unit, lines)
+    return [] if region is None else region_lines(region, home)
 
 
 def _key_figures(result: Result, found: Sheet | None) -> list[tuple[object, object]]:

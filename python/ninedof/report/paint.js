@@ -51,10 +51,10 @@ function paint(context, size, camera, data, machine, pose, shown, colours) {
   floor(data.floor, project, line, colours);
   if (overBase) base();
   if (!overPlatform) platform();
-  between_plates(context, data, robot, view, shown, colours, line, disc);
+  between_plates(context, data.radius, shown.region ? machine.region : [], robot, view, colours, line, disc);
   if (overPlatform) platform();
   if (!overBase) base();
-  if (data.body && shown.body) body(context, size, data.body, view, colours);
+  if (machine.body && shown.body) body(context, size, machine.body, view, colours);
   if (shown.labels) labels(context, robot, project, colours);
   axes(context, view, height, colours, line);
 }
@@ -75,7 +75,7 @@ function floor({ step, count }, project, line, colours) {
 }
 
 // Legs with a rim where one crosses another, the region, and O; sorted by depth.
-function between_plates(context, data, robot, view, shown, colours, line, disc) {
+function between_plates(context, radius, region, robot, view, colours, line, disc) {
   const items = [];
   for (const [kind, , a, b] of robot.legs) {
     for (let k = 0; k < PARTS; k++) {
@@ -89,14 +89,14 @@ function between_plates(context, data, robot, view, shown, colours, line, disc) 
       }]);
     }
   }
-  for (const points of shown.region ? data.region : []) {
+  for (const points of region) {
     for (let k = 1; k < points.length; k++) {
       const ends = [points[k - 1], points[k]].map(view.project);
-      items.push([(ends[0][2] + ends[1][2]) / 2, () => line(ends, colours.region, 1.3, [5, 3])]);
+      items.push([(ends[0][2] + ends[1][2]) / 2, () => line(ends, colours.region, 1.6, [5, 3])]);
     }
   }
   const o = view.project(robot.o);
-  items.push([o[2] + 0.02 * data.radius, () => disc(o, 5, colours.surface, colours.ink, 2)]);
+  items.push([o[2] + 0.02 * radius, () => disc(o, 5, colours.surface, colours.ink, 2)]);
   items.sort((a, b) => a[0] - b[0]).forEach((item) => item[1]());
 }
 

@@ -8,8 +8,11 @@ from typing import Any
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto import Front
+from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report.markup import Html, bullets, joined, paragraphs, tag
 from ninedof.workspace import WorkspaceMap
+
+ROUNDING = 1e-9  # a gap that no figure on the page shows
 
 # As in docs/optimization.md.
 STATUS = {
@@ -20,9 +23,11 @@ STATUS = {
 }
 
 
-def of_result(result: Result) -> Html:
-    """Return what is established of an optimization and what is not."""
-    return _two(list(_checked(result)), list(_searched(result)), STATUS[result.status], result.status)
+def of_result(result: Result, certificate: MachineCertificate | None = None) -> Html:
+    """Return what is established of an optimization and what is not; `certificate`: what `ninedof certify` proved."""
+    checked = [*(certificate.sentences() if certificate else ()), *_checked(result)]
+    between = certificate is None or not certificate.proved
+    return _two(checked, list(_searched(result, between)), STATUS[result.status], result.status)
 
 
 def of_front(front: Front) -> Html:
@@ -78,11 +83,18 @@ def _checked(result: Result) -> Iterator[str]:
             yield f"Proved: {bound.sentence}."
 
 
-def _searched(result: Result) -> Iterator[str]:
+def _best_of_all(result: Result) -> bool:
+    """Whether it is proved that no design is better by more than rounding shows."""
+    return result.proof is not None and result.proof.gap(float(result.condition_number or 0.0)) < ROUNDING
+
+
+def _searched(result: Result, between: bool) -> Iterator[str]:
     best, region = result.best, result.region
-    if best is not None and result.status == Status.OPTIMAL:
+    if best is not None and result.status == Status.OPTIMAL and not _best_of_all(result):
         yield "That no other design is better. The starts are evidence only: see their agreement above."
-    if region is not None and region.looked_at == 0:
+    if region is not None and not between:
+        pass  # proved
+    elif region is not None and region.looked_at == 0:
         yield "That the limits hold between the poses imposed: the design was not looked at there."
     elif region is not None:
         yield (

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ninedof.design.limits import Limit, each, label, parts, place, shown_unit
 from ninedof.design.study import Study
+from ninedof.redundancy.rules import MEANING, WORDS
 from ninedof.report.markup import Html, beside, joined, paragraphs, table
 from ninedof.support.angles import degrees_of
 from ninedof.support.units import amount, with_unit
@@ -16,11 +17,6 @@ FAMILIES = {
     "symmetric": "flat joint triples with threefold symmetry",
     "symmetric_nonplanar": "joint triples with threefold symmetry, each at its own height",
     "general": "twelve free joints",
-}
-WHERE_O = {
-    "carried": "O is carried with the platform: s - p stays as at the neutral pose.",
-    "held": "O stays where it is at the neutral pose.",
-    "best": "O is placed anew at every pose, where the worst of the index and all limits is least.",
 }
 MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
@@ -32,11 +28,11 @@ def question(study: Study) -> Html:
 
 def sentences(study: Study) -> Iterator[str]:
     """Yield what is asked, in sentences."""
-    family = FAMILIES.get(study.family, study.family)
+    family = FAMILIES[study.family]
     yield f"Which design has the least {study.words}? The family of designs is “{study.family}”: {family}."
     objective = study.objective
     if objective.region is not None:
-        yield f"Every limit is to hold in all of this region. {WHERE_O[objective.region.internal_point]}"
+        yield f"Every limit is to hold in all of this region. {_where_o(objective.region.internal_point)}"
     elif objective.poses:
         yield f"Every limit is to hold at each of the {len(objective.poses)} poses; between them nothing is asked."
     else:
@@ -100,3 +96,9 @@ def _option(value: object) -> str:
 
 def _end(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else "none"
+
+
+def _where_o(rule: str) -> str:
+    """Return where O is in a region, in a sentence."""
+    least = ", where the worst of the index and all limits is least" * (rule == "best")
+    return f"O is {WORDS[rule]}: {MEANING[rule]}{least}."

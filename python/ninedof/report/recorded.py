@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
 from ninedof.report.markup import Html, Section, beside, facts, joined, paragraphs, table
 from ninedof.report.numbers import short
 from ninedof.report.pages import Page
-from ninedof.support.units import with_unit
+from ninedof.sheet.path_limits import row_words
+from ninedof.support.units import per, with_unit
 
 SHOWN = 24  # lines of a table
+PAPER = "paper"
 
 
 def of_recorded(record: Any, name: str) -> Page:
@@ -35,6 +38,13 @@ def of_recorded(record: Any, name: str) -> Page:
         )
         said = f"Which condition numbers have {atlas['designs']} designs drawn at random?"
         return _page(record, name, said, answer, [("designs", atlas["designs"])], again)
+    if record.kind == PAPER:
+        rows = [tuple(row[key] for key in ("where", "printed", "ours", "verdict")) for row in results["verdicts"]]
+        head = ("where", "printed", "ours", "verdict")
+        answer = table("The paper's numbers and ours, lengths in units of l_c", head, rows, (1, 2, 3))
+        said = "Which numbers of the paper hold? Each is computed anew; the seven figures are drawn anew."
+        page = _page(record, name, said, answer, [("numbers and claims", len(rows))], again)
+        return Page(page.kind, "The paper's numbers beside ours", page.figures, page.sections)
     return _page(record, name, f"A run of kind “{record.kind}”; its figures are below.", Html(), [], again)
 
 
@@ -55,16 +65,16 @@ def _of_motion(motion: dict[str, Any], record: Any, name: str, again: Section) -
         ("never move", ", ".join(motion["idle_legs"]) or "none: all nine legs move"),
         ("tracked back from the leg lengths", _tracked(motion)),
     ]
-    legs = [
-        (leg, *(f"{found[key]:.6g}" for key in ("shortest", "longest", "speed", "acceleration")))
-        for leg, found in motion["legs"].items()
-    ]
-    head = ("leg", *(with_unit(key, unit) for key in ("shortest", "longest")), "speed", "acceleration")
-    limits = table("Limits along the path", ("limit", "", "allowed", "worst", "margin", "at t"), _limits(motion), (1,))
+    units = {"shortest": unit, "longest": unit, "speed": per(unit, "s"), "acceleration": per(unit, "s²")}
+    legs = [(leg, *(f"{found[key]:.6g}" for key in units)) for leg, found in motion["legs"].items()]
+    head = ("leg", *(with_unit(*column) for column in units.items()))
+    limits = table(
+        "Limits along the path", ("limit", "", "allowed", "worst", "margin", "at t"), _limits(motion, unit), (1,)
+    )
     answer = joined(beside(facts(rows), table("Legs", head, legs)), limits if motion.get("limits") else Html())
     said = (
         f"What do the nine legs do along {motion['poses']} poses from t = {motion['begin']:g} to {motion['end']:g}, "
-        f"and which limits break? O is {motion['internal_point']}."
+        f"and which limits break? O is {where_o(motion['internal_point'])}."
     )
     top: list[tuple[str, object]] = [("limits broken", broken), ("worst condition number", f"{kappa['worst']:.4f}")]
     page = _page(record, name, said, answer, top, again)
@@ -76,13 +86,10 @@ def _tracked(motion: dict[str, Any]) -> str:
     return f"{until}, largest difference {motion['tracking_error']:.1e}"
 
 
-def _limits(motion: dict[str, Any]) -> Iterator[tuple[str, ...]]:
+def _limits(motion: dict[str, Any], unit: str) -> Iterator[tuple[str, ...]]:
     for row in motion.get("limits", ()):
-        angle = "limit_deg" in row
-        ends = (row["limit_deg"], row["value_deg"]) if angle else (row["limit"], row["value"])
-        shown = (f"{end:.4g}" + "°" * angle for end in ends)
-        name = f"{row['name']} {row['part']}".strip().replace("_", " ")
-        yield (name, row["side"], *shown, f"{100.0 * row['margin']:.1f} %", f"{row['at']:.6g}")
+        name, *cells = row_words(row, unit)
+        yield name.replace("_", " "), *cells
 
 
 def _ends(index: str, found: dict[str, Any]) -> tuple[str, ...]:

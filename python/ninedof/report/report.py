@@ -9,16 +9,19 @@ from typing import Any
 
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
+from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin
 from ninedof.report.figures import stems
+from ninedof.report.front_page import of_front
 from ninedof.report.markup import Section, joined
-from ninedof.report.other_pages import of_comparison, of_front, of_workspace
+from ninedof.report.other_pages import of_comparison, of_workspace
 from ninedof.report.page import page
 from ninedof.report.pages import Page, of_result
-from ninedof.report.recorded import of_recorded
+from ninedof.report.recorded import PAPER, of_recorded
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import Record, load_record
+from ninedof.runs.machine_file import certificate_file, load_certificate
 from ninedof.runs.objects import load, split
 from ninedof.support.arguments import shown
 from ninedof.support.files import write_whole
@@ -77,21 +80,31 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     folder = place if place.is_dir() else place.parent
     record = load_record(place)
     name = folder.resolve().name + (f"#{point}" if point else "")
-    found, whole = load(run), load(place) if point else None
+    found = None if record.kind == PAPER and not point else load(run)
+    whole = load(place) if point else None
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    return _written(_page_of(found, record, name, point, whole), record, file, None if point else folder, name)
+    certificate = load_certificate(run) if certificate_file(run).is_file() else None
+    made = _page_of(found, record, name, point, whole, certificate)
+    return _written(made, record, file, None if point else folder, name)
 
 
-def _page_of(found: Any, record: Record, name: str, point: str = "", whole: Any = None) -> Page:
+def _page_of(
+    found: Any,
+    record: Record,
+    name: str,
+    point: str = "",
+    whole: Any = None,
+    certificate: MachineCertificate | None = None,
+) -> Page:
     """Return the page of what a record holds, or of one point of the whole."""
     if isinstance(found, Front):
-        return of_front(found, record, name)
+        return of_front(found, record)
     if isinstance(found, WorkspaceMap):
         return of_workspace(found, record, name)
     if not isinstance(found, Result):
         return of_recorded(record, name)
     again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
-    made = of_result(found, record, name, again)
+    made = of_result(found, record, f"RUN#{point}" if point else "RUN", again, certificate)
     if record.kind != "comparison" or point:
         return made
     sections = [
@@ -114,10 +127,10 @@ def _written(made: Page, record: Record, file: Path, folder: Path | None, name: 
 
 
 def _drawn(scene: Any, folder: Path) -> Path:
-    """Draw the first machine at its first pose; return the folder of the figure."""
+    """Draw the machine shown first, at its first pose; return the folder of the figure."""
     from ninedof import plot
 
-    one = scene["machines"][0]
+    one = scene["machines"][scene["start"]]
     pose = one["poses"][0]
     g = Geometry(*(one[body][k : k + 3] for body in ("base", "platform") for k in (0, 3)))
     c = Configuration(pose["p"], pose["q"], pose["s"])

@@ -7,7 +7,7 @@
   const canvas = box.querySelector("canvas"), context = canvas.getContext("2d");
   const [machines, poses] = [...box.querySelectorAll("select")];
   const shown = { labels: true, region: true, body: true };
-  let machine = data.machines[0], pose = machine.poses[0], waiting = false;
+  let machine = data.machines[data.start], pose = machine.poses[0], waiting = false;
   box.hidden = false;
 
   const camera = new Camera(...extent());
@@ -16,7 +16,7 @@
 
   function extent() {
     const points = data.machines.flatMap((m) => [...m.base, ...m.poses.flatMap((p) => placed(m, p).platform)]);
-    points.push(...(data.body ? data.body.vertices : []));
+    points.push(...data.machines.flatMap((m) => (m.body ? m.body.vertices : [])));
     const low = [0, 1, 2].map((k) => Math.min(...points.map((p) => p[k])));
     const high = [0, 1, 2].map((k) => Math.max(...points.map((p) => p[k])));
     const centre = between(low, high, 0.5), away = (p) => Math.hypot(p[0] - centre[0], p[1] - centre[1]);
@@ -68,6 +68,8 @@
     });
     document.getElementById("lengths").replaceChildren(...rows);
     document.getElementById("kappa").textContent = `condition number ${pose.kappa}`;
+    box.querySelector("[data-show=region]").parentElement.hidden = !machine.region.length;
+    box.querySelector("[data-show=body]").parentElement.hidden = !machine.body;
     document.getElementById("which").textContent = `${machine.name}, ${pose.name}`;
     redraw();
   }
@@ -89,12 +91,11 @@
     button.addEventListener("click", () => (zoom(camera, Number(button.dataset.zoom)), redraw()));
   }
   for (const input of box.querySelectorAll("[data-show]")) {
-    const there = { region: data.region.length > 0, body: Boolean(data.body) }[input.dataset.show] ?? true;
-    input.parentElement.hidden = !there;
     input.addEventListener("change", () => ((shown[input.dataset.show] = input.checked), redraw()));
   }
   document.getElementById("grid").textContent = `Leg lengths${data.unit && ` in ${data.unit}`}. Squares on the floor: ${Number(data.floor.step.toPrecision(3))} ${data.unit}`;
   options(machines, data.machines);
+  machines.value = data.start;
   options(poses, machine.poses);
   listen(canvas, camera, redraw);
   new ResizeObserver(redraw).observe(canvas);

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.region import Region
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -16,13 +15,21 @@ from ninedof.sheet.sheet import Sheet
 from ninedof.support.arrays import Floats
 
 DIGITS = 6  # significant, of coordinates in the page
-ROUND = 48  # parts of a circle
 
 
 def machine(
-    name: str, g: Geometry, c: Configuration, length: float, poses: Sequence[tuple[str, int]] = (("neutral pose", 0),)
+    name: str,
+    g: Geometry,
+    c: Configuration,
+    length: float,
+    poses: Sequence[tuple[str, int]] = (("neutral pose", 0),),
+    lines: Sequence[Floats] = (),
+    body: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """Return a machine with its named poses, indices into a stack; a single configuration is a stack of one."""
+    """Return a machine with its named poses, indices into a stack; a single configuration is a stack of one.
+
+    With lines of a region and the body of a workspace, where there are some.
+    """
     from ninedof.plot.plates import outlines
 
     stack = c if c.shape else Configuration(c.position[None], c.rotation[None], c.internal_point[None])
@@ -49,6 +56,8 @@ def machine(
             }
             for words, k in poses
         ],
+        "region": [numbers(line) for line in lines],
+        "body": body,
     }
 
 
@@ -68,41 +77,9 @@ def worst_poses(found: Sheet) -> list[tuple[str, int]]:
     return [(", ".join(neutral), 0), *((", ".join(words), k) for k, words in said.items())]
 
 
-def region_lines(region: Region, home: Configuration) -> list[Any]:
-    """Return the outline of the positions of a region as lines of points in base axes."""
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
-    lines: list[Floats] = []
-    turn = np.linspace(0.0, 2.0 * np.pi, ROUND + 1)
-    ring = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)
-    if region.path is not None:
-        lines = [np.array(region.path)]
-    elif region.ball is not None:
-        lines = [region.ball * ring[:, order] for order in ([0, 1, 2], [0, 2, 1], [2, 0, 1])]
-    elif region.cylinder is not None:
-        radius, half = region.cylinder
-        lines = [radius * ring + [0.0, 0.0, z] for z in (-half, half)]
-        lines += [np.array([[*(radius * p[:2]), -half], [*(radius * p[:2]), half]]) for p in ring[:-1:12]]
-    elif region.box is not None:
-        lines = box_lines(-np.array(region.box), np.array(region.box))
-    return [numbers(home.position + unit * line) for line in lines]
-
-
-def box_lines(low: Floats, high: Floats) -> list[Floats]:
-    """Return the twelve edges of a box: four lines around it and four up."""
-    corners = [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
-    around = [*corners, corners[0]]
-    lines = [np.array([[x, y, z] for x, y in around]) for z in (low[2], high[2])]
-    return lines + [np.array([[x, y, low[2]], [x, y, high[2]]]) for x, y in corners]
-
-
-def scene(
-    machines: Iterable[Mapping[str, Any]],
-    unit: str = "",
-    lines: Sequence[Any] = (),
-    body: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:
-    """Return what the view shows."""
-    return {"unit": unit, "machines": list(machines), "region": list(lines), "body": body}
+def scene(machines: Iterable[Mapping[str, Any]], unit: str = "", start: int = 0) -> dict[str, Any]:
+    """Return what the view shows; `start` is the machine it begins with."""
+    return {"unit": unit, "machines": list(machines), "start": start}
 
 
 def numbers(points: Floats) -> Any:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from ninedof.report.markup import Html, beside, joined, paragraphs, table
 from ninedof.report.numbers import degrees, short
-from ninedof.sheet.limit_rows import LimitRow
+from ninedof.sheet.limit_rows import limit_amount, margin_words
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Sheet
 from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
@@ -98,20 +97,9 @@ def _limits(found: Sheet) -> Html:
     where = "at its poses" if found.region is None else "over its region"
     rows = []
     for row in found.limits:
-        allowed, here = (_in_unit(row, value, found.unit) for value in (row.limit, row.value))
-        rows.append((row.name.replace("_", " "), row.side, allowed, here, margin_of(row)))
+        allowed, here = (limit_amount(row, value, short, found.unit) for value in (row.limit, row.value))
+        rows.append((row.name.replace("_", " "), row.side, allowed, here, margin_words(row.margin, row.unit)))
     return table(f"Limits of the study, {where}", ("limit", "", "allowed", "here", "margin"), rows, (1,))
-
-
-def margin_of(row: LimitRow) -> str:
-    """Return a margin as the sheet shows it: per cent of the limit."""
-    return f"{row.margin:.4f}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
-
-
-def _in_unit(row: LimitRow, value: float, unit: str) -> str:
-    if row.unit == "angle":
-        return f"{math.degrees(value):.2f}°"
-    return amount(short(value), unit if row.unit == "length" else "")
 
 
 def _joints(found: Sheet) -> Html:

@@ -24,7 +24,21 @@ from ninedof.support.units import unit_argument, unit_entry
 
 @short_repr
 class Design(NamedTuple):
-    """A geometry, a configuration and the characteristic length to judge them by: what a design file holds."""
+    """A geometry, a configuration and the characteristic length to judge them by: what a design file holds.
+
+    Functions of a geometry and a configuration take 1 for the length unless it is given: pass that of the design.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> g = nd.Geometry.hexagonal(a1=0.0, a2=871.9, b1=435.9, b2=0.0)
+    >>> design = nd.Design(g, nd.Configuration.neutral(597.4, 366.5), 150.0, "mm")
+    >>> round(design.condition_number, 3)
+    3.907
+    >>> print(round(nd.condition_number(design.geometry, design.configuration, design.characteristic_length), 3))
+    3.907
+
+    """
 
     geometry: Geometry
     configuration: Configuration
@@ -33,6 +47,11 @@ class Design(NamedTuple):
     """A number, or a kind of `ninedof.characteristic_length`."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+
+    @property
+    def condition_number(self) -> float:
+        """At the neutral configuration, with the characteristic length of the design; infinite where singular."""
+        return float(condition_number(*self[:3]))
 
 
 HEXAGON = ("a1", "a2", "b1", "b2")

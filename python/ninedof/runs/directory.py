@@ -10,6 +10,7 @@ from datetime import datetime
 from pathlib import Path
 
 from ninedof.chunks.store import MANIFEST
+from ninedof.support.files import why_not_writable
 
 RUNS = Path("runs")
 
@@ -20,9 +21,11 @@ def new_directory(out: Path | None) -> Path:
     An existing folder must be empty: a run never overwrites another.
     """
     if out is not None:
-        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+        if _taken(out):
             raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
         _create(out, exist_ok=True)
+        if reason := why_not_writable(out / "record.json"):
+            raise ValueError(f"out: got {out}, which cannot be written to ({reason}), expected a writeable place")
         return out
     stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
     for attempt in itertools.count():
@@ -57,6 +60,13 @@ def _remove(directory: Path, keep: bool) -> None:
         if directory.parent == RUNS:
             with suppress(OSError):  # other runs are there
                 RUNS.rmdir()
+
+
+def _taken(path: Path) -> bool:
+    try:
+        return path.exists() and (not path.is_dir() or any(path.iterdir()))
+    except OSError as error:
+        raise ValueError(f"out: got {path}, which cannot be read ({error.strerror}), expected a new folder") from None
 
 
 def _create(path: Path, exist_ok: bool) -> bool:

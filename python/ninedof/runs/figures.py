@@ -10,6 +10,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.pose import Pose
+from ninedof.design.region_outline import region_lines
 from ninedof.optimize.optimize import trace
 from ninedof.optimize.result import Result
 from ninedof.paper import published
@@ -17,7 +18,6 @@ from ninedof.paper.comparison import Comparison
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.units import amount
-from ninedof.workspace.region_share import region_lines
 
 if TYPE_CHECKING:
     from ninedof.plot import DesignCurves
@@ -76,8 +76,10 @@ def _figures(
     if result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
         conditions = plot.PoseConditions("optimum", result.best.conditions)
-        names = () if region is not None else _pose_names(result, len(result.best.conditions))
-        files += plot.save(plot.poses([conditions], names), directory, "poses")
+        names = _pose_names(result, len(result.best.conditions))
+        of_unit = f", in {unit}" if unit and any(p.unit != "zp" for p in result.solved.objective.poses) else ""
+        words = f"Poses, numbered as in the sheet: shifts from the neutral pose{of_unit}, and the rotation vector"
+        files += plot.save(plot.poses([conditions], names, note=words), directory, "poses")
     if not convergence:
         return files
     say("tracing the starts for the convergence, minimax and plain")
@@ -94,11 +96,12 @@ def _heights(c: Configuration, unit: str) -> str:
 
 
 def _pose_names(result: Result, count: int) -> list[str]:
-    """Return names of the poses of a study by their shifts from the neutral pose; none if they are not its list."""
-    poses = result.study.objective.poses
-    if len(poses) not in (count, count - 1):
-        return []
-    return ["neutral"] * (count - len(poses)) + [_pose_name(pose) for pose in poses]
+    """Return names of the poses at which a study was solved by their shifts from the neutral pose.
+
+    Their numbers, from 1, are those of the sheet, whose pose 0 is the neutral one.
+    """
+    poses = result.solved.objective.poses
+    return [_pose_name(pose) for pose in poses] if len(poses) == count else []
 
 
 def _pose_name(pose: Pose) -> str:

@@ -1,7 +1,8 @@
 """Run folders of all kinds, written and read. Each has a `record.json` of one form.
 
-The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created` and `files`:
-the names of the arrays and figures beside it. It is written whole or not at all, before the figures are drawn.
+The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created`, `command` if
+one made it, and `files`: the names of the arrays and figures beside it. It is written whole or not at all, before the
+figures are drawn.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Result, result_from
 from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
+from ninedof.proof.optimum import FILE as CERTIFICATE
 from ninedof.runs.describe import describe_comparison, describe_front, front_from
+from ninedof.support.command import command_line
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.versions import versions
@@ -37,8 +40,8 @@ class Record:
     """A run: what was asked, with which versions, what came out."""
 
     kind: str
-    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep", "atlas" or
-    "motion"."""
+    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep", "atlas",
+    "motion" or "paper"."""
     asked: Study | Mapping[str, Any]
     """The study, or the question as plain values."""
     results: Mapping[str, Any]
@@ -47,6 +50,8 @@ class Record:
     created: str = field(default_factory=lambda: datetime.now(UTC).isoformat(timespec="seconds"))
     files: tuple[str, ...] = ()
     """Arrays and figures beside the record."""
+    command: str = field(default_factory=command_line)
+    """The command line that made the run; "" without one, and in records of earlier releases."""
 
     @property
     def study(self) -> Study:
@@ -89,6 +94,14 @@ def write_run(
     if isinstance(run, WorkspaceMap | SweepResult):
         run.save(folder / ARRAYS[record.kind])
         record = replace(record, files=(ARRAYS[record.kind],))
+    result = run.result if isinstance(run, Comparison) else run
+    if isinstance(result, Result) and result.proof is not None and result.proof.certificate:
+        record = replace(record, files=(result.proof.save(folder / CERTIFICATE).name,))
+    return write_drawn(record, folder, draw)
+
+
+def write_drawn(record: Record, folder: Path, draw: Callable[[Path], Sequence[Path]] | None) -> Path:
+    """Write a record, then draw, then write it with the names of the figures; return its path."""
     path = write_record(record, folder)
     if draw is not None:
         write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
@@ -150,6 +163,7 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
         "results": record.results,
         "versions": record.versions,
         "created": record.created,
+        **({"command": record.command} if record.command else {}),
         "files": record.files,
     }
     return write_whole(Path(directory) / FILE, (encode(data) + "\n").encode())
@@ -181,7 +195,8 @@ def load_record(path: str | os.PathLike[str]) -> Record:
         elif data["format"] == STUDIES_1:
             data["kind"] = _kind(data["results"])
         asked = Study.from_dict(data["study"]) if "study" in data else data["question"]
-        return Record(data["kind"], asked, data["results"], data["versions"], data["created"], tuple(data["files"]))
+        files, command = tuple(data["files"]), str(data.get("command", ""))
+        return Record(data["kind"], asked, data["results"], data["versions"], data["created"], files, command)
     except (KeyError, TypeError) as error:
         raise ValueError(f"{file}: got a record without {error}, expected a whole one") from None
     except ValueError as error:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from ninedof.motion import Followed
 from ninedof.motion.followed import LEGS
-from ninedof.runs.folder import Record, write_record
+from ninedof.runs.folder import Record, write_drawn
 from ninedof.sheet.path_limits import PathLimits
 from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
@@ -50,21 +49,23 @@ def write_motion(
 
     """
     folder = Path(directory)
-    write_whole(folder / LEGS_FILE, _csv(*_legs(found)))
+    write_whole(folder / LEGS_FILE, legs_csv(found))
     write_whole(folder / POSES_FILE, _csv(*_poses(found, {} if limits is None else limits.margins)))
     found.save(folder / ARRAYS_FILE)
     files = (LEGS_FILE, POSES_FILE, ARRAYS_FILE)
     record = Record("motion", asked or {}, {"motion": plain(found, limits)}, files=files)
-    path = write_record(record, folder)
-    if draw is not None:
-        write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
-    return path
+    return write_drawn(record, folder, draw)
 
 
 def load_motion(path: str | os.PathLike[str]) -> Followed:
     """Read a motion from its run folder or the record there."""
     place = Path(path)
     return Followed.load((place if place.is_dir() else place.parent) / ARRAYS_FILE)
+
+
+def legs_csv(found: Followed) -> bytes:
+    """Return legs.csv: time, lengths, rates and accelerations of the legs, and forces if there is a load."""
+    return _csv(*_legs(found))
 
 
 def plain(found: Followed, limits: PathLimits | None) -> dict[str, Any]:

@@ -17,6 +17,15 @@ from ninedof.sweep import sweep_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+FIGURES = {
+    "figure_1": "Fig. 1, the architecture",
+    "figure_2": "Fig. 2, the first prototype",
+    "figure_3": "Fig. 3, the second prototype",
+    "figure_4": "Fig. 4, the ellipsoids",
+    "figure_5": "Fig. 5, the plates",
+    "figure_6": "Fig. 6, condition number against displacement",
+    "figure_7": "Fig. 7, condition number against the ratio of sides",
+}
 APART = {
     "a1": 1.5,
     "a2": 4.5,
@@ -33,19 +42,17 @@ def paper_figures(directory: Path, say: Callable[[str], object]) -> list[Path]:
     unit = "l_c"
     g, home = published.published_geometry(), Configuration.neutral(published.ZP, published.published_zs()[2])
     apart = Geometry.hexagonal(**APART)
-    draw: dict[str, Callable[[], Figure]] = {
-        "1, the architecture": lambda: plot.figure_1(g, home.moved(np.array(AWAY)), unit),
-        "2, the first prototype": lambda: plot.figure_2(g, home, unit),
-        "3, the second prototype": lambda: plot.figure_3(apart, home, unit),
-        "4, the ellipsoids": lambda: plot.figure_4(
-            velocity_ellipsoid(g, home), velocity_ellipsoid(g, home, "rotation")
-        ),
-        "5, the plates": lambda: plot.figure_5(apart, unit),
-        "6, condition number against displacement": lambda: plot.figure_6(sweep_figure("6")),
-        "7, condition number against the ratio of sides": lambda: plot.figure_7(sweep_figure("7")),
-    }
+    draw: tuple[Callable[[], Figure], ...] = (
+        lambda: plot.figure_1(g, home.moved(np.array(AWAY)), unit),
+        lambda: plot.figure_2(g, home, unit),
+        lambda: plot.figure_3(apart, home, unit),
+        lambda: plot.figure_4(velocity_ellipsoid(g, home), velocity_ellipsoid(g, home, "rotation")),
+        lambda: plot.figure_5(apart, unit),
+        lambda: plot.figure_6(sweep_figure("6")),
+        lambda: plot.figure_7(sweep_figure("7")),
+    )
     files: list[Path] = []
-    for name, make in draw.items():
-        say(f"drawing Fig. {name}")
-        files += plot.save(make(), directory, f"figure_{name[0]}")
+    for (stem, name), make in zip(FIGURES.items(), draw, strict=True):
+        say(f"drawing {name}")
+        files += plot.save(make(), directory, stem)
     return files

@@ -16,7 +16,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats
 
-INTERNAL = ("least", "rest", "shifted", "carried")
+INTERNAL = ("least", "held", "shifted", "carried")
 
 
 class Motion(NamedTuple):
@@ -27,8 +27,8 @@ class Motion(NamedTuple):
     angular_speed: float
     """rad/time."""
     internal: str
-    """How O moves: "least" squares of the leg rates and of the leg accelerations, "rest", "shifted" with the platform's
-    origin, or "carried" with the platform."""
+    """How O moves: "least" squares of the leg rates and of the leg accelerations, "held", "shifted" or "carried" as in
+    `ninedof.redundancy.rules`."""
     twist: tuple[float, ...] | None = None
     """Angular velocity (rad/time) and velocity of the platform's origin, base frame; None without one."""
     twist_rate: tuple[float, ...] = (0.0,) * 6
@@ -55,13 +55,13 @@ class Motion(NamedTuple):
 
 
 def shown_internal(c: Configuration) -> str:
-    """Return the rule that O follows over a stack of poses: "rest", "carried", "shifted", or "least" where none."""
+    """Return the rule that O follows over a stack of poses: "held", "carried", "shifted", or "least" where none."""
     if len(c) < 2:
         return "least"
     size = IDLE * np.abs(np.concatenate([c.position, c.internal_point])).max()
     arm = c.internal_point - c.position
     own = (arm[:, None] @ c.rotation)[:, 0]  # rows: Q^T (s - p)
-    for rule, places in (("rest", c.internal_point), ("carried", own), ("shifted", arm)):
+    for rule, places in (("held", c.internal_point), ("carried", own), ("shifted", arm)):
         if np.abs(places - places[0]).max() <= size:
             return rule
     return "least"
@@ -148,7 +148,7 @@ def _accelerations(g: Geometry, c: Configuration, internal: str, twist: Floats, 
 def _velocity_of_o(g: Geometry, c: Configuration, internal: str, omega: Floats, pdot: Floats) -> Floats:
     if internal == "least":
         return internal_velocity(g, c, omega, pdot)
-    if internal == "rest":
+    if internal == "held":
         return np.zeros(3)
     return pdot if internal == "shifted" else pdot + np.cross(omega, c.internal_point - c.position)
 

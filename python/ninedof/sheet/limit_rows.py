@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
+from ninedof.support.units import amount
 
 # Their margins are differences in parts of the limit; those of the others are logarithms of the ratio to the limit.
 LINEAR = ("stroke", "joint_height", "joint_spacing", "leg_clearance", "base_cone", "platform_cone")
@@ -31,6 +32,18 @@ class LimitRow:
     """Relative to the limit, negative if violated: `DesignPoint.margins`."""
     unit: str
     """"ratio", "length", "angle" or "sign" as in the table of constraints; "ratio" for a length over zp or a radius."""
+
+
+def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], unit: str, degree: str = "°") -> str:
+    """Return a value of a limit with its unit, as `number` writes it; an angle in degrees."""
+    if row.unit == "angle":
+        return f"{math.degrees(value):.2f}{degree}"
+    return amount(number(value), unit if row.unit == "length" else "")
+
+
+def margin_words(margin: float, kind: str) -> str:
+    """Return a margin in per cent of the limit; that of a "sign" as it is."""
+    return f"{margin:.4f}" if kind == "sign" else f"{round(100.0 * margin, 2) + 0.0:.2f} %"
 
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:

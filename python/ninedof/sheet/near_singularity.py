@@ -26,7 +26,7 @@ class NearSingularity(NamedTuple):
     """The nearest singularity for one way of moving."""
 
     motion: str
-    """"shift": of the platform, O with it, or at rest where O rests over the poses. "turn": of the platform about its
+    """"shift": of the platform, O with it, or held where O is held over the poses. "turn": of the platform about its
     origin, O at rest. "internal": O alone."""
     distance: float
     """Length, or radians for a turn; infinite where none was found within four times the longest leg or half a turn."""
@@ -97,7 +97,7 @@ def _tangents(motion: str, internal: str, ways: Floats) -> Floats:
         out[:, 6:] = ways
     else:
         out[:, 3:6] = ways
-        out[:, 6:] = 0.0 if internal == "rest" else ways
+        out[:, 6:] = 0.0 if internal == "held" else ways
     return out
 
 

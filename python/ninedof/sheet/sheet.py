@@ -245,11 +245,11 @@ def sheet(
         the leg is a.pdot + b.omega. From rest the same holds for accelerations. The acceleration of a leg is the
         largest over all directions while both velocities are constant; where neither speed is 0, a bound of it: the sum
         of the 2-norms of the blocks of a quadratic form.
-    internal : {"least", "rest", "shifted", "carried"}, optional
+    internal : {"least", "held", "shifted", "carried"}, optional
         How O moves in it: so that the squared leg rates are least (`internal_velocity`), and so are the squared leg
-        accelerations; not at all; with the platform's origin, s - p constant in base axes; or fixed to the platform. By
-        default as the poses show: "rest" where O has one place in all of several poses, "carried" where it has one
-        place in the platform, "shifted" where s - p is constant, "least" otherwise.
+        accelerations; not at all; with the platform's origin, s - p constant in base axes; or as a point of the
+        platform. By default as the poses show: "held" where O has one place in all of several poses, "carried" where it
+        has one place in the platform, "shifted" where s - p is constant, "least" otherwise.
     loads : array_like, shape (6,) or (k, 6), optional
         (moment about p, force) on the platform, base axes; the forces of the legs are those of `leg_forces`.
     leg_errors, joint_errors : float or array_like, optional

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from ninedof.sheet.limit_rows import LimitRow
+from ninedof.redundancy.rules import WORDS
+from ninedof.sheet.limit_rows import limit_amount, margin_words
 from ninedof.support.units import amount, per, times
 
 HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "accel.", "base cone", "platf. cone")
@@ -17,12 +18,6 @@ MECHANISMS = {
     "det_b": "O in the plane of the lower internal joints",
     "det_c": "O in the plane of the upper internal joints",
     "det_n": "the platform turns about a line through O",
-}
-INTERNAL = {
-    "least": "O moves for the least leg rates",
-    "rest": "O at rest",
-    "shifted": "O shifted with the platform's origin",
-    "carried": "O carried with the platform",
 }
 
 
@@ -70,8 +65,8 @@ def sheet_words(found: Any) -> list[str]:
         turning = amount(f"{s.rotation.value:.4g}", times("force", unit))
         lines.append(f"least stiffness: {shifting}, turning {turning} per rad")
     return lines + [
-        f"{row.name} {row.side} {_in_unit(row, row.limit, unit)}: {_in_unit(row, row.value, unit)}, "
-        f"margin {_margin(row)}"
+        f"{row.name} {row.side} {limit_amount(row, row.limit, '{:.6g}'.format, unit, ' deg')}: "
+        f"{limit_amount(row, row.value, '{:.6g}'.format, unit, ' deg')}, margin {margin_words(row.margin, row.unit)}"
         for row in found.limits
     ]
 
@@ -103,7 +98,7 @@ def motion_words(found: Any) -> Iterator[str]:
     yield (
         f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
         f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, "
-        f"{INTERNAL[found.motion.internal]}. Acceleration: {most} while both are constant. Cones: from the direction "
+        f"{_where_o(found.motion.internal)}. Acceleration: {most} while both are constant. Cones: from the direction "
         "at the neutral pose."
     )
     if found.idle:
@@ -118,11 +113,5 @@ def _pose(k: int) -> str:
     return f"pose {k}" if k else "neutral pose"
 
 
-def _in_unit(row: LimitRow, value: float, unit: str) -> str:
-    if row.unit == "angle":
-        return f"{math.degrees(value):.2f} deg"
-    return amount(f"{value:.6g}", unit if row.unit == "length" else "")
-
-
-def _margin(row: LimitRow) -> str:
-    return f"{row.margin:.4g}" if row.unit == "sign" else f"{round(100.0 * row.margin, 2) + 0.0:.2f} %"
+def _where_o(internal: str) -> str:
+    return "O moves for the least leg rates" if internal == "least" else f"O {WORDS[internal]}"

@@ -41,6 +41,27 @@ def write_whole(path: Path, data: bytes) -> Path:
     return path
 
 
+def why_not_writable(path: Path) -> str:
+    """Return why a file cannot be written there, "" where it can: to be known before the work, not after it."""
+    part = path.with_name(f"{PART}{path.name}-{secrets.token_hex(4)}")
+    try:
+        if path.is_dir():
+            return "it is a folder"
+        part.touch()
+        part.unlink()
+    except OSError as error:
+        return error.strerror or str(error)
+    return ""
+
+
+def own_or_new(name: str, path: Path, mark: str) -> None:
+    """Raise ValueError, naming the argument, for a file that exists without the mark of those that ninedof writes."""
+    if reason := why_not_writable(path):
+        raise ValueError(f"{name}: got {path}, which cannot be written ({reason}), expected a writeable place")
+    if path.exists() and mark.encode() not in path.read_bytes():
+        raise ValueError(f"{name}: got {path}, which exists and was not written by ninedof, expected another name")
+
+
 def npz_bytes(arrays: Mapping[str, Any], *, compressed: bool = False) -> bytes:
     """Return the bytes of a .npz file."""
     buffer = io.BytesIO()

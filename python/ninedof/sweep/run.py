@@ -67,11 +67,12 @@ def sweep(
         Whether the values are displacements from `home`. If not they are the coordinates themselves, and a swept theta
         takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
     internal_point : {"held", "carried", "best"}
-        Position of O while the platform moves: at rest, as in the paper's Fig. 6; fixed to the platform ("carried"),
-        from where swept x_s, y_s, z_s displace it; or the point of least condition number (`best_internal_map`, over
-        blocks of some 2000 points; NaN where no position is admissible).
+        Position of O while the platform moves: at home, as in the paper's Fig. 6; as a point of the platform
+        ("carried"), from where swept x_s, y_s, z_s displace it; or the point of least condition number
+        (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible).
     characteristic_length : float or str
-        A number, or a kind of `ninedof.characteristic_length`, taken at each configuration.
+        A number, or a kind of `ninedof.characteristic_length`, taken at each configuration; 1 by
+        default; a Result and a Design have their own, `found.characteristic_length`.
     executor : concurrent.futures.Executor, optional
         Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
         process by default. The values are the same, bit for bit. The executor handles lost workers: Dask repeats their

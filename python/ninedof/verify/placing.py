@@ -86,14 +86,14 @@ class Placing:
         return np.asarray(np.concatenate(self.rows(s, some), axis=1).max(axis=1))
 
     def starts(self) -> list[Floats]:
-        """Return O of the poses that ruled, the nearest first, moved as the platform, and O carried and held."""
+        """Return O of the poses that ruled, the nearest first, moved as the platform, and O shifted and held."""
         c, r = self.held, self.ruling
         away = np.linalg.norm(c.position[:, None] - r.position[None], axis=-1) / self.height
         away = away + np.linalg.norm(c.rotation[:, None] - r.rotation[None], axis=(-2, -1))
         near = np.argsort(away, axis=1)
-        carried = c.internal_point + c.position - self.robot.neutral.position
+        shifted = c.internal_point + c.position - self.robot.neutral.position
         moved = [r.internal_point[k] + c.position - r.position[k] for k in near.T]
-        return [*moved, carried, c.internal_point]
+        return [*moved, shifted, c.internal_point]
 
     def placed(self, enough: float) -> Floats:
         """Return O at every pose where the largest row is least, or just `enough`."""

@@ -52,7 +52,7 @@ def random_poses(
     out = []
     for p, (a, b), turn in zip(shifts, tilt, yaw, strict=True):
         shift = (float(p[0]), float(p[1]), float(p[2]))
-        internal = shift if region.internal_point == "carried" else (0.0, 0.0, 0.0)
+        internal = shift if region.internal_point == "shifted" else (0.0, 0.0, 0.0)
         out.append(Pose(shift, _turned(np.array([a, b, 0.0]), turn), internal, region.unit))
     return tuple(out)
 

@@ -19,7 +19,7 @@ from ninedof.sheet.pose_limits import SPREADS, PoseLimit
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.viewer.numbers import Yardstick, margins_at
-from ninedof.viewer.surface import Faces, smoothed, surface, volume
+from ninedof.viewer.surface import Faces, smoothed, surface, triangles
 from ninedof.workspace.study_criteria import EASE
 
 COARSE, FINE = 17, 33  # points along each side: to find the body, and to draw it
@@ -154,8 +154,9 @@ def body(question: BodyQuestion, stopped: Callable[[], bool] = lambda: False) ->
         if found is None:
             return None
         field, drawn = found, tight
-    vertices, faces = surface(field, drawn[0], drawn[1])
-    return Body(smoothed(vertices, faces), faces, volume(vertices, faces), is_open)
+    found_surface = surface(field, drawn[0], drawn[1])
+    faces = triangles(found_surface.faces)
+    return Body(smoothed(found_surface.points, faces), faces, found_surface.volume, is_open)
 
 
 def _about(inside: NDArray[np.bool_], whole: Floats) -> Floats | None:

@@ -55,4 +55,7 @@ class Slider:
 
     def _within(self, value: float) -> float:
         """Return a value as the slider can show it: within its ends, on a step."""
-        return round(min(max(value, self._low), self._high) / self._step) * self._step
+        on_step = round(min(max(value, self._low), self._high) / self._step) * self._step
+        return round(
+            on_step, max(0, -math.floor(math.log10(self._step) + 0.5))
+        )  # a power of ten: -43.4, not -43.400...01

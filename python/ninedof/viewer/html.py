@@ -101,15 +101,21 @@ def _legs(found: Numbers, unit: str) -> str:
         for k in (i, i + 3, i + 6):
             name = LEGS[k]
             red = f"color:{RED};font-weight:650;" if found.legs_out[k] else ""
-            margin = found.leg_margins[k]
-            beside = f' <span style="{_FAINT};font-size:0.85em">{percent(margin)}</span>' if margin < math.inf else ""
-            cells.append(
-                f'<td style="{red}white-space:nowrap"><span style="color:{LEG_COLOURS[name[0]]};font-weight:700">{name}'
-                f'</span> <span id="ninedof-leg-{name}">{number(float(found.leg_lengths[k]), 5)}</span>{beside}</td>'
-            )
+            head = f'<span style="color:{LEG_COLOURS[name[0]]};font-weight:700">{name}</span>'
+            length = f'<span id="ninedof-leg-{name}">{number(float(found.leg_lengths[k]), 5)}</span>'
+            beside = _beside(float(found.leg_margins[k]))
+            text = f'<span style="white-space:nowrap">{head} {length}</span>{beside}'
+            cells.append(f'<td style="{red}vertical-align:top">{text}</td>')
         rows.append(f"<tr>{''.join(cells)}</tr>")
     title = amount("leg lengths", f"({unit})" if unit else "")
     return f'<div style="{_FAINT}">{title}</div>{_TABLE}{"".join(rows)}</table>'
+
+
+def _beside(margin: float) -> str:
+    """Return the margin of a leg, which goes below its length in a narrow window."""
+    if margin == math.inf:
+        return ""
+    return f' <span style="{_FAINT};white-space:nowrap;font-size:0.85em">{percent(margin)}</span>'
 
 
 def _limit(one: Limit, unit: str) -> str:

@@ -5,22 +5,19 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ninedof.motion.internal_point import RULES
+from ninedof.redundancy.rules import RULES, WORDS
 from ninedof.statics.ellipsoid import force_ellipsoid, velocity_ellipsoid
-from ninedof.support.units import amount, with_unit
+from ninedof.support.units import with_unit
+from ninedof.viewer.body_folder import BodyFolder
 from ninedof.viewer.controls import Slider
-from ninedof.viewer.html import limits_html, numbers_html, words_html
+from ninedof.viewer.html import limits_html, numbers_html
+from ninedof.viewer.modes import Modes
 from ninedof.viewer.numbers import Numbers
+from ninedof.viewer.playback import Playback
+from ninedof.viewer.saving import Saving
 
 TURN = 60.0  # degrees: end of the sliders of the rotation
-NOT_SEARCHED = "not searched"
 REACH = 0.35  # of the size of the machine: end of the sliders of positions, from home
-RULE_WORDS = {
-    "carried": "carried with the platform",
-    "shifted": "shifted with the platform",
-    "held": "held in the base",
-    "best": "best for each pose",
-}
 ELLIPSOIDS = {
     "none": None,
     "velocity": (velocity_ellipsoid, "translation"),
@@ -45,19 +42,19 @@ class Panel:
         with gui.add_folder("Limits"):
             self._limits = gui.add_html("")
         self._variables: dict[str, Slider] = {}
-        if viewer.subject.sliders:
-            with gui.add_folder(f"Design: {viewer.subject.family.replace('_', ' ')}", expand_by_default=False):
-                self._design()
+        family = viewer.subject.family.replace("_", " ")
+        with gui.add_folder(f"Design: {family}" if family else "Design", expand_by_default=False):
+            self._design()
         with gui.add_folder("Assembly modes", expand_by_default=False):
-            self._modes()
+            self.modes = Modes(viewer, gui)
         with gui.add_folder("Workspace", expand_by_default=False):
-            self._workspace()
+            self.body = BodyFolder(viewer, gui)
         with gui.add_folder("Path", expand_by_default=False):
-            self._path()
+            self.playback = Playback(viewer, gui)
         with gui.add_folder("View", expand_by_default=False):
             self._view(dark)
         with gui.add_folder("Save", expand_by_default=False):
-            self._save()
+            self.saving = Saving(viewer, gui)
 
     # --- refreshed ------------------------------------------------------------------------------------------------
 
@@ -73,12 +70,10 @@ class Panel:
         for name, slider in self._variables.items():
             value = state.variables[name]
             slider.show(math.degrees(value) if name in self._angles else value, settled)
-        _write(self._rule, "value", RULE_WORDS[state.rule])
-        if state.listed is None and self._mode.options != (NOT_SEARCHED,):  # they were those of another design
-            self.list_modes([], NOT_SEARCHED, 0)
-        if (player := self._viewer.player) is not None:
-            self._time.show(player.time)
-            _write(self._play, "label", "Pause" if player.playing else "Play")
+        _write(self._rule, "value", WORDS[state.rule])
+        self._length.show(state.yardstick.length, settled)
+        self.modes.refresh()
+        self.playback.refresh()
 
     # --- folders --------------------------------------------------------------------------------------------------
 
@@ -89,7 +84,7 @@ class Panel:
         for k, axis in enumerate("xyz"):
 
             def moved(value: float, k: int = k) -> None:
-                viewer.submit(f"position {k}", lambda: viewer.move(k, value))
+                viewer.submit(f"position {k}", lambda: state.move(k, value))
 
             label = with_unit(axis, self._unit)
             hint = "Position of the platform's origin, base frame"
@@ -97,7 +92,7 @@ class Panel:
         for k, axis in enumerate("xyz"):
 
             def turned(value: float, k: int = k) -> None:
-                viewer.submit(f"turn {k}", lambda: viewer.turn(k, value))
+                viewer.submit(f"turn {k}", lambda: state.turn(k, value))
 
             hint = "Rotation vector from the neutral orientation, base axes"
             self._pose.append(Slider(gui, f"rotation {axis} (°)", -TURN, TURN, 0.0, turned, hint))
@@ -106,10 +101,10 @@ class Panel:
 
     def _internal_point(self) -> None:
         state, gui, viewer = self._state, self._gui, self._viewer
-        options = [RULE_WORDS[rule] for rule in RULES]
+        options = [WORDS[rule] for rule in RULES]
         hint = "Where O is when the platform moves"
-        self._rule = gui.add_dropdown("O is", options, initial_value=RULE_WORDS[state.rule], hint=hint)
-        words = {words: rule for rule, words in RULE_WORDS.items()}
+        self._rule = gui.add_dropdown("O is", options, initial_value=WORDS[state.rule], hint=hint)
+        words = {words: rule for rule, words in WORDS.items()}
 
         def chosen(event: Any) -> None:
             if event.client_id is not None:
@@ -121,7 +116,7 @@ class Panel:
         for k, axis in enumerate("xyz"):
 
             def moved(value: float, k: int = k) -> None:
-                viewer.submit(f"O {k}", lambda: viewer.move_internal_point(k, value))
+                viewer.submit(f"O {k}", lambda: state.move_internal_point(k, value))
 
             label = with_unit(f"O {axis}", self._unit)
             self._pose.append(Slider(gui, label, o[k] - reach, o[k] + reach, o[k], moved, "Place of O, base frame"))
@@ -138,78 +133,16 @@ class Panel:
             label = with_unit(name.replace("_", " "), "°" if variable.is_angle else self._unit)
             low, high, value = (scale * x for x in (variable.low, variable.high, variable.value))
             self._variables[name] = Slider(gui, label, low, high, value, moved, variable.name)
+        low, high = self._state.length_range
+
+        def stretched(value: float) -> None:
+            viewer.submit("length", lambda: self._state.set_length(value))
+
+        hint = "By which J' is made of one unit: condition number, best O and ellipsoids follow it"
+        length = self._state.yardstick.length
+        self._length = Slider(gui, with_unit("characteristic length", self._unit), low, high, length, stretched, hint)
         reset = gui.add_button("Reset design", icon="restore", hint="Back to the design of the file")
         reset.on_click(lambda _: viewer.submit("design", self._state.reset_design))
-
-    def _modes(self) -> None:
-        gui, viewer = self._gui, self._viewer
-        find = gui.add_button("Find all", icon="search", hint="Every configuration with the leg lengths shown")
-        find.on_click(lambda _: viewer.submit("modes", viewer.find_modes))
-        self._mode = gui.add_dropdown("Mode", [NOT_SEARCHED], disabled=True)
-
-        def chosen(event: Any) -> None:
-            if event.client_id is not None and self._mode.value in self._mode_names:
-                number = self._mode_names.index(self._mode.value)
-                viewer.submit("pose", lambda: viewer.show_mode(number))
-
-        self._mode.on_update(chosen)
-        self._mode_names: list[str] = []
-
-    def list_modes(self, names: list[str], nothing: str, shown: int) -> None:
-        """Offer the modes found."""
-        self._mode_names = names
-        self._mode.options = tuple(names or [nothing])
-        self._mode.disabled = not names
-        if names:
-            self._mode.value = names[shown]
-
-    def _workspace(self) -> None:
-        gui, viewer = self._gui, self._viewer
-        limited = viewer.subject.study is not None
-        hint = "Greatest condition number; 0 for none. The limits of the study hold besides"
-        self._most = gui.add_number("cond. no. ≤", 0.0 if limited else 6.0, min=0.0, step=0.5, hint=hint)
-        button = gui.add_button("Compute", icon="cube", hint="Positions in the orientation shown, a coarse picture")
-        button.on_click(lambda _: viewer.compute_body(float(self._most.value)))
-        clear = gui.add_button("Remove", icon="trash")
-        clear.on_click(lambda _: viewer.remove_body())
-        self._body = gui.add_html("")
-
-    def tell_body(self, text: str) -> None:
-        """Say how the workspace stands."""
-        _write(self._body, "content", words_html(text))
-
-    def body_words(self, size: float, is_open: bool) -> str:
-        """Return the sentence about a workspace that is drawn."""
-        if size <= 0.0:
-            return "No position keeps all limits here."
-        more = ", and more beyond what was looked at" if is_open else ""
-        cubed = f"{self._unit}³" if self._unit else ""
-        when = "with the orientation and the rule for O of the moment it was asked for"
-        return f"Volume about {amount(f'{size:.3g}', cubed)}{more}, {when}."
-
-    def _path(self) -> None:
-        gui, viewer = self._gui, self._viewer
-        upload = gui.add_upload_button("Open CSV", icon="upload", mime_type=".csv", hint="Columns t, x, y, z and turns")
-        upload.on_upload(lambda _: viewer.submit("path", lambda: viewer.read_path(upload.value)))
-        self._path_text = gui.add_html(words_html("No path is open."))
-        self._play = gui.add_button("Play", icon="player-play", disabled=True)
-        self._play.on_click(lambda _: viewer.submit("play", viewer.toggle_play))
-        self._speed = gui.add_slider("speed", 0.1, 5.0, 0.1, 1.0)
-        self._speed.on_update(lambda _: viewer.submit("speed", lambda: viewer.set_speed(self._speed.value)))
-        self._time_at: Any = gui.add_folder("Time")
-        self._time: Any = None
-
-    def offer_path(self, name: str, duration: float, count: int) -> None:
-        """Make the controls of a path that was opened."""
-        viewer = self._viewer
-        long = amount(f"{duration:g}", "s" if self._unit else "")
-        _write(self._path_text, "content", words_html(f"{name}: {count} poses, duration {long}"))
-        self._play.disabled = False
-        if self._time is not None:
-            self._time.handle.remove()
-        with self._time_at:
-            moved = lambda value: viewer.submit("time", lambda: viewer.seek(value))  # noqa: E731
-            self._time = Slider(self._gui, "t", 0.0, duration, 0.0, moved, "Time since the first pose")
 
     def _view(self, dark: bool) -> None:
         gui, viewer = self._gui, self._viewer
@@ -220,18 +153,12 @@ class Panel:
             viewer.submit("ellipsoid", lambda: None)
 
         shape.on_update(chosen)
-        for part in ("labels", "handles", "axes"):
+        region = ("region",) if viewer.subject.region is not None else ()
+        for part in ("labels", "handles", "axes", *region):
             box = gui.add_checkbox(part, True)
             box.on_update(lambda _, part=part, box=box: viewer.show(part, box.value))
         night = gui.add_checkbox("dark", dark)
         night.on_update(lambda _: viewer.set_dark(night.value))
-
-    def _save(self) -> None:
-        gui, viewer = self._gui, self._viewer
-        picture = gui.add_button("Picture (PNG)", icon="camera", hint="The scene as it is seen now")
-        picture.on_click(viewer.send_picture)
-        file = gui.add_button("Design (TOML)", icon="download", hint="A design file: its neutral pose is the one shown")
-        file.on_click(viewer.send_design)
 
 
 def _write(handle: Any, name: str, value: Any) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from typing import Any
 
 import numpy as np
 
 from ninedof.design.indices import LEGS
+from ninedof.design.region import Region
+from ninedof.design.region_outline import region_lines
 from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
@@ -15,23 +18,15 @@ from ninedof.sheet.clearance import leg_ends
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.numbers import Numbers
+from ninedof.viewer.parts import EXTENT, light, nodes, rgb
 from ninedof.viewer.subject import robot_points
 
-EXTENT = 4.0  # of any machine in the scene, whose lights and clipping planes are made for such sizes
 RED = "#E0202F"
 SLEEVE = 0.42  # share of a leg that is the wider cylinder
 RADIUS = {"l": 0.030, "q": 0.023, "r": 0.023}  # of a rod, in the scene
 LABEL_AT = {"l": 0.5, "q": 0.4, "r": 0.5}  # of the length of a leg
 THICK = 0.045  # of a plate
-O_COLOUR = "#FFC22E"
 EDGES_DARK = "#C8D0D8"
-GIZMO = 0.62
-
-
-def rgb(colour: str) -> tuple[int, int, int]:
-    """Return the three bytes of a colour such as "#0072B2"."""
-    r, g, b = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
-    return r, g, b
 
 
 class Scene:
@@ -41,18 +36,16 @@ class Scene:
         self.scale = EXTENT / size
         self._server, self._api = server, server.scene
         self._sent: dict[Any, Any] = {}
-        self._dark = dark
-        self.held: set[tuple[str, int]] = set()
-        """Handles in the hand of a user, with the client: that browser knows best where they are."""
-        self._make()
+        self._hidden: set[str] = set()
+        light(self._api)
+        self._nodes = nodes(self._api)
         self.set_dark(dark)
 
     # --- what changes ---------------------------------------------------------------------------------------------
 
-    def draw(self, g: Geometry, c: Configuration, found: Numbers) -> None:
-        """Show a machine in a pose."""
+    def draw(self, g: Geometry, c: Configuration, found: Numbers, held: Set[str]) -> None:
+        """Show a machine in a pose; nodes that are held stay where they are."""
         pose = self.scale * c.position, to_quaternions(c.rotation[None])[0]
-        held = {name for name, _ in self.held}
         self._plate("/base", self.scale * np.vstack([g.base_external, g.base_internal]))
         self._plate("/platform", self.scale * np.vstack([g.platform_external, g.platform_internal]))
         for name in ("/platform", "/platform gizmo", "/platform axes"):
@@ -101,75 +94,45 @@ class Scene:
         if "/workspace" in self._nodes:
             self._nodes.pop("/workspace").remove()
 
-    def draw_line(self, name: str, segments: Floats, colour: str) -> None:
+    def draw_region(self, region: Region | None, home: Configuration) -> None:
+        """Show the positions of a region about the neutral pose as lines, again where that has changed."""
+        key = home.position.tobytes()
+        if region is not None and self._sent.get("/region") != key:
+            self._sent["/region"] = key
+            lines = region_lines(region, home)  # none of turns alone
+            segments = [np.stack([line[:-1], line[1:]], axis=1) for line in lines]
+            self.draw_lines("/region", np.concatenate([np.empty((0, 2, 3)), *segments]), style.REGION)
+
+    def draw_lines(self, name: str, segments: Floats, colour: str) -> None:
         """Show segments of shape (n, 2, 3) in the unit of the machine, such as a path; none where n is 0."""
         if name in self._nodes:
             self._nodes.pop(name).remove()
         if len(segments):
             self._nodes[name] = self._api.add_line_segments(
-                name, (self.scale * segments).astype(np.float32), colors=rgb(colour), thickness=0.012
+                name,
+                (self.scale * segments).astype(np.float32),
+                colors=rgb(colour),
+                thickness=0.012,
+                visible=name[1:] not in self._hidden,
             )
 
     def show(self, part: str, visible: bool) -> None:
-        """Show or hide "labels", "handles" or "axes"."""
+        """Show or hide "labels", "handles", "axes" or "region"."""
+        (self._hidden.discard if visible else self._hidden.add)(part)
         for name in self._nodes:
-            kind = {"labels": name.startswith("/labels"), "handles": "gizmo" in name, "axes": "axes" in name}
-            if kind[part]:
+            kind = {"labels": "/labels" in name, "handles": "gizmo" in name, "axes": "axes" in name}
+            if kind.get(part, name == f"/{part}"):
                 self._set(name, visible=visible)
 
     def set_dark(self, dark: bool) -> None:
         """Choose the colours of the ground."""
-        cells, sections = ((62, 68, 76), (88, 96, 106)) if dark else ((222, 226, 230), (188, 195, 202))
-        self._set("/ground", cell_color=cells, section_color=sections)
+        self._nodes["/ground"].colors = np.array((64, 71, 80) if dark else (205, 210, 216), dtype=np.uint8)
         for name in ("/base/edges", "/platform/edges"):
             if name in self._nodes:
                 self._nodes[name].colors = np.array(rgb(EDGES_DARK if dark else style.INK), dtype=np.uint8)
         self._dark = dark
 
     # --- parts ----------------------------------------------------------------------------------------------------
-
-    def _make(self) -> None:
-        api = self._api
-        api.set_up_direction("+z")
-        # The lights of viser make pale colours white.
-        api.configure_environment_map(None)
-        api.configure_default_lights(enabled=False)
-        api.add_light_hemisphere("/lights/sky", sky_color=(255, 255, 255), ground_color=(150, 155, 165), intensity=1.9)
-        api.add_light_directional(
-            "/lights/sun", intensity=2.0, wxyz=shapes.along(np.array([[-0.35, -0.55, 0.75]]))[0], cast_shadow=True
-        )
-        rods, balls = shapes.rod(), shapes.ball()
-        still = {"batched_wxyzs": np.tile([1.0, 0.0, 0.0, 0.0], (18, 1)), "batched_positions": np.zeros((18, 3))}
-        some = {name: values[:12] for name, values in still.items()}
-        plain = {"cast_shadow": False, "receive_shadow": False}  # shadows here are a few large triangles
-        grey = np.zeros((18, 3), dtype=np.uint8)
-        self._nodes: dict[str, Any] = {
-            "/legs": api.add_batched_meshes_simple(
-                "/legs", *rods, **still, batched_scales=np.ones((18, 3)), batched_colors=grey, lod="off", **plain
-            ),
-            "/joints": api.add_batched_meshes_simple(
-                "/joints", *balls, **some, batched_scales=np.ones((12, 3)), batched_colors=grey[:12], lod="off", **plain
-            ),
-            "/O": api.add_mesh_simple("/O", 0.062 * balls[0], balls[1], color=rgb(O_COLOUR), **plain),
-            "/ellipsoid": api.add_mesh_simple(
-                "/ellipsoid", *balls, color=rgb(O_COLOUR), opacity=0.45, visible=False, **plain
-            ),
-            "/ground": api.add_grid("/ground", 3.0 * EXTENT, 3.0 * EXTENT, cell_size=0.25, section_size=1.0),
-            "/base axes": api.add_frame("/base axes", axes_length=0.4, axes_radius=0.012, origin_radius=0.018),
-            "/platform axes": api.add_frame("/platform axes", axes_length=0.25, axes_radius=0.007, origin_radius=0.01),
-            "/platform gizmo": api.add_transform_controls(
-                "/platform gizmo", scale=GIZMO, line_width=2.0, depth_test=False, opacity=0.85
-            ),
-            "/O gizmo": api.add_transform_controls(
-                "/O gizmo", scale=0.6 * GIZMO, line_width=2.0, disable_rotations=True, depth_test=False, opacity=0.85
-            ),
-        }
-        for name in (*LEGS, "O"):
-            size = 1.3 if name == "O" else 1.1
-            anchor = "bottom-left" if name == "O" else "center-center"
-            self._nodes[f"/labels/{name}"] = api.add_label(
-                f"/labels/{name}", name, anchor=anchor, font_screen_scale=size
-            )
 
     def _plate(self, name: str, joints: Floats) -> None:
         key = joints.tobytes()
@@ -198,7 +161,6 @@ class Scene:
             color=rgb(colour),
             flat_shading=True,
             side="double",
-            opacity=0.93,
             cast_shadow=False,
             receive_shadow=False,
         )
@@ -258,20 +220,7 @@ class Scene:
         """Return the handle that moves "platform" or "O"."""
         return self._nodes[f"/{name} gizmo"]
 
-    def hold(self, name: str, client: int, is_held: bool) -> None:
-        """Note that the user of a client has taken or released a handle."""
-        hand = (f"/{name} gizmo", client)
-        if is_held:
-            self.held.add(hand)
-        else:
-            self._release({hand})
-
-    def release_all(self, client: int) -> None:
-        """Release what a client holds, such as one that has left in the middle of a drag."""
-        self._release({hand for hand in self.held if hand[1] == client})
-
-    def _release(self, hands: set[tuple[str, int]]) -> None:
-        self.held -= hands
-        for node, _ in hands:
-            for key in ("position", "wxyz"):
-                self._sent.pop((node, key), None)
+    def forget(self, name: str) -> None:
+        """Let a node take its place again with the next picture, such as a handle that was let go."""
+        for key in ("position", "wxyz"):
+            self._sent.pop((name, key), None)

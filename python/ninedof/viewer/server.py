@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import logging
 import socket
 from collections.abc import Iterator
 from typing import Any
@@ -27,6 +28,7 @@ def started(host: str, port: int) -> Any:
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
         raise ValueError(f"port: got {shown(port)}, expected a number from 0 to 65535")
     _require_free(host, port)
+    logging.getLogger("websockets.server").addFilter(_no_handshake)  # only once, however often it is added
     with _silence():
         server = viser.ViserServer(host=host, port=port, label="ninedof", verbose=False)
     if port not in (0, server.get_port()):  # taken a moment ago: viser goes on to the next ones
@@ -39,6 +41,11 @@ def stopped(server: Any) -> None:
     """Stop a server."""
     with _silence():
         server.stop()
+
+
+def _no_handshake(record: logging.LogRecord) -> bool:
+    """Leave out what is printed of a request that is no page, such as HEAD; viser does so after the first page."""
+    return record.getMessage() != "opening handshake failed"
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ Faces = NDArray[np.uint32]
 Mesh = tuple[Floats, Faces]
 """Vertices, shape (v, 3), and triangles, shape (f, 3)."""
 
-SIDES = 20  # of a rod
+SIDES = 14  # of a rod
 
 
 def rod() -> Mesh:
@@ -37,7 +37,7 @@ def rod() -> Mesh:
     return vertices, faces.astype(np.uint32)
 
 
-def ball(rings: int = 14) -> Mesh:
+def ball(rings: int = 8) -> Mesh:
     """Return a sphere of radius 1."""
     fall, turn = np.linspace(0.0, np.pi, rings + 1), np.linspace(0.0, 2.0 * np.pi, 2 * rings + 1)
     a, b = np.meshgrid(fall, turn, indexing="ij")

@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.motion.internal_point import RULES
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
 from ninedof.position.forward_position import PositionStatus, forward_position
 from ninedof.redundancy.redundancy import best_internal_point
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
@@ -24,6 +23,8 @@ from ninedof.viewer.body import BodyQuestion
 from ninedof.viewer.numbers import Numbers, Yardstick, numbers
 from ninedof.viewer.subject import Subject
 
+LENGTH = "characteristic_length"
+SAME = 1e-9  # of the size of the machine: rounding is no motion
 Turn = tuple[float, float, float]
 
 
@@ -40,12 +41,13 @@ class State:
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
         self.variables = dict(subject.variables)
-        self.rule = _rule_of(subject)
+        self.rule = subject.rule
+        self._length: float | None = None  # chosen by hand
         self.note = ""
         """One sentence where something could not be done, such as a design that does not exist; "" otherwise."""
         self.listed: Configuration | None = None
         """The assembly modes found last, of the design shown; None without any, such as after a change of it."""
-        self._problem = self._problem_of(subject)
+        self._problem = subject.problem
         self.geometry: Geometry = subject.geometry
         self.home: Configuration = subject.home
         self.yardstick = self._yardstick()
@@ -73,6 +75,18 @@ class State:
         if turn_deg is not None:
             q = from_vectors(np.radians([vector("turn_deg", turn_deg)]))[0] @ self.home.rotation
         self._stand(p, q, self._placed(p, q))
+
+    def move(self, axis: int, value: float) -> None:
+        """Move the platform along one axis."""
+        self.set_pose(position=_with(self.configuration.position, axis, value))
+
+    def turn(self, axis: int, value: float) -> None:
+        """Set one component of the rotation vector, degrees."""
+        self.set_pose(turn_deg=_with(self.turn_deg, axis, value))
+
+    def move_internal_point(self, axis: int, value: float) -> None:
+        """Move O along one axis."""
+        self.set_internal_point(_with(self.configuration.internal_point, axis, value))
 
     def set_internal_point(self, point: Any) -> None:
         """Move O; where it was placed at its best it then stays."""
@@ -128,10 +142,37 @@ class State:
         if self.rule == "best":
             self.set_pose()
 
+    @property
+    def length_range(self) -> tuple[float, float]:
+        """Ends of a slider of the characteristic length: a quarter to four times it, within the bounds of the study."""
+        length, study = self.yardstick.length, self.subject.study
+        if not 0.0 < length < math.inf:  # a kind that has no value here
+            length = 0.25 * self.subject.size
+        bounds = None if study is None else study.characteristic_length
+        low, high = bounds if isinstance(bounds, tuple) else (0.0, math.inf)
+        return max(low, 0.25 * length), min(high, 4.0 * length)
+
+    def set_length(self, value: float) -> None:
+        """Change the characteristic length; one of a kind is then a number, a free one a variable as the others."""
+        if LENGTH in self.variables:
+            self.set_variables({LENGTH: value})
+        else:
+            self._length = float(value)
+            self._measure()
+
     def reset_design(self) -> None:
         """Return to the design to begin with."""
+        self._length = None
         if self.variables:
             self.set_variables(self.subject.variables)
+        else:
+            self._measure()
+
+    def _measure(self) -> None:
+        """Let the numbers follow another characteristic length."""
+        self.listed, self.yardstick = None, self._yardstick()
+        if self.rule == "best":
+            self.set_pose()
 
     # --- what is shown ------------------------------------------------------------------------------------------------
 
@@ -139,6 +180,15 @@ class State:
     def design(self) -> Design:
         """What is shown as a design: its neutral pose is the pose shown."""
         return Design(self.geometry, self.configuration, self.yardstick.length, self.subject.unit)
+
+    @property
+    def unmoved(self) -> bool:
+        """Whether the design is the one to begin with, at its neutral pose."""
+        if self._length is not None or self.variables != self.subject.variables:
+            return False
+        here, home = self.configuration, self.home
+        points = np.abs([here.position - home.position, here.internal_point - home.internal_point])
+        return bool(points.max() < SAME * self.subject.size and np.abs(here.rotation - home.rotation).max() < SAME)
 
     def numbers(self) -> Numbers:
         """Return the numbers of the pose shown."""
@@ -209,17 +259,13 @@ class State:
             return carried
         return found.configuration.internal_point
 
-    def _problem_of(self, subject: Subject) -> Any:
-        if not subject.family:
-            return None
-        if subject.study is not None:
-            return subject.study.problem()
-        return Study(subject.family, variables=subject.variables).problem()
-
     def _checked_problem(self) -> Any:
         if self._problem is None:
             raise ValueError("this machine belongs to no family of designs")
         return self._problem
+
+    def _own_length(self) -> float:
+        return self.subject.length_at(self.geometry, self.home, self.variables)
 
     def _yardstick(self) -> Yardstick:
         subject, beside, margins = self.subject, None, list[tuple[str, float]]()
@@ -233,7 +279,7 @@ class State:
         return Yardstick(
             study=subject.study,
             neutral=self.home,
-            length=subject.length_at(self.geometry, self.home, self.variables),
+            length=self._own_length() if self._length is None else self._length,
             leg_low=low,
             leg_high=high,
             beside=beside,
@@ -241,9 +287,7 @@ class State:
         )
 
 
-def _rule_of(subject: Subject) -> str:
-    """Return the rule of the region of the study, which carries O in base axes; else O is fixed to the platform."""
-    region = None if subject.result is None else subject.result.study.objective.region
-    if region is None:
-        return "carried"
-    return "shifted" if region.internal_point == "carried" else str(region.internal_point)
+def _with(values: Any, axis: int, value: float) -> list[float]:
+    found = [float(x) for x in values]
+    found[axis] = value
+    return found

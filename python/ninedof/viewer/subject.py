@@ -13,6 +13,7 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.family_variables import variable_kinds, variables_of
 from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
@@ -52,6 +53,24 @@ class Subject:
     def study(self) -> Study | None:
         """The study that found it, with the poses that it was solved for; None without one."""
         return None if self.result is None else self.result.solved
+
+    @property
+    def region(self) -> Region | None:
+        """The region of the study; None without one."""
+        return None if self.result is None else self.result.study.objective.region
+
+    @property
+    def rule(self) -> str:
+        """The rule for O of the region; without one O is carried."""
+        return "carried" if self.region is None else self.region.internal_point
+
+    @cached_property
+    def problem(self) -> Any:
+        """What makes designs of variables; None without a family."""
+        if not self.family:
+            return None
+        study = Study(self.family, variables=self.variables) if self.study is None else self.study
+        return study.problem()
 
     @cached_property
     def size(self) -> float:

@@ -1,4 +1,4 @@
-"""How much of the region of a study lies within criteria of a workspace, and the region as a box and as an outline."""
+"""How much of the region of a study lies within criteria of a workspace, and a box about the region."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.region import Region
+from ninedof.design.region_outline import extent
 from ninedof.design.region_stack import configurations_at, samples
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -22,7 +23,6 @@ from ninedof.workspace.study_criteria import EASE
 
 COUNT = 10_000  # even poses, and as many toward the boundary
 ROOM = 2.0  # about the region in the box of a map, in its largest half edge
-OUTLINE = 96  # points of a round outline
 
 
 class RegionShare(NamedTuple):
@@ -88,61 +88,6 @@ def _ends_of_legs(g: Geometry) -> Numbers:
 
 def box_about(region: Region, home: Configuration) -> tuple[Floats, Floats]:
     """Return the low and high corner of a box about the positions of a region, with room on every side."""
-    low, high = _extent(region, home)
+    low, high = extent(region, home)
     room = ROOM * 0.5 * float((high - low).max())
     return low - room, high + room
-
-
-def _extent(region: Region, home: Configuration) -> tuple[Floats, Floats]:
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
-    if region.path is not None:
-        corners = np.array(region.path)
-        return home.position + unit * corners.min(axis=0), home.position + unit * corners.max(axis=0)
-    reach = unit * np.array(region.reach[:3])
-    return home.position - reach, home.position + reach
-
-
-def outline(region: Region, home: Configuration, fixed: int, at: float) -> Floats | None:
-    """Return the outline of a region's positions in a plane, or a path seen across it; None where it misses the plane.
-
-    Points (n, 2) in the two other coordinates, in their order.
-    """
-    drawn = [k for k in range(3) if k != fixed]
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
-    if region.path is not None:
-        return np.asarray((home.position + unit * np.array(region.path))[:, drawn])
-    low, high = _extent(region, home)
-    away = abs(at - float(home.position[fixed]))
-    if away > 0.5 * float(high[fixed] - low[fixed]):
-        return None
-    half, middle = 0.5 * (high - low)[drawn], home.position[drawn]
-    turn = np.linspace(0.0, 2.0 * np.pi, OUTLINE)
-    circle = np.column_stack([np.cos(turn), np.sin(turn)])
-    if region.ball is not None:
-        return np.asarray(middle + np.sqrt((unit * region.ball) ** 2 - away**2) * circle)
-    if region.cylinder is not None:
-        radius = unit * region.cylinder[0]
-        if fixed == 2:
-            return np.asarray(middle + radius * circle)
-        half[0] = np.sqrt(radius**2 - away**2)
-    return np.asarray(middle + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]))
-
-
-def region_lines(region: Region, home: Configuration) -> list[Floats]:
-    """Return the outline of a region's positions in space as lines (n, 3): edges, circles or the path."""
-    unit = float(home.position[2]) if region.unit == "zp" else 1.0
-    if region.path is not None:
-        return [np.asarray(home.position + unit * np.array(region.path))]
-    low, high = _extent(region, home)
-    half = 0.5 * (high - low)
-    turn = np.linspace(0.0, 2.0 * np.pi, OUTLINE)
-    circle = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(OUTLINE)])
-    if region.ball is not None:
-        return [home.position + half * np.roll(circle, k, axis=1) for k in range(3)]
-    ups = [np.array([0.0, 0.0, z]) for z in (-1.0, 1.0)]
-    if region.cylinder is not None:
-        rims = [home.position + half * (circle + up) for up in ups]
-        return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(0, OUTLINE - 1, OUTLINE // 4))]
-    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0]], dtype=np.float64)
-    rims = [home.position + half * (square + up) for up in ups]
-    return [*rims, *(np.stack([rims[0][k], rims[1][k]]) for k in range(4))]

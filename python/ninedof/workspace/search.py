@@ -104,7 +104,8 @@ def workspace(
     home : Configuration, optional
         The home pose, with its O. The middle of the box or region by default, with O by the rule.
     characteristic_length : float
-        Of the condition number, length units.
+        Of the condition number, length units; 1 by default; a Result and a Design have their own,
+        `found.characteristic_length`.
     method : {"octree", "grid", "sample"}
         "grid" judges resolution^3 cells by their centres. "sample" counts points of a low-discrepancy sequence with
         random shifts.

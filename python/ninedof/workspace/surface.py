@@ -1,4 +1,4 @@
-"""The boundary of a workspace as a smooth surface of quadrilaterals: naive surface nets of its allowed share."""
+"""The boundary of a workspace as a surface of quadrilaterals: for figures, reports and the viewer."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
 from ninedof.workspace.field import WorkspaceField
 
-LEVEL = 0.5
+LEVELS = (0.15, 0.6)  # of the allowed share at the surface, where that keeps the volume
 
 
 @short_repr
@@ -39,31 +39,47 @@ class WorkspaceSurface(NamedTuple):
 
 
 def surface_of(field: WorkspaceField) -> WorkspaceSurface:
-    """Return the surface where the allowed share of a field is one half.
+    """Return the surface of a field, at a level of its allowed share.
 
-    Each cube of eight raster points with both kinds has one vertex, the mean of the places on its edges where the share
-    is one half; each raster edge between the kinds has one face, of the vertices of the four cubes around it.
+    The field is smoothed, which shrinks a body that is round or thin where the share is one half. So the level is the
+    one that as many points of the raster are above as are allowed, within `LEVELS`.
     """
-    share = field.fraction
-    inside = share >= LEVEL
+    allowed = max(round(float(field.fraction.sum())), 1)
+    level = float(np.clip(np.partition(field.fraction, -allowed, axis=None)[-allowed], *LEVELS))
+    first = np.array([x[0] for x in field.axes])
+    return surface_net(field.fraction, level, first, np.array([x[1] for x in field.axes]) - first)
+
+
+def surface_net(values: Floats, level: float, first: Floats, step: Floats) -> WorkspaceSurface:
+    """Return the closed surface about the values above a level: a surface net (Gibson, 1998), not relaxed.
+
+    Each cube of eight raster points with both kinds has one vertex, the mean of the places on its edges where the level
+    is crossed; each raster edge between the kinds has one face, of the vertices of the four cubes around it.
+
+    Parameters
+    ----------
+    values : array, shape (n_x, n_y, n_z)
+        On an even raster; the outermost ones are not above the level.
+    level : float
+    first, step : array, shape (3,)
+        The place of the first value, and from each to the next.
+
+    """
+    inside = values > level
     corner = [(slice(i, i - 1 or None), slice(j, j - 1 or None), slice(k, k - 1 or None)) for i, j, k in _CORNERS]
     count = sum(inside[c].astype(np.int8) for c in corner)
     mixed = np.asarray((count > 0) & (count < 8))
     number = np.full(mixed.shape, -1, dtype=np.int64)
     number[mixed] = np.arange(int(mixed.sum()))
-    values = np.stack([share[c][mixed] for c in corner])
-    total, crossed = np.zeros((values.shape[1], 3)), np.zeros(values.shape[1])
+    near = np.stack([values[c][mixed] for c in corner])
+    total, crossed = np.zeros((near.shape[1], 3)), np.zeros(near.shape[1])
     for a, b in _EDGES:
-        cut = (values[a] >= LEVEL) != (values[b] >= LEVEL)
-        t = (LEVEL - values[a][cut]) / (values[b][cut] - values[a][cut])
+        cut = (near[a] > level) != (near[b] > level)
+        t = (level - near[a][cut]) / (near[b][cut] - near[a][cut])
         start, end = np.array(_CORNERS[a]), np.array(_CORNERS[b])
         total[cut] += start + t[:, None] * (end - start)
         crossed[cut] += 1.0
-    place = np.argwhere(mixed) + total / crossed[:, None]
-    steps = [x[1] - x[0] for x in field.axes]
-    points = np.column_stack(
-        [x[0] + step * place[:, k] for k, (x, step) in enumerate(zip(field.axes, steps, strict=True))]
-    )
+    points = first + step * (np.argwhere(mixed) + total / crossed[:, None])
     return WorkspaceSurface(points, np.concatenate([_faces(inside, number, axis) for axis in range(3)]))
 
 

@@ -1,5 +1,6 @@
 """The command line: text, JSON, exit status, files, interruption."""
 
+import html
 import json
 import shlex
 import signal
@@ -66,8 +67,11 @@ def test_standard_output_is_json_only(capsys):
 
 
 def test_starts_and_seed_reach_the_record(capsys):
-    run(capsys, "optimize --starts 5 --seed 7 --no-figures --out run")
-    assert json.loads(Path("run/record.json").read_text())["study"]["solver"] == {"starts": 5, "seed": 7}
+    command = "optimize --starts 5 --seed 7 --no-figures --out run"
+    run(capsys, command)
+    record = json.loads(Path("run/record.json").read_text())
+    assert record["study"]["solver"] == {"starts": 5, "seed": 7}
+    assert record["command"] == f"ninedof {command}"
 
 
 STUDIES = {
@@ -216,11 +220,24 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkey
     """Without Figs. 6 and 7, whose sweeps have tests of their own."""
     few = {name: partial(nd.sweep_figure, name, points) for name, points in (("6", 5), ("7", 2))}
     monkeypatch.setattr("ninedof.runs.paper_figures.sweep_figure", lambda name: few[name]())
-    monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [(folder / f"{stem}.png").touch()])
-    status, _, err = run(capsys, "paper --figures --json --out figures")
+
+    def save(figure, folder, stem):
+        (folder / f"{stem}.png").touch()
+        return [folder / f"{stem}.png"]
+
+    monkeypatch.setattr("ninedof.plot.save", save)
+    status, out, err = run(capsys, "paper --figures --json --out figures")
     assert status == 0
     assert "drawing Fig. 5, the plates" in err
-    assert {path.name for path in (tmp_path / "figures").iterdir()} == {f"figure_{k}.png" for k in range(1, 8)}
+    figures = {f"figure_{k}.png" for k in range(1, 8)}
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {"record.json", "report.html"} | figures
+    page = (tmp_path / "figures" / "report.html").read_text()
+    assert page.count("data:image/png") == 7
+    for row in json.loads(out):
+        assert all(html.escape(row[key]) in page for key in ("where", "printed", "ours", "verdict"))
+    assert "Fig. 5, the plates." in page
+    assert "ninedof paper --figures --json --out figures" in page
+    assert "got the record of a run of kind paper" in run(capsys, "sheet figures")[2]
     assert run(capsys, "paper --out other")[0] == 2
 
 

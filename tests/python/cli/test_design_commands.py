@@ -127,7 +127,13 @@ def test_places_of_the_internal_point(capsys):
     own = home.rotation.T @ (home.internal_point - home.position)
     at = " --position 0.1 0.2 3.4 --rotation-deg 0 0 10"
     turned = home.moved([0, 0, np.radians(10.0), 0, 0, 0, 0, 0, 0]).rotation
-    expected = {"carried": np.array([0.1, 0.2, 3.4]) + turned @ own, "held": home.internal_point, "'1 2 3'": [1, 2, 3]}
+    there = np.array([0.1, 0.2, 3.4])
+    expected = {
+        "carried": there + turned @ own,
+        "shifted": there + home.internal_point - home.position,
+        "held": home.internal_point,
+        "'1 2 3'": [1, 2, 3],
+    }
     for word, place in expected.items():
         data = data_of(capsys, f"forces design.toml --load {LOAD} --internal-point {word} {at}")
         assert data["poses"][0]["internal_point"] == pytest.approx(place, abs=1e-12)

@@ -8,6 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.export.formats import FORMATS
 
 DESIGN = Path(__file__).resolve().parents[3] / "examples" / "04_design.toml"
 
@@ -50,10 +51,12 @@ def test_a_run_is_written_with_the_name_of_its_folder(capsys, tmp_path, monkeypa
         ("", "--to: got nothing, expected one of mjcf, urdf, sdf, csv, step, dxf, c, latex"),
         ("--to mjfc", "--to: got 'mjfc', expected one of"),
         ("--out a.stl", "--out: got a.stl, expected --to with a format, or a file that ends in .xml, .urdf"),
-        ("--to sdf --gravity 9", "options: got the entry 'gravity', expected only leg_mass, platform_mass"),
-        ("--out none/a.xml", "path: got none/a.xml, expected a file in a folder that exists"),
-        ("--to mjcf --unit mile", "unit: got 'mile'"),
-        ("--to mjcf --leg-mass 0", "leg_mass: got 0, expected a mass above 0"),
+        ("--to sdf --gravity 9", "--gravity: got 9 with --to sdf, which takes --leg-mass, --platform-mass"),
+        ("--out none/a.xml", "--out: got none/a.xml, expected a file in a folder that exists"),
+        ("--to mjcf --unit mile", "--unit: got 'mile'"),
+        ("--to csv --gravity 1", "--gravity: got 1 with --to csv, which takes no option"),
+        (f"--out {300 * 'a'}.csv", "a.csv, which cannot be written (File name too long), expected a writeable place"),
+        ("--to mjcf --leg-mass 0", "--leg-mass: got 0, expected a mass above 0"),
     ],
 )
 def test_bad_input_is_one_line(line, message, capsys, tmp_path, monkeypatch):
@@ -63,3 +66,55 @@ def test_bad_input_is_one_line(line, message, capsys, tmp_path, monkeypatch):
     assert message in err
     assert err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_only_a_file_that_export_wrote_is_replaced(name, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if name == "dxf":
+        pytest.importorskip("ezdxf")
+    assert run(capsys, f"export {DESIGN} --to {name}")[0] == 0
+    assert run(capsys, f"export {DESIGN} --to {name}")[0] == 0
+    (file,) = tmp_path.glob(f"*{FORMATS[name].suffix}")
+    for place in (file, *(file.with_suffix(suffix) for suffix, _ in FORMATS[name].beside)):
+        own = place.read_bytes()
+        place.write_text("weeks of work")
+        for line in (f"--to {name}", f"--to {name} --out {file.name}"):
+            status, out, err = run(capsys, f"export {DESIGN} {line}")
+            assert (status, out) == (2, "")
+            assert err == f"ninedof: --out: got {place.name}, which exists and was not written by ninedof, " + (
+                "expected another name\n"
+            )
+        assert place.read_text() == "weeks of work"
+        place.write_bytes(own)
+
+
+@pytest.mark.parametrize("line", ["sheet design.toml --csv kept.txt", "report run --out kept.txt"])
+def test_other_files_are_not_replaced_either(line, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "design.toml").write_text(DESIGN.read_text())
+    nd.save(nd.optimize(nd.Study(starts=1, constraints={"radius_ratio": (None, 2.0)})), "run")
+    (tmp_path / "kept.txt").write_text("weeks of work")
+    option = line.split()[2]
+    status, _, err = run(capsys, line)
+    assert (status, (tmp_path / "kept.txt").read_text()) == (2, "weeks of work")
+    assert err.startswith(f"ninedof: {option}: got kept.txt, which exists")
+    status, _, err = run(capsys, line.replace("kept.txt", 300 * "a"))
+    assert (status, err.count("\n")) == (2, 1)
+    assert err.startswith(f"ninedof: {option}: got aaa")
+    for _ in range(2):
+        assert run(capsys, line.replace("kept", "own"))[0] == 0
+
+
+def test_a_run_folder_that_cannot_be_written_is_known_before_the_work(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("ninedof.runs.directory.why_not_writable", lambda _: "Permission denied")
+    status, out, err = run(capsys, "optimize --out there")
+    assert (status, out) == (2, "")
+    assert (
+        err == "ninedof: --out: got there, which cannot be written to (Permission denied), expected a writeable place\n"
+    )
+    status, _, err = run(capsys, f"optimize --out {300 * 'a'}")
+    assert (status, err.count("\n")) == (2, 1)
+    assert err.startswith("ninedof: --out: got aaa")
+    assert run(capsys, "optimize --out there --threads=0")[2].startswith("ninedof: --threads: got 0, expected ")

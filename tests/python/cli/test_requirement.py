@@ -103,9 +103,9 @@ def test_o_in_the_workspace_of_a_region(folder, monkeypatch, capsys):
             main(shlex.split("optimize machine.toml --no-figures --out machine"))
     quick = "--no-figures --resolution 4 --tolerance 0.2"
     for line, words in (
-        (f"workspace machine {quick}", "O: carried with the platform, at (0, 0, "),
-        (f"workspace machine --archetype orientation --angle-deg 20 {quick}", "O: stays at (0, 0, "),
-        (f"workspace machine --internal-point held {quick}", "O: stays at (0, 0, "),
+        (f"workspace machine {quick}", "of its frame; without turns as shifted"),
+        (f"workspace machine --archetype orientation --angle-deg 20 {quick}", "O: held in the base, at (0, 0, "),
+        (f"workspace machine --internal-point held {quick}", "O: held in the base, at (0, 0, "),
         (f"workspace machine --legs 100 900 {quick}", "limit: all legs 100 to 900"),
     ):
         capsys.readouterr()

@@ -38,7 +38,14 @@ def test_the_sheet_of_a_run(capsys, machine, tmp_path, monkeypatch):
     line = f"sheet {machine} --csv {tmp_path / 'legs.csv'} --load '0 0 0 0,0,-10' --leg-error 0.01 --leg-stiffness 1e4"
     status, out, _ = run(capsys, line)
     assert status == 0
-    for words in ("r1, r2, r3 never move", "O at rest", "platform_cone", "55.00°", "position error", "stiffness"):
+    for words in (
+        "r1, r2, r3 never move",
+        "O held in the base",
+        "platform_cone",
+        "55.00°",
+        "position error",
+        "stiffness",
+    ):
         assert words in out
     assert (tmp_path / "legs.csv").read_text().startswith("leg,shortest,longest,neutral,stroke,stroke_ratio,idle,")
     status, out, _ = run(capsys, line + " --turn-deg 30 --json")

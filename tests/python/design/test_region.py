@@ -39,7 +39,7 @@ def test_poses_of_coordinates(region):
         turn = Rotation.from_rotvec(rotation)
         tilted = math.acos(np.clip(turn.as_matrix()[2, 2], -1.0, 1.0))
         assert tilted <= region.tilt + 1e-7
-        assert_allclose(internal, position if region.internal_point == "carried" else 0.0 * position)
+        assert_allclose(internal, position if region.internal_point == "shifted" else 0.0 * position)
         if region.ball is not None:
             assert np.linalg.norm(position) <= region.ball * (1.0 + 1e-12)
         if region.cylinder is not None:
@@ -68,6 +68,7 @@ BAD = {
     "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt_deg: got"),
     "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
     "word": ({"internal_point": "stay"}, r"objective\.region\.internal_point: got 'stay'"),
+    "old word": ({"internal_point": "carried"}, r"got 'carried', .* is now 'shifted'"),
     "key": ({"bal": 1}, r"^objective\.region: got the entry 'bal', .*did you mean 'ball'"),
     "corners": ({"path": [[0, 0, 0], [0, 0, 0]]}, r"objective\.region\.path: got 2 corners"),
     "cylinder": ({"cylinder": 1}, r"objective\.region\.cylinder: got 1"),

@@ -41,10 +41,10 @@ def test_no_other_place_is_better(unit):
             s = found.internal_point + size * rng.normal(size=found.internal_point.shape)
             other = worst(nd.Configuration(found.position, found.rotation, s))
             assert (least <= other + 1e-6).mean() > 0.97  # at a kink a direct search may stop a little early
-    carried = nd.Configuration(
+    shifted = nd.Configuration(
         found.position, found.rotation, NEUTRAL.internal_point + found.position - NEUTRAL.position
     )
-    assert (least <= worst(carried) + 1e-9).all()
+    assert (least <= worst(shifted) + 1e-9).all()
     # The poses of an objective say the same.
     fixed = nd.Study(variables=SIDES, objective={"poses": list(poses)})
     point = fixed.evaluate({})

@@ -227,6 +227,27 @@ def test_an_interruption_keeps_the_best_design(monkeypatch, solves):
     assert result.best is not None
     assert result.region.looked_at == 0
     assert "not looked at" in result.summary()
+    assert f"over {len(result.region.poses)} poses of the neutral position, tilts" in result.words
+    assert result.words in result.summary()
+
+
+def test_an_interruption_in_a_later_round_keeps_the_design_of_the_one_before():
+    """The solver is stopped before it has a design in the second round."""
+    study, rounds = replace(STUDIES["turns, frobenius"], starts=1), []
+
+    def solve(posed, starts, warm):
+        rounds.append(posed)
+        found = nd.optimize(posed, starts=1)
+        return found if len(rounds) == 1 else replace(found, candidates=(), status="stopped", interrupted=True)
+
+    result = exchange.optimize_region(study, solve, None, 1)
+    assert len(rounds) == 2
+    assert (result.status, result.interrupted) == ("stopped", True)
+    assert result.objective == nd.optimize(rounds[0], starts=1).objective
+    assert result.reason.startswith("interrupted in round 2; the best so far at the poses imposed")
+    assert result.words.endswith(
+        "poses of the neutral position, tilts of at most 20 degrees, yaws of at most 20 degrees"
+    )
 
 
 def test_a_moved_pose_takes_the_place_of_the_old_one_once():

@@ -81,7 +81,7 @@ def test_limits_hold_between_the_poses(name):
 @solves
 @pytest.mark.parametrize("name", STUDIES)
 def test_the_index_is_at_most_that_of_the_other_rules(name):
-    for rule in ("carried", "held"):
+    for rule in ("shifted", "held"):
         assert solved(name).objective <= nd.optimize(with_rule(STUDIES[name], rule)).objective * (1.0 + 1e-6)
 
 
@@ -118,8 +118,8 @@ def test_an_interruption_keeps_the_design_with_o_carried(monkeypatch):
     monkeypatch.setattr(exchange_placed, "_round", interrupted)
     result = nd.optimize(LINE)
     assert (result.status, result.interrupted, result.region.looked_at) == ("stopped", True, 0)
-    assert result.objective == nd.optimize(with_rule(LINE, "carried")).objective
-    assert "O carried" in result.reason
+    assert result.objective == nd.optimize(with_rule(LINE, "shifted")).objective
+    assert "O shifted" in result.reason
     assert nd.check(replace(result, region=None, study=result.solved), perturbations=0).passed
 
 

@@ -13,6 +13,7 @@ from ninedof import poses
 from ninedof.design.internal_points import rule_words
 from ninedof.optimize.agreement import least_share
 from ninedof.optimize.prices import price_words
+from ninedof.redundancy.rules import WORDS
 from ninedof.support.json import encode
 
 POSES = nd.Objective(poses=poses.box((0.1, 0.0, 0.0), unit="zp"))
@@ -123,16 +124,14 @@ def test_a_result_can_be_written(result):
         assert f'"{entry}"' in text
 
 
-@pytest.mark.parametrize(("rule", "idle"), [("carried", "q1, q2, q3"), ("held", "r1, r2, r3"), ("best", "")])
+@pytest.mark.parametrize(("rule", "idle"), [("shifted", "q1, q2, q3"), ("held", "r1, r2, r3"), ("best", "")])
 def test_the_summary_says_where_o_is_and_which_legs_never_move(rule, idle):
     """Without rotations one triple of internal legs stands still; O placed by the search is never worse."""
     poses = nd.poses.box((0.4, 0.4, 0.0), points=2, internal_point=rule)
     result = nd.optimize(dataclasses.replace(nd.Study.paper(), objective=nd.Objective(poses=poses)), starts=1)
     said = result.internal_points
     assert said in result.summary()
-    assert said.startswith(
-        {"carried": "O is carried with the platform", "held": "O is held", "best": "O is best"}[rule]
-    )
+    assert said.startswith(f"O is {WORDS[rule]}")
     assert (f"{idle} never move" in said) if idle else "never" not in said
     if idle:
         assert float(said.split("would have ")[1].split()[0]) < result.objective
@@ -140,10 +139,10 @@ def test_the_summary_says_where_o_is_and_which_legs_never_move(rule, idle):
 
 def test_o_by_the_rule_of_each_pose():
     shift = (0.1, 0.2, 0.3)
-    assert nd.Pose(shift, internal_point=shift) == nd.Pose(shift) == nd.Pose(shift, internal_point="carried")
+    assert nd.Pose(shift, internal_point=shift) == nd.Pose(shift) == nd.Pose(shift, internal_point="shifted")
     assert nd.Pose(shift, internal_point=(0, 0, 0)) == nd.Pose(shift, internal_point="held") != nd.Pose(shift)
     assert nd.Pose(internal_point="held") == nd.Pose()
     assert nd.Pose(shift).for_core()[2] == shift
     assert rule_words([nd.Pose(shift), nd.Pose(shift, internal_point="held"), nd.Pose()]) == (
-        "O is carried with the platform at 2 poses, held at 1 pose"
+        "O is shifted with the platform's origin at 2 poses, held in the base at 1 pose"
     )

@@ -302,10 +302,21 @@ def test_files_are_whole_and_reproducible(name, tmp_path):
     assert b"/Type3" not in first[2].read_bytes().replace(b" ", b"")
 
 
+def test_files_are_those_of_matplotlib(tmp_path):
+    """Drawn once for each file, where `Figure.savefig` draws twice; images in them have the same resolution."""
+    figure = Figure(figsize=(2.0, 2.0))
+    figure.add_subplot().pcolormesh(np.arange(16.0).reshape(4, 4), rasterized=True)
+    paths = plot.save(figure, tmp_path, "figure")
+    assert figure.dpi == Figure().dpi
+    for path, entries in zip(paths, ({}, {"Date": None}, {"CreationDate": None}), strict=True):
+        with style.settings():
+            figure.savefig(tmp_path / f"own{path.suffix}", dpi=style.DPI, metadata=entries)
+        assert path.read_bytes() == (tmp_path / f"own{path.suffix}").read_bytes()
+
+
 def test_failed_save_leaves_no_file(tmp_path):
     class Broken(Figure):
-        def savefig(self, fname, **options):
-            fname.write(b"half a fi")
+        def draw(self, renderer):
             raise OSError("no space left on device")
 
     (tmp_path / "figure.png").write_bytes(b"the old one")

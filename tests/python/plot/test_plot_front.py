@@ -37,6 +37,7 @@ PLATES = [
     Sketch(1.3, nd.Geometry.hexagonal(2.0, 4.0, 2.2, 1.0)),
 ]
 BOTH = [PoseConditions("a", [4.0, 4.2, 4.1, 4.3]), PoseConditions("b", [3.8, 5.1, 4.4, 7.0])]
+LONG = "x +50, y +50, z +50, rotated "
 POSES = ["neutral", "x + 0.1 zp", "x - 0.1 zp", "tilted by 10 degrees"]
 
 FIGURES = {
@@ -50,6 +51,10 @@ FIGURES = {
     ),
     "singular pose": lambda: poses([PoseConditions("a", [4.0, math.inf, 900.0])]),
     "one pose": lambda: poses([PoseConditions("a", [4.0])]),
+    "long names": lambda: poses(
+        [PoseConditions("a", [4.0, 4.2, 4.1])], [f"{LONG}{k}" for k in (1, 2, 3)], note="in mm"
+    ),
+    "many names": lambda: poses([PoseConditions("a", np.arange(3.0, 53.0))], [f"pose {k}" for k in range(1, 51)]),
     "all singular": lambda: poses([PoseConditions("a", [math.inf] * 3)]),
     "many poses": lambda: poses([PoseConditions(n, 4 + np.arange(125) % 7) for n in "abcd"]),
 }
@@ -142,6 +147,20 @@ def test_every_pose_is_drawn():
     assert sorted(lines) == [4.3, 7.0]
     words = [text.get_text() for text in axes.figure.legends[0].get_texts()]
     assert words == ["a: worst 4.3", "b: worst 7"]
+
+
+def listed(figure):
+    return [text.get_text() for text in figure.texts]
+
+
+def test_long_names_are_listed_by_number():
+    axes = drawn("long names").axes[0]
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["1", "2", "3"]
+    assert listed(axes.figure) == ["in mm", *(f"{k}: {LONG}{k}" for k in (1, 2, 3))]
+
+
+def test_the_worst_of_many_poses_are_listed():
+    assert listed(drawn("many names")) == [f"{k}: pose {k}" for k in range(42, 51)]
 
 
 def test_singular_poses_are_at_the_upper_edge():

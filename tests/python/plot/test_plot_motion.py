@@ -25,6 +25,12 @@ def test_three_panels_of_legs_and_one_of_the_condition_number():
     assert figure.axes[0].get_ylabel() == "length (mm)"
 
 
+@pytest.mark.parametrize(("unit", "words"), [("mm", "time (s)"), ("", "time (in the unit of the path)")])
+def test_the_axis_of_time_says_its_unit(unit, words):
+    figure = plot.motion(TIME, LENGTHS, KAPPA, unit=unit, margins={"cone": 0.1 + TIME})
+    assert {axes.get_xlabel() for axes in figure.axes} == {words}
+
+
 def test_a_singular_pose_and_one_leg_at_rest(tmp_path):
     kappa = KAPPA.copy()
     kappa[100] = np.inf

@@ -1,51 +1,109 @@
-"""The page in headless Chromium: no message on the console, nothing wider than the screen, scripts run."""
+"""The pages in headless Chromium: nothing on the console, nothing wider than the screen or the paper, scripts run."""
 
-import html
-import re
 import shutil
 import subprocess
 
+import chromium
 import pytest
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium (Debian: chromium)")
-WIDTHS = (390, 1280)
+import ninedof as nd
+from ninedof.runs.folder import write_run
 
-# The page in frames of both widths, which tell their scroll widths and whether the view was drawn.
-FRAMES = """<!DOCTYPE html><title>frames</title>
-{frames}
-<script>
-addEventListener("load", () => setTimeout(() => {{
-  for (const frame of document.querySelectorAll("iframe")) {{
-    const page = frame.contentDocument, root = page.documentElement, canvas = page.querySelector("canvas");
-    const colours = new Set(new Uint32Array(
-      canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer));
-    page.querySelector("[data-view=top]").click();
-    const select = page.querySelector("#poses select"), kappa = () => page.getElementById("kappa").textContent;
-    const first = kappa();
-    select.value = 1;
-    select.dispatchEvent(new Event("change"));
-    document.body.append(`[${{[frame.width, root.scrollWidth, root.clientWidth, root.dataset.scene, colours.size > 8,
-      first !== kappa()].join(" ")}}]`);
-  }}
-}}, 100));
-</script>"""
+pytestmark = pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
+WIDTHS = (320, 1280)
+PAPER = 688  # pixels between the margins of A4
+STILL = "<svg xmlns='http://www.w3.org/2000/svg'/>"
 
-
-def chromium(path, *options):
-    command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", *options]
-    done = subprocess.run([*command, f"file://{path}"], capture_output=True, text=True, timeout=120, check=True)
-    assert "CONSOLE" not in done.stderr, [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    return done.stdout
+DRAWN = """(() => {
+  const canvas = document.querySelector("canvas"), context = canvas.getContext("2d");
+  return new Set(new Uint32Array(context.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size;
+})()"""
+OTHER_POSE = """(() => {
+  const select = document.querySelector("#poses select");
+  select.value = 1;
+  select.dispatchEvent(new Event("change"));
+})()"""
+WIDE = """[...document.querySelectorAll("table, pre, img, #view, dl")].filter((e) => {
+  const box = e.getBoundingClientRect();
+  return e.scrollWidth > e.clientWidth + 1 || box.left < -1 || box.right > document.documentElement.clientWidth + 1;
+}).map((e) => e.innerText || e.tagName)"""
+ROWS = "[...document.querySelectorAll('main tr')].filter((r) => r.offsetHeight).map((r) => r.innerText)"
+BROKEN = "[...document.querySelectorAll('tr')].filter((r) => getComputedStyle(r).breakInside !== 'avoid').length"
 
 
-def test_nothing_overflows_and_the_view_is_drawn_at_phone_and_desktop_width(page, tmp_path):
-    inside = html.escape(page.read_text(encoding="utf-8"), quote=True)
-    frames = "\n".join(f'<iframe width="{width}" height="800" srcdoc="{inside}"></iframe>' for width in WIDTHS)
-    (tmp_path / "frames.html").write_text(FRAMES.format(frames=frames), encoding="utf-8")
-    shown = chromium(tmp_path / "frames.html", "--window-size=1800,2000", "--dump-dom", "--virtual-time-budget=3000")
-    told = re.findall(r"\[(\d+) (\d+) (\d+) (\w+) (\w+) (\w+)\]", shown.rpartition("</iframe>")[2])
-    assert [int(row[0]) for row in told] == list(WIDTHS)
-    for _, scroll, client, scene, drawn, changed in told:
-        assert int(scroll) <= int(client)
-        assert (scene, drawn, changed) == ("ready", "true", "true")
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    pytest.importorskip("websockets", reason="needs websockets, of the extra viewer")
+    profile = tmp_path_factory.mktemp("chromium") / "profile"
+    with chromium.page("about:blank", profile, options=chromium.FLAT) as opened:
+        opened.listen()
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def pages(page, tmp_path_factory):
+    """The pages of an optimization, a front and a workspace."""
+    place = tmp_path_factory.mktemp("pages")
+    g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral(4.0, 2.4)
+    box, criteria = ([-2.0, -2.0, 3.0], [2.0, 2.0, 7.0]), {"leg_limits": (2.5, 6.5)}
+    space = nd.workspace(g, box, criteria=criteria, home=home, tolerance=0.1)
+    bodies = ("base_external", "base_internal", "platform_external", "platform_internal")
+    asked = {
+        "geometry": {name: getattr(g, name) for name in bodies},
+        "home": {name: getattr(home, name) for name in ("position", "rotation", "internal_point")},
+        "criteria": criteria,
+    }
+    front = nd.pareto(
+        nd.Study(constraints={"leg_length": (None, 9.0)}, starts=4), "radius_ratio", values=[2.0, 2.5, 4.0]
+    )
+    made = {"optimization": page}
+    for name, run in (("front", front), ("workspace", space)):
+        (place / name).mkdir()
+        write_run(run, place / name, asked=asked if run is space else None)
+        (place / name / "mechanism.svg").write_text(STILL)
+        made[name] = nd.report(place / name)
+    return made
+
+
+@pytest.mark.parametrize("name", ["optimization", "front", "workspace"])
+def test_nothing_overflows_and_the_view_is_drawn_at_phone_and_desktop_width(browser, pages, name):
+    browser.errors.clear()
+    browser.messages.clear()
+    for width in WIDTHS:
+        browser.open(pages[name], width, 800)
+        root = "document.documentElement"
+        assert browser.run(f"{root}.scrollWidth") <= browser.run(f"{root}.clientWidth"), width
+        assert browser.run(f"{root}.dataset.scene") == "ready"
+        assert browser.run(DRAWN) > 8
+    assert browser.errors == []
+    assert browser.messages == []
+
+
+def test_another_pose_has_another_condition_number(browser, pages):
+    browser.open(pages["optimization"])
+    first = browser.run("document.getElementById('kappa').textContent")
+    browser.run("document.querySelector('[data-view=top]').click()")
+    browser.run(OTHER_POSE)
+    assert browser.run("document.getElementById('kappa').textContent") != first
+
+
+@pytest.mark.parametrize("name", ["optimization", "front", "workspace"])
+def test_tables_fit_the_paper(browser, pages, name):
+    browser.open(pages[name], PAPER, 1000, media="print")
+    assert browser.run(WIDE) == []
+    assert browser.run(BROKEN) == 0
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs the program pdftotext (Debian: poppler-utils)")
+def test_no_row_is_broken_over_pages_of_a_pdf(browser, pages, tmp_path):
+    browser.open(pages["optimization"], PAPER, 1000, media="print")
+    rows = browser.run(ROWS)
+    browser.pdf(tmp_path / "it.pdf")
+    done = subprocess.run(
+        ["pdftotext", "-layout", tmp_path / "it.pdf", "-"], capture_output=True, text=True, check=True
+    )
+    sheets = [set(text.split()) for text in done.stdout.split("\f") if text.strip()]
+    assert len(sheets) > 2
+    assert len(rows) > 40
+    for row in rows:
+        assert any(set(row.split()) <= words for words in sheets), row

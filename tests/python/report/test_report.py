@@ -12,16 +12,19 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from body_volume import body_volume
 
 import ninedof as nd
+from ninedof import _core
 from ninedof.cli.app import main
+from ninedof.cli.job_report import with_report
+from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
 from ninedof.pareto.limited import without_degrees
 from ninedof.report import origin
-from ninedof.report.body import surface_net
 from ninedof.report.markup import Html, table, tag
 from ninedof.report.numbers import short
-from ninedof.report.scene import region_lines
+from ninedof.report.question import FAMILIES
 from ninedof.runs.folder import Record
 
 IMPOSSIBLE = {"height": (None, 1.0), "leg_length": (3.0, None), "footprint": (None, 1.0)}
@@ -112,7 +115,8 @@ def test_the_view_shows_the_machine_and_its_worst_poses(page, result):
     assert float(nd.condition_number(g, c)) == pytest.approx(result.objective, rel=1e-3)
     np.testing.assert_allclose([float(x) for x in worst["lengths"]], nd.leg_lengths(g, c), rtol=1e-4)
     assert scene["unit"] == "m"
-    assert np.ptp(np.vstack(scene["region"]), axis=0) == pytest.approx([0.4, 0.4, 0.2], abs=1e-4)
+    assert len(machine["body"]["faces"]) > 100
+    assert np.ptp(np.vstack(machine["region"]), axis=0) == pytest.approx([0.4, 0.4, 0.2], abs=1e-4)
 
 
 def test_an_infeasible_run_says_why_and_shows_no_machine(tmp_path):
@@ -140,13 +144,21 @@ def test_a_front_has_a_machine_for_each_point(tmp_path):
     front = nd.pareto(study, "footprint", values=[1.0, 40.0, 60.0])
     nd.save(front, tmp_path / "front")
     text, _, words = read(nd.report(tmp_path / "front"))
-    assert [m["name"] for m in scene_of(text)["machines"]] == ["point 2: footprint 40", "point 3: footprint 60"]
+    scene = scene_of(text)
+    assert [m["name"] for m in scene["machines"]] == ["point 2: footprint 40", "point 3: footprint 60"]
+    assert scene["machines"][scene["start"]]["name"] == "point 2: footprint 40"  # the other limit has no effect
+    assert "Of point 2, the least objective; the front has no knee." in words
+    assert "Point 2. " in words
+    assert "ninedof workspace RUN#2 " in words
+    for leg in front.results[1].sheet().legs:
+        assert f"{leg.longest:.5f}" in words
     assert f"{front.objectives[2]:.6f}" in words
     assert front.results[0].reason.split(";")[0].replace("_", " ") in words
     point = nd.report(f"{tmp_path / 'front'}#2")
     assert point.name == "report-2.html"
     words = read(point)[2]
     assert "front#2" in words
+    assert "ninedof workspace RUN#2 " in words
     assert "ninedof pareto study.toml --against footprint --value 1.0 --value 40.0 --value 60.0" in words
     assert "optimize study.toml" not in words
     assert "same bits" not in words
@@ -200,10 +212,11 @@ def test_a_job_ends_with_its_report(tmp_path, capsys):
     assert f"{record.volume:.6g}" in words
     assert "every leg keeps to its limits" in words
     scene = scene_of(text)
-    points = np.array(scene["body"]["vertices"])
+    body = scene["machines"][0]["body"]
+    points = np.array(body["vertices"])
     assert (points.min(axis=0) >= record.low - 1e-9).all()
     assert (points.max(axis=0) <= record.high + 1e-9).all()
-    assert body_volume(scene["body"]) == pytest.approx(record.volume, rel=0.1)
+    assert body_volume(body) == pytest.approx(record.volume, rel=0.1)
 
 
 def test_a_workspace_that_was_saved_has_no_question_and_no_machine(tmp_path, reach):
@@ -244,6 +257,20 @@ def test_optimize_writes_its_report_and_lists_it(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "command", ["", "ninedof optimize 'my study.toml' --out <b>", "ninedof pareto --resume --out x"]
+)
+def test_the_page_shows_the_command_that_made_the_run(command):
+    """As it was typed, beside the one that solves the study of the page."""
+    study = nd.Study.paper()
+    shown = origin.of_study(study, "ninedof optimize study.toml", Record("optimization", study, {}, command=command))
+    words = unescape(re.sub(r"<[^>]*>", " ", shown))
+    assert "ninedof optimize study.toml" in words
+    assert ("The command that made it:" in words) == bool(command)
+    assert command in words
+    assert ("without --resume it begins anew" in words) == ("--resume" in command)
+
+
+@pytest.mark.parametrize(
     ("error", "said"),
     [
         (OSError(28, "No space left [on device]"), "[Errno 28] No space left [on device]"),
@@ -272,30 +299,24 @@ def test_a_report_that_fails_does_not_fail_the_job(tmp_path, monkeypatch, capsys
     assert len(nd.load(place)) == 1
 
 
+@pytest.mark.parametrize("fails", [False, True])
+def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatch, fails):
+    """Neither where the continued run writes none, nor where its own page fails."""
+
+    def broken(folder):
+        raise ValueError("no page")
+
+    monkeypatch.setattr("ninedof.cli.job_report.report", broken)
+    (tmp_path / "report.html").write_text("interrupted")
+    assert with_report(None, fails, Screen(False))(tmp_path) == []
+    assert not (tmp_path / "report.html").exists()
+
+
 def test_the_command_names_its_option(folder, capsys):
     with pytest.raises(SystemExit) as ended:
         main(["report", str(folder), "--out", str(folder / "none" / "it.html")])
     assert ended.value.code == 2
     assert "--out: got" in capsys.readouterr().err
-
-
-def body_volume(body):
-    """Volume inside the faces, by the divergence theorem: positive where they face outward."""
-    points = np.array(body["vertices"])
-    points = points - points.mean(axis=0)
-    quads = points[np.array(body["faces"])]
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    return float(np.linalg.det(triangles).sum() / 6.0)
-
-
-def test_the_surface_net_of_a_ball_is_closed_and_faces_outward():
-    x = np.arange(24) - 11.5
-    distance = np.sqrt(x[:, None, None] ** 2 + x[:, None] ** 2 + x**2)
-    points, faces = surface_net(np.clip(8.5 - distance, 0.0, 1.0), 0.5)
-    edges = np.sort(np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
-    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
-    assert np.linalg.norm(points - 11.5, axis=1) == pytest.approx(8.0, abs=0.25)
-    assert body_volume({"vertices": points, "faces": faces}) == pytest.approx(4 / 3 * np.pi * 8.0**3, rel=0.03)
 
 
 @pytest.mark.parametrize(
@@ -336,20 +357,6 @@ def test_a_machine_in_metres_keeps_its_digits(tmp_path):
         assert f"{leg.longest:.7f}" in words
 
 
-@pytest.mark.parametrize(
-    ("region", "reach"),
-    [
-        (nd.Region(ball=2.0), (2.0, 2.0, 2.0)),
-        (nd.Region(cylinder=(2.0, 3.0)), (2.0, 2.0, 3.0)),
-        (nd.Region(box=(0.1, 0.2, 0.3), unit="zp"), (0.5, 1.0, 1.5)),
-        (nd.Region(path=[[0, 0, 0], [1, 2, 3]]), (0.5, 1.0, 1.5)),
-    ],
-)
-def test_a_region_is_outlined_at_its_size(region, reach):
-    points = np.vstack(region_lines(region, nd.Configuration.neutral(zp=5.0, zs=3.0)))
-    assert 0.5 * np.ptp(points, axis=0) == pytest.approx(reach, abs=1e-4)
-
-
 def test_text_is_escaped_wherever_it_is_put():
     nasty = '<script>alert("x")</script>'
     assert "<script>" not in table(nasty, (nasty, "b"), [(nasty, nasty)])
@@ -376,3 +383,7 @@ def test_a_result_in_memory_needs_a_path(result, tmp_path):
         nd.report(result)
     with pytest.raises(ValueError, match="a file in a folder that exists"):
         nd.report(result, tmp_path / "none" / "it.html")
+
+
+def test_every_family_of_designs_has_its_words():
+    assert set(FAMILIES) == set(_core.design_family_names())

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.runs.figures import _curves, _pose_name, figures_of
+from ninedof.runs.figures import _curves, _pose_name, _pose_names, figures_of
 from ninedof.runs.folder import write_run
 
 STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
@@ -42,6 +42,17 @@ def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
 def test_poses_are_named_by_their_shifts():
     poses = (nd.Pose(), nd.Pose((0.1, 0.0, -0.2), unit="zp"), nd.Pose(rotation=(0.0, np.radians(10), 0.0)))
     assert [_pose_name(pose) for pose in poses] == ["neutral", "x +0.1 zp, z \N{MINUS SIGN}0.2 zp", "θy +10°"]
+
+
+def test_poses_have_the_numbers_of_the_sheet():
+    study = replace(nd.Study.paper(), objective={"poses": nd.poses.box((0.1, 0.0, 0.2))})
+    result = nd.optimize(study, starts=2)
+    names, sheet = _pose_names(result, len(result.best.conditions)), nd.sheet(result)
+    assert len(names) == len(sheet.configurations) - 1 == 9
+    for k, name in enumerate(names, start=1):  # 0 is the neutral pose
+        shift = sheet.configurations[k].position - sheet.configurations[0].position
+        said = [f"{axis} {x:+.3g}" for axis, x in zip("xyz", shift, strict=True) if abs(x) > 1e-12]
+        assert name == (", ".join(said).replace("-", "\N{MINUS SIGN}") or "neutral")
 
 
 def test_no_figures_without_an_optimum(tmp_path):

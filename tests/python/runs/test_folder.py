@@ -10,6 +10,7 @@ import ninedof as nd
 from ninedof.cli.chosen_design import named_design
 from ninedof.paper.comparison import compare
 from ninedof.runs.folder import Record, load, load_record, write_record, write_run
+from ninedof.support.command import running
 from ninedof.support.json import decode, encode
 
 
@@ -177,3 +178,12 @@ def test_a_record_changed_by_hand_is_refused_by_name(tmp_path, candidates):
     write_record(Record("optimization", nd.Study(), {"optimization": {"candidates": candidates}}), tmp_path)
     with pytest.raises(ValueError, match=str(tmp_path)):
         nd.load(tmp_path)
+
+
+def test_a_record_keeps_the_command_line_and_older_ones_have_none(tmp_path):
+    with running("ninedof", ["optimize", "my study.toml"]):
+        made = record()
+    assert load_record(write_record(made, tmp_path)).command == "ninedof optimize 'my study.toml'"
+    without = record()
+    assert "command" not in json.loads(write_record(without, tmp_path).read_text())
+    assert load_record(tmp_path).command == ""

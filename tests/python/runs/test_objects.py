@@ -108,3 +108,26 @@ def test_a_damaged_motion_is_named(published, tmp_path):
     file.write_bytes(file.read_bytes()[:200])
     with pytest.raises(ValueError, match=r"motion\.npz"):
         nd.load(tmp_path / "path")
+
+
+def test_a_design_of_a_run_has_the_characteristic_length_of_the_run(tmp_path):
+    """In millimetres the default of 1 is far from the length of the run; a design file, MJCF and CSV keep it."""
+    study = nd.Study(
+        variables={"a1": (0, 900), "a2": (0, 900), "b1": (0, 450), "b2": (0, 450), "zp": (300, 700), "zs": (50, 650)},
+        constraints={"radius_ratio": (None, 2.0)},
+        characteristic_length=150.0,
+        starts=2,
+        unit="mm",
+    )
+    run = nd.load(nd.save(nd.optimize(study), tmp_path / "run"))
+    design = nd.Design(run.geometry, run.configuration, run.characteristic_length, "mm")
+    files = [nd.save(design, tmp_path / "design.toml"), nd.export(run, "csv", tmp_path / "a.csv")]
+    for found in (run, *map(nd.load, [*files, nd.export(run, "mjcf", tmp_path / "a.xml")])):
+        scale = 1e3 if found.geometry.base_external.max() < 10.0 else 1.0  # MJCF is in metres
+        assert found.characteristic_length * scale == pytest.approx(150.0, rel=1e-12)
+        assert found.condition_number == pytest.approx(run.condition_number, rel=1e-9)
+        own = {"characteristic_length": found.characteristic_length}
+        assert nd.condition_number(found.geometry, found.configuration, **own) == pytest.approx(found.condition_number)
+        swept = nd.sweep(found.geometry, found.configuration, {"theta_z": [0.0]}, **own)
+        assert swept["condition_number"][0] == pytest.approx(found.condition_number, rel=1e-12)
+        assert nd.sheet(found).condition_number.value == pytest.approx(found.condition_number, rel=1e-12)

@@ -113,8 +113,8 @@ def test_every_number_of_random_robots(seed):
         assert getattr(found.stiffness, name) == (pytest.approx(1.0 / soft.max(), rel=1e-7), int(soft.argmax()))
 
 
-@pytest.mark.parametrize("internal", ["rest", "carried"])
-def test_leg_speeds_with_o_at_rest_and_carried(internal):
+@pytest.mark.parametrize("internal", ["held", "carried"])
+def test_leg_speeds_with_o_held_and_carried(internal):
     g, c, models, _ = robots_at_poses(11)
     found = nd.sheet(g, c, linear_speed=2.0, angular_speed=0.5, internal=internal)
     worst = []
@@ -131,7 +131,7 @@ def test_the_rule_of_o_is_that_of_the_poses():
     g, c, _, _ = robots_at_poses(3)
     o = np.broadcast_to(c.internal_point[0], (5, 3))
     rest = nd.sheet(g, nd.Configuration(c.position, c.rotation, o))
-    assert rest.motion.internal == "rest"
+    assert rest.motion.internal == "held"
     assert rest.idle == ("r1", "r2", "r3")
     assert [leg.speed for leg in rest.legs[6:]] == [0.0, 0.0, 0.0]
     own = c.rotation[0].T @ (c.internal_point[0] - c.position[0])

@@ -25,12 +25,12 @@ def moved(c, internal, twist, rate, t):
     turn = Rotation.from_rotvec(twist[:3] * t + 0.5 * rate[:3] * t * t).as_matrix()
     shift = twist[3:] * t + 0.5 * rate[3:] * t * t
     arm = c.internal_point - c.position
-    s = {"rest": c.internal_point, "shifted": c.internal_point + shift, "carried": c.position + shift + turn @ arm}
+    s = {"held": c.internal_point, "shifted": c.internal_point + shift, "carried": c.position + shift + turn @ arm}
     return nd.Configuration(c.position + shift, turn @ c.rotation, s[internal])
 
 
 @pytest.mark.parametrize("seed", range(size(3, 50)))
-@pytest.mark.parametrize("internal", ["rest", "shifted", "carried"])
+@pytest.mark.parametrize("internal", ["held", "shifted", "carried"])
 def test_a_given_twist_against_differences_of_lengths(seed, internal):
     g, c, rng = robots_at_poses(seed, poses=3)
     twist, rate = rng.normal(size=(2, 6))
@@ -62,7 +62,7 @@ def test_least_squares_of_accelerations(seed):
     assert got == pytest.approx(zero + along @ best, abs=1e-9)
 
 
-@pytest.mark.parametrize("internal", ["least", "rest", "shifted", "carried"])
+@pytest.mark.parametrize("internal", ["least", "held", "shifted", "carried"])
 @pytest.mark.parametrize("seed", range(size(2, 30)))
 def test_no_direction_accelerates_a_leg_more(seed, internal):
     g, c, rng = robots_at_poses(seed, poses=1)
@@ -141,7 +141,7 @@ def test_no_way_meets_a_singularity_before_the_nearest(seed):
         assert far.min() >= near.distance * (1.0 - 1e-6)
         assert far[near.pose, -1] == pytest.approx(near.distance, rel=1e-9)
     high = nd.Configuration.neutral(4.0, [3.5])
-    plane = nd.sheet(nd.Geometry.hexagonal(0.0, 5.0, 2.0, 0.0), high, internal="rest").singularities["internal"]
+    plane = nd.sheet(nd.Geometry.hexagonal(0.0, 5.0, 2.0, 0.0), high, internal="held").singularities["internal"]
     assert plane.distance == pytest.approx(0.5)  # from O to the plane of the upper joints
     assert plane.mechanism == "c"
 

@@ -19,6 +19,7 @@ OPTIONS = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 ]
+FLAT = ["--headless=new", "--no-sandbox", "--disable-gpu"]  # for pages without WebGL: starts and paints faster
 
 
 class Page:
@@ -28,6 +29,7 @@ class Page:
         self._socket = socket
         self._number = 0
         self.errors = []
+        self.messages = []  # of the console, and those of the browser once `listen` was called
 
     def call(self, method, **parameters):
         self._number += 1
@@ -36,6 +38,10 @@ class Page:
             answer = json.loads(self._socket.recv(timeout=60))
             if answer.get("method") == "Runtime.exceptionThrown":
                 self.errors.append(answer["params"]["exceptionDetails"]["exception"].get("description", ""))
+            elif answer.get("method") == "Runtime.consoleAPICalled":
+                self.messages.append(" ".join(str(one.get("value", one)) for one in answer["params"]["args"]))
+            elif answer.get("method") == "Log.entryAdded":
+                self.messages.append(answer["params"]["entry"]["text"])
             if answer.get("id") == self._number:
                 assert "error" not in answer, answer
                 return answer["result"]
@@ -59,6 +65,23 @@ class Page:
             for kind in ("keyDown", "keyUp"):
                 self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=KEYS[name])
 
+    def listen(self):
+        """Also note what the browser says of a page: what it did not load, a policy that was broken."""
+        self.call("Log.enable")
+
+    def open(self, path, width=1280, height=800, media=""):
+        """Load a file in a window of a size, on screen or as it is printed."""
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.call("Emulation.setEmulatedMedia", media=media)
+        self.call("Emulation.setScrollbarsHidden", hidden=media == "print")
+        self.call("Page.navigate", url=Path(path).as_uri())
+        self.wait_for(f"document.readyState === 'complete' && location.href === {json.dumps(Path(path).as_uri())}")
+
+    def pdf(self, path):
+        """Print to A4."""
+        printed = self.call("Page.printToPDF", paperWidth=8.27, paperHeight=11.69, preferCSSPageSize=True)
+        Path(path).write_bytes(base64.b64decode(printed["data"]))
+
     def picture(self, path):
         Path(path).write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
@@ -67,13 +90,13 @@ KEYS = {"ArrowRight": 39, "ArrowLeft": 37}
 
 
 @contextlib.contextmanager
-def page(url, profile, width=1280, height=800):
+def page(url, profile, width=1280, height=800, options=OPTIONS):
     """Open a page; `profile` is an empty folder."""
     from websockets.sync.client import connect
 
     where = [f"--user-data-dir={profile}", "--remote-debugging-port=0", f"--window-size={width},{height}"]
     browser = subprocess.Popen(
-        [PROGRAM, *OPTIONS, *where, "--no-first-run", "about:blank"],
+        [PROGRAM, *options, *where, "--no-first-run", "about:blank"],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )

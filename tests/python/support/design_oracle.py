@@ -75,9 +75,9 @@ def listed_poses(objective):
     """The poses of the objective: (shift of p, rotation vector, shift of s or "best", in fractions of zp)."""
     out = []
     for pose in objective.get("poses", []):
-        s = pose.get("internal_point", objective.get("internal_point", "carried"))
+        s = pose.get("internal_point", objective.get("internal_point", "shifted"))
         position = np.array(pose.get("position", [0.0] * 3), dtype=float)
-        words = {"held": np.zeros(3), "carried": position, "best": "best"}
+        words = {"held": np.zeros(3), "shifted": position, "best": "best"}
         out.append(
             (
                 position,

@@ -14,10 +14,10 @@ LEGS = [f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3)]
 
 @functools.cache
 def machine():
-    """An optimum over the corners of a box, O carried with the platform; lengths in millimetres."""
+    """An optimum over the corners of a box, O shifted with the platform's origin; lengths in millimetres."""
     study = nd.Study(
         variables={"a1": 60.0, "a2": 500.0, "b1": 250.0, "b2": 30.0, "zp": 400.0, "zs": (100.0, 300.0)},
-        objective={"poses": nd.poses.box(half=(40.0, 40.0, 40.0), tilt_deg=(5, 5, 0), internal_point="carried")},
+        objective={"poses": nd.poses.box(half=(40.0, 40.0, 40.0), tilt_deg=(5, 5, 0), internal_point="shifted")},
         characteristic_length=150.0,
         unit="mm",
     )

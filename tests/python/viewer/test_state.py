@@ -174,6 +174,41 @@ def test_modes_of_another_design_are_not_listed():
     assert state.listed is None
 
 
+def test_the_characteristic_length_can_be_changed():
+    state = State(subject_of())
+    low, high = state.length_range
+    assert low == pytest.approx(0.25)
+    assert high == pytest.approx(4.0)
+    state.modes()
+    state.set_length(1.7)
+    g, c = state.geometry, state.configuration
+    assert state.numbers().condition_number == pytest.approx(nd.condition_number(g, c, 1.7), rel=1e-12)
+    assert state.numbers().condition_number != pytest.approx(nd.condition_number(g, c), rel=1e-3)
+    assert state.design.characteristic_length == 1.7
+    assert state.listed is None
+    assert not state.unmoved
+    state.set_variables({"a1": 0.1})
+    assert state.yardstick.length == 1.7
+    state.reset_design()
+    assert state.yardstick.length == 1.0
+    assert state.unmoved
+
+
+def test_a_free_characteristic_length_is_a_variable():
+    study = nd.Study(family="hexagonal", characteristic_length=(0.5, 6.0))
+    found = nd.optimize(study, starts=2, seed=1)
+    state = State(subject_of(found))
+    best = found.variables["characteristic_length"]
+    assert state.yardstick.length == best
+    low, high = state.length_range
+    assert 0.5 <= low <= best < high <= 6.0
+    state.set_length(1.1 * best)
+    assert state.variables["characteristic_length"] == 1.1 * best
+    assert state.yardstick.length == 1.1 * best
+    state.reset_design()
+    assert state.yardstick.length == best
+
+
 def test_what_is_shown_is_a_design_file(tmp_path):
     state = State(subject_of())
     state.set_pose(turn_deg=(0.0, 8.0, 0.0))

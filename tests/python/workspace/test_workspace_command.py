@@ -11,10 +11,12 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.cli.workspace_limits import compare_poses, narrowed
+from ninedof.cli.workspace_limits import compare_poses
+from ninedof.cli.workspace_summary import _planes, _section
 from ninedof.paper.published import published_variables
 from ninedof.runs.folder import write_run
 from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
+from ninedof.workspace.study_question import narrowed
 
 BOX = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0])
 LEGS = {"leg_limits": (2.5, 6.5)}
@@ -45,6 +47,16 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
     assert record["results"]["workspace"]["volume"] == numbers["volume"]
     assert record["question"]["criteria"]["leg_limits"] == [2.5, 6.5]
     assert nd.WorkspaceMap.load(tmp_path / "run" / "map.npz").volume == numbers["volume"]
+
+
+def test_the_horizontal_section_goes_through_home(published):
+    found = nd.workspace(published, BOX, criteria=LEGS, internal_point=OWN, tolerance=0.1, home=HOME)
+    sections = [_section(found, HOME, None, found.ball_centre, *plane) for plane in _planes(found, HOME, np.ones(3))]
+    assert [section.plane.plane[0] for section in sections] == ["y", "x", "z"]
+    assert sections[2].plane.plane[1] == HOME.position[2]
+    assert_allclose(sections[2].home, [0.0, 0.0])
+    away = nd.Configuration.neutral(zp=50.0, zs=25.0)  # no section has it
+    assert [at for _, at in _planes(found, away, np.array([0.2, -0.4, 4.0]))] == [-0.4, 0.2, 4.0]
 
 
 def test_the_command_with_orientations_and_with_an_empty_workspace(tmp_path, capsys):

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.design.region import Region
 from ninedof.workspace import WorkspaceField
-from ninedof.workspace.region_share import region_lines
 from ninedof.workspace.surface import surface_of
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
@@ -62,7 +60,7 @@ def test_the_boundary_has_the_limit_that_is_reached_there(found):
 def test_field_and_body_have_the_volume_of_the_map(found):
     cell = np.prod([axis[1] - axis[0] for axis in found.field.axes])
     assert found.field.fraction.sum() * cell == pytest.approx(found.volume, rel=1e-3)
-    assert found.surface().volume == pytest.approx(found.volume, rel=0.06)
+    assert found.surface().volume == pytest.approx(found.volume, rel=0.02)
 
 
 def ball(n, radius=0.8):
@@ -97,20 +95,3 @@ def test_a_grid_and_orientations_have_fields_too():
     for ask in (sample.surface, lambda: sample.field, lambda: sample.slice("z", 4.0, smooth=True)):
         with pytest.raises(ValueError, match="got a sample, expected a map of cells"):
             ask()
-
-
-@pytest.mark.parametrize(
-    ("region", "lines"),
-    [({"box": [0.3, 0.2, 0.1]}, 6), ({"ball": 0.3}, 3), ({"cylinder": [0.3, 0.1]}, 6)],
-)
-def test_the_lines_of_a_region_lie_on_its_surface(region, lines):
-    found = region_lines(Region(**region), HOME)
-    assert len(found) == lines
-    at = np.concatenate(found) - HOME.position
-    if "ball" in region:
-        assert np.linalg.norm(at, axis=1) == pytest.approx(0.3)
-    elif "box" in region:
-        assert np.abs(at) == pytest.approx(np.broadcast_to([0.3, 0.2, 0.1], at.shape))
-    else:
-        assert np.hypot(at[:, 0], at[:, 1]) == pytest.approx(0.3)
-        assert np.abs(at[:, 2]) == pytest.approx(0.1)

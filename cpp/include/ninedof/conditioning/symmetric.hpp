@@ -49,8 +49,8 @@ struct Pair {
 };
 
 /// Singular values of [[g, f], [0, w]] times `scale`, from |g|, |f|^2 and |w|.
-template <class T>
-Pair<T> triangular_block(const T& g, const T& f_squared, const T& w, double scale) {
+template <class T, class Scale>
+Pair<T> triangular_block(const T& g, const T& f_squared, const T& w, const Scale& scale) {
   using std::sqrt;
   const T sum = sqrt(square(g + w) + f_squared) + sqrt(square(g - w) + f_squared);  // 2 sigma_max
   if (!(value_of(sum) != 0.0)) return {sum, sum};
@@ -75,6 +75,7 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characterist
   using detail::shared;
   using std::abs;
   using std::sqrt;
+  using Plain = PlainNumber<T>;  // over intervals the factors of the blocks are enclosed too
   const Length inverse_lc = 1.0 / characteristic_length;
 
   // External leg 1: x = (p - r) + u. Its moment u x x / (l l_c) is formed as u x (p - r) / (l l_c).
@@ -100,7 +101,7 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characterist
   const T r = sqrt(lower_radius2 + square(lower_z));
 
   const T axial_w = shared(abs(upper_z), q, abs(lower_z), r);
-  const detail::Pair<T> axial = detail::triangular_block(abs(mz), square(ez), axial_w, std::sqrt(3.0));
+  const detail::Pair<T> axial = detail::triangular_block(abs(mz), square(ez), axial_w, sqrt(Plain(3.0)));
 
   const T eta = rho * inverse_lc;
   const T stretch2 = 1.0 + square(eta);
@@ -108,7 +109,7 @@ AxisSpectrum<T> axis_spectrum(const AxisDesign<T>& d, const Length& characterist
   const T g = sqrt(square(mx + eta * ey) + square(my - eta * ex)) / stretch;
   const T f_squared = (square(ex + eta * my) + square(ey - eta * mx)) / stretch2;
   const T w = shared(sqrt(upper_radius2), q, sqrt(lower_radius2), r) * stretch;
-  const detail::Pair<T> transverse = detail::triangular_block(g, f_squared, w, std::sqrt(1.5));
+  const detail::Pair<T> transverse = detail::triangular_block(g, f_squared, w, sqrt(Plain(1.5)));
 
   return {axial.max, axial.min, transverse.max, transverse.min, l, q, r};
 }

@@ -56,7 +56,7 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
                                  const RegionSettings& settings, const Control& control = {});
 
 /// The best place of O at given poses of a region, by their coordinates: where the worst of the index and of all limits
-/// is least. From O carried and held, and from the shifts `known` where both leave something passed.
+/// is least. From O shifted and held, and from the shifts `known` where both leave something passed.
 std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
                                        const PlacementGoal& goal, const std::vector<Vec3>& known,
                                        const std::vector<Vec6>& at, int threads = 0, const Control& control = {});

@@ -148,6 +148,9 @@ template Eigen::Index Svd<9>::rank(double) const;
 Svd<3> jacobi_svd(const Mat3& a) {
   return decomposed(a);
 }
+Svd<6> jacobi_svd(const Mat6& a) {
+  return decomposed(a);
+}
 Svd<9> jacobi_svd(const Mat9& a) {
   return decomposed(a);
 }

@@ -18,6 +18,7 @@ struct Svd {
   Eigen::Index rank(double threshold) const;
 };
 Svd<3> jacobi_svd(const Mat3& a);
+Svd<6> jacobi_svd(const Mat6& a);
 Svd<9> jacobi_svd(const Mat9& a);
 
 /// Singular values, descending, and the right singular vectors in the same order, one a column.

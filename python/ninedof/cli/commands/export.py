@@ -11,9 +11,11 @@ from ninedof.cli import options
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.screen import Screen
 from ninedof.export.export import export as write
+from ninedof.export.export import options_of
 from ninedof.export.formats import FORMATS
 from ninedof.support.arguments import choice
 from ninedof.support.extras import MissingExtra
+from ninedof.support.files import own_or_new
 from ninedof.support.units import unit_argument
 
 PLACE = 4
@@ -54,8 +56,17 @@ def export(
     file = out or Path(_stem(design) + FORMATS[name].suffix)
     if file.resolve() == Path(design).resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
+    if not file.absolute().parent.is_dir():
+        raise ValueError(f"--out: got {file}, expected a file in a folder that exists")
     given = {"leg_mass": leg_mass, "platform_mass": platform_mass, "gravity": gravity}
     kept = {key: value for key, value in given.items() if value is not None}
+    taken = options_of(name)
+    for key in kept.keys() - taken:
+        what = ", ".join(map(_typed, taken)) or "no option"
+        raise ValueError(f"{_typed(key)}: got {kept[key]:g} with --to {name}, which takes {what}")
+    own_or_new("--out", file, FORMATS[name].mark)
+    for suffix, mark in FORMATS[name].beside:
+        own_or_new("--out", file.with_suffix(suffix), mark)
     own = chosen.unit if unit is None else unit_argument(unit)
     try:
         written = write(chosen.result or chosen.design, name, file, unit=own, **kept)
@@ -74,6 +85,10 @@ def _by_suffix(out: Path | None) -> str:
         suffixes = ", ".join(row.suffix for row in FORMATS.values())
         raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {suffixes}")
     return found[0]
+
+
+def _typed(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
 
 
 def _stem(design: str) -> str:

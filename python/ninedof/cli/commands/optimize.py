@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -9,13 +10,16 @@ import typer
 from ninedof.cli.comparison_table import comparison_table, comparison_words
 from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.options import Figures, Json, Out, Report, Starts, StudyFile, Threads
-from ninedof.cli.result_table import price_text, result_table
+from ninedof.cli.result_table import price_text, proof_words, result_table
 from ninedof.cli.screen import Screen, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
+from ninedof.optimize.optimize import proved
 from ninedof.optimize.result import Result
 from ninedof.paper.comparison import Comparison, compare
+from ninedof.proof.optimum import FILE as CERTIFICATE
+from ninedof.proof.optimum import left_out_of
 from ninedof.runs.describe import describe_comparison
 from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import figures_of
@@ -30,6 +34,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof optimize                         the paper's problem, beside the published optimum
 
   ninedof optimize study.toml --out run1   a study of your own, run folder run1
+
+  ninedof optimize study.toml --certify    with a proof of how much better any design can be
 
   ninedof optimize --json --no-figures | jq .optimization.status"""
 
@@ -49,6 +55,9 @@ def optimize(
     check: Annotated[
         bool, typer.Option("--check", help="Verify the best design by independent methods and print the report.")
     ] = False,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Also prove how much better a design of the study can be at most.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Find the best design of a study: by default, the design with the least condition number."""
@@ -57,8 +66,13 @@ def optimize(
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
     if convergence and not figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
+    if certify:
+        left_out_of(chosen)  # raises where no proof is known, before the work
     directory = new_directory(out)
-    run = _solve_paper(chosen, threads, screen) if study is None else _solve_study(chosen, study.name, threads, screen)
+    if study is None:
+        run: Comparison | Result = _solve_paper(chosen, threads, certify, screen)
+    else:
+        run = _solve_study(chosen, study.name, threads, certify, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
     draw = figures_of(run, screen.say, convergence) if figures else None
@@ -69,32 +83,40 @@ def optimize(
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     stems = sorted({path.stem for path in directory.glob("*.png")})
     drawn = f", figures {', '.join(stems)} (PNG, SVG, PDF)" if stems else ""
-    screen.print(f"run folder {directory}: {record.name}{drawn}{report_words(directory)}")
+    proof = f", {CERTIFICATE}" if (directory / CERTIFICATE).is_file() else ""
+    screen.print(f"run folder {directory}: {record.name}{proof}{drawn}{report_words(directory)}")
     screen.data({**unit_entry(chosen.unit), **data, "record": str(record)})
     raise typer.Exit(exit_status(result))
 
 
-def _solve_paper(study: Study, threads: int | None, screen: Screen) -> Comparison:
+def _solve_paper(study: Study, threads: int | None, certify: bool, screen: Screen) -> Comparison:
     with screen.progress("the paper's problem") as bar:
         comparison = compare(study.starts, study.seed, threads, bar.show)
+        if certify and comparison.result.best is not None and not comparison.result.interrupted:
+            comparison = replace(comparison, result=proved(comparison.result, threads, bar))
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
+    if comparison.result.proof is not None:
+        screen.print(proof_words(comparison.result))
     if comparison.result.interrupted:
         screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
     return comparison
 
 
-def _solve_study(study: Study, name: str, threads: int | None, screen: Screen) -> Result:
+def _solve_study(study: Study, name: str, threads: int | None, certify: bool, screen: Screen) -> Result:
     for variable in study.defaulted:
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
-        result = solve(study, threads=threads, progress=bar)
+        result = solve(study, threads=threads, progress=bar, certify=certify)
     screen.print(f"[bold]{result.status}[/bold]: {result.reason}")
     if result.candidates:
         screen.print(result_table(result))
         screen.print(*price_text(result))
         for bound in applicable_bounds(result):
-            screen.print(bound.sentence)
+            if bound.name != "certificate":
+                screen.print(bound.sentence)
+        if result.proof is not None:
+            screen.print(proof_words(result))
     return result

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.table import Table
 
-from ninedof.cli.options import Json, Threads
+from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.options import Json, Report, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts
 from ninedof.runs.directory import new_directory
+from ninedof.runs.folder import Record, write_drawn
 from ninedof.runs.paper_figures import paper_figures
 from ninedof.support.arrays import thread_argument
 
@@ -27,6 +31,7 @@ def paper(
     figures: Annotated[bool, typer.Option("--figures", help="Draw the seven figures of the paper too.")] = False,
     out: Annotated[Path | None, typer.Option(help="Folder of the figures; runs/<time> by default.")] = None,
     threads: Threads = None,
+    report: Report = True,
     json: Json = False,
 ) -> None:
     """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
@@ -44,7 +49,10 @@ def paper(
     for v in found:
         table.add_row(v.where, v.printed, v.ours, v.verdict, end_section=True)
     screen.print(table)
+    rows = [asdict(v) for v in found]
     if directory is not None:
-        paper_figures(directory, screen.say)
-        screen.print(f"folder {directory}: figure_1 to figure_7 (PNG, SVG, PDF)")
-    screen.data([{"where": v.where, "printed": v.printed, "ours": v.ours, "verdict": v.verdict} for v in found])
+        record = Record("paper", {}, {"verdicts": rows})
+        path = write_drawn(record, directory, with_report(partial(paper_figures, say=screen.say), report, screen))
+        words = report_words(directory)
+        screen.print(f"run folder {directory}: {path.name}, figure_1 to figure_7 (PNG, SVG, PDF){words}")
+    screen.data(rows)

@@ -16,7 +16,7 @@ from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Repor
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
 from ninedof.design.study import Study
 from ninedof.motion import Trajectory, follow
-from ninedof.motion.internal_point import RULES
+from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
@@ -161,11 +161,10 @@ def _with_weight(load: dict[str, Any], weight: Weight | None, trajectory: Trajec
 
 
 def _rule(text: str | None, study: Study | None) -> str | float:
-    """Return the rule for O: that of the option, or of the region of a study, which carries O in base axes."""
+    """Return the rule for O: that of the option, or of the region of a study."""
     if text is None:
         region = study.objective.region if study else None
-        own = None if region is None else "shifted" if region.internal_point == "carried" else region.internal_point
-        return own if own in RULES else "carried"
+        return "carried" if region is None else region.internal_point
     if text in RULES:
         return text
     try:

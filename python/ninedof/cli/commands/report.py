@@ -10,8 +10,10 @@ import typer
 from ninedof.cli.options import Json
 from ninedof.cli.screen import Screen
 from ninedof.report.report import report as write_report
+from ninedof.support.files import own_or_new
 
 PLACE = 3
+MARK = "Made by ninedof"  # in every report
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof report runs/20260101-120000                 report.html in the run folder
@@ -32,6 +34,8 @@ def report(
     screen = Screen(json)
     if out is not None and not out.absolute().parent.is_dir():
         raise ValueError(f"--out: got {out}, expected a file in a folder that exists")
+    if out is not None:
+        own_or_new("--out", out, MARK)
     file = write_report(run, out)
     screen.print(f"report {file}, {file.stat().st_size / 1e6:.2f} MB: open it in a browser")
     screen.data({"report": str(file)})

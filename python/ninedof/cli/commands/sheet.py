@@ -15,9 +15,10 @@ from ninedof.cli.screen import Screen
 from ninedof.cli.sheet_tables import sheet_tables
 from ninedof.sheet.sheet import sheet as sheet_of
 from ninedof.support.arguments import finite
-from ninedof.support.files import write_whole
+from ninedof.support.files import own_or_new, write_whole
 
 PLACE = 3
+MARK = "leg,shortest"  # begins a table of legs
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof sheet runs/20260101-120000 --csv legs.csv
@@ -34,7 +35,7 @@ def sheet(
     speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0,
     turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0,
     internal: Annotated[
-        str | None, typer.Option(help="How O moves: least, rest, shifted or carried; as in the poses by default.")
+        str | None, typer.Option(help="How O moves: least, held, shifted or carried; as in the poses by default.")
     ] = None,
     twist: Annotated[
         str | None,
@@ -62,6 +63,8 @@ def sheet(
     screen = Screen(json)
     if csv is not None and not csv.absolute().parent.is_dir():
         raise ValueError(f"--csv: got {csv}, expected a file in a folder that exists")
+    if csv is not None:
+        own_or_new("--csv", csv, MARK)
     chosen = named_design(design)
     found = sheet_of(
         chosen.result or chosen.design,

@@ -7,14 +7,13 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import named_design, with_length
 from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
-from ninedof.cli.workspace_limits import asked_lines, compare_poses, criteria_asked, narrowed, rule_asked
+from ninedof.cli.workspace_limits import compare_poses, criteria_asked, rule_asked
 from ninedof.cli.workspace_summary import draw, region_words, sentences, workspace_table
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.design.indices import computed
@@ -26,8 +25,9 @@ from ninedof.runs.folder import write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.workspace import workspace as find_workspace
-from ninedof.workspace.region_share import box_about, leg_ranges_over, region_share
-from ninedof.workspace.study_criteria import EASE
+from ninedof.workspace.question_words import asked_lines
+from ninedof.workspace.region_share import box_about, region_share
+from ninedof.workspace.study_question import box_around, built_ranges, narrowed
 
 Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
@@ -95,7 +95,7 @@ def workspace(
     internal_point: Annotated[
         str | None,
         typer.Option(
-            help="Position of O: best, held (as at home), carried with the platform, or a fraction between the plates; "
+            help="Position of O: carried, shifted, held, best, or a fraction between the plates; "
             "by default as in the region of the run's study, else the design's."
         ),
     ] = None,
@@ -139,13 +139,11 @@ def workspace(
     home = given.configuration
     region_asked = None if study is None else study.objective.region
     criteria, own, left = criteria_asked(study if study_limits else None, float(home.position[2]), options)
-    if region_asked is not None and study_limits and places_o(region_asked) and compare_poses(left, options):
-        criteria = narrowed(criteria, *leg_ranges_over(region_asked, given.geometry, home))
-        own.discard("leg_limits")
-    elif given.leg_ranges and study_limits and compare_poses(left, options):
-        low, high = np.transpose(given.leg_ranges)
-        criteria = narrowed(criteria, low * (1.0 - EASE), high * (1.0 + EASE))
-        own.discard("leg_limits")
+    if study_limits and compare_poses(left, options):
+        built = built_ranges(given.geometry, home, region_asked, given.leg_ranges)
+        if built is not None:
+            criteria = narrowed(criteria, *built)
+            own.discard("leg_limits")
     if not criteria:
         raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
     if method == "grid":
@@ -160,13 +158,14 @@ def workspace(
     if isinstance(length, str):
         length = float(characteristic_length(given.geometry, given.configuration, length))
     fixed_position = None if archetype != "orientation" else home.position if position is None else position
+    turns = archetype not in ("constant_orientation", "orientation")
     others = {
         "archetype": archetype,
         "criteria": criteria,
         "characteristic_length": float(length),
         "region": _given(region) or None,
         "orientations": orientations,
-        "internal_point": rule_asked(internal_point, given.geometry, home, region_asked, fixed_position),
+        "internal_point": rule_asked(internal_point, given.geometry, home, region_asked, fixed_position, turns),
         "method": method,
         "tolerance": tolerance,
         "resolution": resolution,
@@ -226,8 +225,7 @@ def _place(
         return {"position": home.position if position is None else position, "rotation": home.rotation}
     if position is not None:
         raise ValueError(f"--position: got {position}, expected none but for --archetype orientation")
-    reach = max(float(np.linalg.norm(home.position)), 1e-300)
-    low, high = (home.position - reach, home.position + reach) if about is None else about
+    low, high = box_around(home) if about is None else about
     around = [(low[k], high[k]) if box[name] is None else box[name] for k, name in enumerate("xyz")]
     rotation = {"rotation": home.rotation} if archetype == "constant_orientation" else {}
     return rotation | {"box": tuple(zip(*around, strict=True))}

@@ -1,0 +1,94 @@
+#include "ninedof/proof/machine.hpp"
+
+#include <pybind11/stl.h>
+
+#include "ninedof/math/interval.hpp"
+#include "ninedof/proof/bounds.hpp"
+#include "support/arrays.hpp"
+#include "support/interruptible.hpp"
+#include "support/module.hpp"
+#include "support/region.hpp"
+
+namespace ninedof::python {
+namespace {
+
+constexpr std::size_t most_kept = 20'000;
+
+/// `region` is None or a mapping; the neutral configuration comes first in the stack, then the listed poses.
+PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
+                      double characteristic_length, const py::object& region) {
+  const ConfigurationStack all(position, rotation, internal_point);
+  PosedRobot out{g, all[0], characteristic_length, {}, {}};
+  if (!region.is_none()) {
+    out.region.push_back(region_from(region.cast<py::dict>()));
+    out.region.front().validate();
+  }
+  for (long k = 1; k < all.count(); ++k) out.poses.push_back(all[k]);
+  return out;
+}
+
+ProofSettings settings_from(const py::dict& d) {
+  ProofSettings out;
+  out.threads = d["threads"].cast<int>();
+  out.seconds = d["seconds"].cast<double>();
+  out.gap = d["gap"].cast<double>();
+  out.condition = d["condition"].cast<double>();
+  require_sound_arithmetic();
+  return out;
+}
+
+PoseQuantity quantity_from(const py::dict& d) {
+  using Kind = PoseQuantity::Kind;
+  PoseQuantity out;
+  const auto kind = d["kind"].cast<std::string>();
+  if (kind == "base_cone") out.kind = Kind::base_cone;
+  else if (kind == "platform_cone") out.kind = Kind::platform_cone;
+  else if (kind == "clearance") out.kind = Kind::clearance;
+  else if (kind == "determinant") out.kind = Kind::determinant;
+  out.item = d["item"].cast<int>();
+  out.greatest = d["greatest"].cast<bool>();
+  out.relative = d["relative"].cast<double>();
+  out.limit = d["limit"].cast<double>();
+  const auto axis = d["axis"].cast<std::vector<double>>();
+  if (axis.size() == 3) out.axis = Vec3(axis[0], axis[1], axis[2]);
+  return out;
+}
+
+/// (low, high, shift of p, tilt, yaw, index of a listed pose or -1, boxes)
+py::tuple tuple_of(const Extreme& e) {
+  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
+  return py::make_tuple(e.low, e.high, three(e.at.shift), three(e.at.tilt), e.at.yaw, e.at.pose, e.boxes);
+}
+
+}  // namespace
+
+void bind_machine(py::module_& m) {
+  m.def("pose_extremes", [](const Geometry& g, const Array& position, const Array& rotation,
+                            const Array& internal_point, const py::object& region,
+                            const std::vector<py::dict>& quantities, const py::dict& settings) {
+    const PosedRobot robot = robot_from(g, position, rotation, internal_point, 1.0, region);
+    const ProofSettings how = settings_from(settings);
+    std::vector<PoseQuantity> wanted;
+    for (const py::dict& quantity : quantities) wanted.push_back(quantity_from(quantity));
+    const auto found =
+        interruptible(py::none(), [&](const Control& control) { return pose_extremes(robot, wanted, how, control); });
+    py::list out;
+    for (const Extreme& extreme : found) out.append(tuple_of(extreme));
+    return out;
+  });
+  m.def("worst_condition", [](const Geometry& g, const Array& position, const Array& rotation,
+                              const Array& internal_point, double characteristic_length, const py::object& region,
+                              const py::dict& settings, const PoseBoxes& from, const py::object& progress) {
+    const PosedRobot robot = robot_from(g, position, rotation, internal_point, characteristic_length, region);
+    const ProofSettings how = settings_from(settings);
+    const WorstCondition found = interruptible(
+        progress, [&](const Control& control) { return worst_condition(robot, how, from, control); },
+        [](const WorstCondition& partial) { return !partial.left.empty(); });
+    // More boxes than a record holds are only counted: as Python objects they would fill the memory.
+    const auto count = found.left.size();
+    return py::make_tuple(tuple_of(found.extreme), count <= most_kept ? found.left : PoseBoxes{}, count, found.tried,
+                          found.interrupted);
+  });
+}
+
+}  // namespace ninedof::python

@@ -1,0 +1,88 @@
+#pragma once
+/// What a machine does over a whole region of poses, proved: lengths of legs, angles at joints, distances of legs,
+/// determinants and the condition number, each enclosed from a pose that was met and from bounds that hold everywhere.
+///
+/// Assumed: the arithmetic of interval.hpp.
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "ninedof/design/region.hpp"
+#include "ninedof/math/control.hpp"
+#include "ninedof/robot/configuration.hpp"
+#include "ninedof/robot/geometry.hpp"
+
+namespace ninedof {
+
+/// A robot, and all poses at which it is looked at: those of the region, if there is one, and those listed.
+struct PosedRobot {
+  Geometry geometry;
+  Configuration neutral;
+  double characteristic_length = 1.0;
+  std::vector<Region> region;  ///< none or one
+  std::vector<Configuration> poses;
+};
+
+/// A number of a pose.
+struct PoseQuantity {
+  enum class Kind {
+    leg_length,
+    base_cone,      ///< angle of leg k of the base (joint_cones.hpp) from `axis`
+    platform_cone,  ///< likewise; the axis is one of the platform's frame
+    clearance,      ///< distance of the axes of pair k of legs (leg_pairs.hpp)
+    determinant,    ///< of N, B or C (singularity.hpp), times its sign at the neutral configuration
+  };
+  Kind kind = Kind::leg_length;
+  int item = 0;
+  Vec3 axis = Vec3::Zero();  ///< of cones; zero: the leg's direction at the neutral configuration
+  bool greatest = true;      ///< which end of its range is asked for
+  double relative = 1e-7;    ///< width of its enclosure at which the search ends
+  /// Where this is within the enclosure, the search goes on to ProofSettings::relative.
+  double limit = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Where a number was met: the piece of the domain, and its place in it.
+struct MetAt {
+  Vec3 shift = Vec3::Zero();  ///< of p from its neutral position, lengths
+  Vec3 tilt = Vec3::Zero();   ///< rotation vector about a horizontal axis
+  double yaw = 0.0;
+  int pose = -1;  ///< index of a listed pose; -1: a pose of the region
+};
+
+/// The greatest or least value over all poses is within [low, high]. One end was met at a pose.
+struct Extreme {
+  double low = 0.0, high = 0.0;
+  MetAt at;
+  long boxes = 0;
+};
+
+struct ProofSettings {
+  int threads = 0;           ///< 0: one per processor
+  double seconds = 60.0;     ///< of wall time
+  double relative = 1e-7;    ///< see PoseQuantity::limit
+  double gap = 0.05;         ///< the same of the condition number
+  double condition = 0.0;    ///< a condition number to be proved instead; 0: none
+  long boxes = 200'000;    ///< at most, for a number
+};
+
+/// The extreme values over all poses. On a stop or when the time is over, enclosures are wider.
+std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<PoseQuantity>& quantities,
+                                   const ProofSettings& settings, const Control& control = {});
+
+/// Boxes of poses: numbers of the piece, then low and high ends of its six coordinates.
+using PoseBoxes = std::vector<std::array<double, 13>>;
+
+/// The greatest condition number over all poses.
+struct WorstCondition {
+  Extreme extreme;
+  PoseBoxes left;  ///< where nothing better than extreme.high, or the condition number asked for, is proved
+  double tried = 0.0;  ///< the bound that was tried last
+  bool interrupted = false;
+};
+
+/// `from`: boxes that another run has left, with the upper bound proved elsewhere; empty: all poses.
+WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from = {},
+                               const Control& control = {});
+
+}  // namespace ninedof

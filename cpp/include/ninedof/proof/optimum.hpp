@@ -1,0 +1,44 @@
+#pragma once
+/// A proved lower bound of the condition number of all designs that a study allows, at the neutral pose.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ninedof/design/problem.hpp"
+#include "ninedof/math/control.hpp"
+
+namespace ninedof {
+
+struct OptimumSettings {
+  double target = 0.0;      ///< what is to be proved: no condition number below; more than 1
+  int threads = 0;          ///< 0: one for each processor
+  long box_limit = 50'000'000;
+  double time_limit = 0.0;  ///< seconds; 0 for none
+  bool keep_tree = false;   ///< for a certificate: ten bytes for each box
+};
+
+struct OptimumProof {
+  double lower_bound = 1.0;  ///< proved; the target if `complete`
+  bool complete = false;     ///< else the search was stopped by a limit or by the caller
+  long boxes = 0;            ///< examined
+  long open = 0;             ///< boxes for which less than the target is proved
+  /// Where a design below the target was found, and the search ended: its condition number is no greater. It keeps what
+  /// the proof sees of the study. Else infinite.
+  double better = std::numeric_limits<double>::infinity();
+  double seconds = 0.0;
+  /// Limits of the study that the proof leaves out. The bound holds all the same: for more designs than are allowed.
+  std::vector<std::string> left_out;
+  std::string certificate;  ///< bytes of a file that ninedof_check reads; empty unless asked for and complete
+};
+
+/// Best first: the box of which least is known is cut next, so that the bound rises until the search ends. The result
+/// does not depend on the number of threads, unless time ends it.
+///
+/// Throws InvalidArgument for a study that the theory does not reach: a family other than "hexagonal" and "symmetric",
+/// an objective other than the condition number at the neutral pose, a characteristic length that is not a number,
+/// bounds that are infinite or, of zp and of the radii of symmetric designs, not positive. Throws
+/// std::runtime_error as require_sound_arithmetic does.
+OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings, const Control& control = {});
+
+}  // namespace ninedof

@@ -1,0 +1,192 @@
+#pragma once
+/// Numbers over a box of poses as linear forms with an error: c + a_1 t_1 + ... + a_6 t_6 + d with |d| <= r, where the
+/// t_k go from -1 to 1 as the pose goes through the box.
+///
+/// Each operation keeps what is linear in the box and adds the rest, which is of second order, to r (affine
+/// arithmetic). Bounds then err by the square of the size of the box, as those of mean-value forms do, at a fraction
+/// of their cost. Every rounding is added to r: a sum of up to twenty terms computed in the ordinary way errs by less
+/// than 32 units of 2^-53 of the sum of their moduli. An error that is infinite or NaN says that nothing is known.
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ninedof/math/interval.hpp"
+
+namespace ninedof::over_region {
+
+constexpr std::size_t form_size = 6;
+
+struct Form {
+  double c = 0.0;
+  std::array<double, form_size> a{};
+  double r = 0.0;
+
+  Form() = default;
+  Form(double constant) : c(constant) {}  // NOLINT: numbers mix freely with forms in formulas
+
+  /// Any number of an interval.
+  static Form of(const Interval& x) {
+    Form out(middle(x));
+    out.r = detail::above(std::max(x.hi - out.c, out.c - x.lo));
+    return out;
+  }
+  /// x = coordinate k of the box, from low to high.
+  static Form coordinate(double low, double high, std::size_t k) {
+    if (low == high) return low;
+    Form out(0.5 * (low + high));
+    out.a[k] = 0.5 * (high - low);
+    out.r = 0x1p-50 * (std::abs(low) + std::abs(high));
+    return out;
+  }
+};
+
+namespace detail {
+
+inline constexpr double grain = 0x1p-48;  // 32 units of 2^-53
+inline constexpr double tiny = 1e-300;    // more than underflow loses in one operation
+
+}  // namespace detail
+
+/// At least the sum of |a_k|.
+inline double spread(const Form& x) {
+  double out = 0.0;
+  for (const double a : x.a) out += std::abs(a);
+  return out * (1.0 + detail::grain);
+}
+/// How far values may be from c.
+inline double radius(const Form& x) {
+  return (spread(x) + x.r) * (1.0 + detail::grain);
+}
+/// Bounds of all values; infinite where nothing is known.
+inline double upper(const Form& x) {
+  const double out = ninedof::detail::above(x.c + radius(x));
+  return out == out ? out : std::numeric_limits<double>::infinity();
+}
+inline Form operator-(Form x) {
+  x.c = -x.c;
+  for (double& a : x.a) a = -a;
+  return x;
+}
+inline double lower(const Form& x) {
+  return -upper(-x);
+}
+
+inline Form operator+(const Form& x, const Form& y) {
+  Form out(x.c + y.c);
+  for (std::size_t k = 0; k < form_size; ++k) out.a[k] = x.a[k] + y.a[k];
+  out.r = (x.r + y.r + detail::grain * (std::abs(out.c) + spread(out))) * (1.0 + detail::grain);
+  return out;
+}
+inline Form operator-(const Form& x, const Form& y) {
+  return x + -y;
+}
+inline Form operator*(const Form& x, const Form& y) {
+  Form out;
+  double diagonal = 0.0, moduli = 0.0, x_spread = 0.0, y_spread = 0.0;
+  for (std::size_t k = 0; k < form_size; ++k) {
+    const double square = x.a[k] * y.a[k];  // of t_k^2, which is 1/2 within 1/2
+    diagonal += square;
+    moduli += std::abs(square);
+    x_spread += std::abs(x.a[k]);
+    y_spread += std::abs(y.a[k]);
+    out.a[k] = x.c * y.a[k] + y.c * x.a[k];
+  }
+  out.c = x.c * y.c + 0.5 * diagonal;
+  const double x_most = std::abs(x.c) + x_spread, y_most = std::abs(y.c) + y_spread;
+  out.r = (x_spread * y_spread - 0.5 * moduli + x_most * y.r + y_most * x.r + x.r * y.r) * (1.0 + detail::grain) +
+          2.0 * detail::grain * x_most * y_most + detail::tiny;
+  return out;
+}
+inline Form operator*(double k, const Form& x) {
+  Form out(k * x.c);
+  for (std::size_t i = 0; i < form_size; ++i) out.a[i] = k * x.a[i];
+  out.r = (std::abs(k) * x.r + detail::grain * (std::abs(out.c) + spread(out))) * (1.0 + detail::grain) + detail::tiny;
+  return out;
+}
+
+namespace detail {
+
+/// value + slope (x - x.c) + a rest within [low, high].
+inline Form linear(const Form& x, double value, double slope, double low, double high) {
+  const double half = 0.5 * (high - low);
+  Form out(value + 0.5 * (low + high));
+  for (std::size_t k = 0; k < form_size; ++k) out.a[k] = slope * x.a[k];
+  out.r = (std::abs(slope) * x.r + half) * (1.0 + grain) +
+          grain * (std::abs(value) + std::abs(slope) * radius(x) + std::abs(low) + std::abs(high)) + tiny;
+  return out;
+}
+inline Form unknown() {
+  Form out;
+  out.r = std::numeric_limits<double>::infinity();
+  return out;
+}
+
+}  // namespace detail
+
+/// Of x > 0: the second derivative 2/x^3 falls, so that the rest is at most radius^2 / (c^2 least).
+inline Form inverse(const Form& x) {
+  const double w = radius(x), least = lower(x);
+  if (!(least > 0.0)) return detail::unknown();
+  const double value = 1.0 / x.c;
+  return detail::linear(x, value, -value * value, 0.0, w * w * value * value / least * (1.0 + detail::grain));
+}
+/// x^(-1/2) of x > 0: the second derivative is 3/4 x^(-5/2).
+inline Form inverse_root(const Form& x) {
+  const double w = radius(x), least = lower(x);
+  if (!(least > 0.0)) return detail::unknown();
+  const double value = 1.0 / std::sqrt(x.c);
+  const double rest = 0.375 * w * w / (least * least * std::sqrt(least)) * (1.0 + detail::grain);
+  return detail::linear(x, value, -0.5 * value / x.c, 0.0, rest);
+}
+/// The second derivative of sines is at most 1.
+inline Form sin(const Form& x) {
+  const double w = radius(x), rest = 0.5 * w * w;
+  return detail::linear(x, std::sin(x.c), std::cos(x.c), -rest, rest);
+}
+inline Form cos(const Form& x) {
+  const double w = radius(x), rest = 0.5 * w * w;
+  return detail::linear(x, std::cos(x.c), -std::sin(x.c), -rest, rest);
+}
+
+namespace detail {
+
+/// The sum over k of (-u)^k / (2k + first)! and its derivative, for u from 0 to 2 pi^2: what follows the last term is
+/// below 1e-30, and roundings are below 2^-46.
+struct Series {
+  double value, slope;
+};
+inline Series series(double u, int first) {
+  constexpr int terms = 24;
+  double factorial = 1.0;
+  for (int n = 2; n <= first; ++n) factorial *= n;
+  Series out{0.0, 0.0};
+  std::array<double, terms> coefficient;
+  for (int k = 0; k < terms; ++k) {
+    coefficient[static_cast<std::size_t>(k)] = (k % 2 == 0 ? 1.0 : -1.0) / factorial;
+    factorial *= (2.0 * k + first + 1.0) * (2.0 * k + first + 2.0);
+  }
+  for (std::size_t k = terms; k-- > 0;) {
+    out.slope = out.slope * u + out.value;
+    out.value = out.value * u + coefficient[k];
+  }
+  return out;
+}
+inline Form of_squared_angle(const Form& u, int first, double second) {
+  const Series at = series(u.c, first);
+  const double w = radius(u), rest = 0.5 * second * w * w + 0x1p-46 * (1.0 + w);
+  return linear(u, at.value, at.slope, -rest, rest);
+}
+
+}  // namespace detail
+
+/// sin(theta) / theta of u = theta^2, the mean of cos(t theta) over t from 0 to 1: |second derivative| <= 1/60.
+inline Form sine_over(const Form& u) {
+  return detail::of_squared_angle(u, 1, 1.0 / 60.0);
+}
+/// (1 - cos(theta)) / theta^2, the integral of (1 - t) cos(t theta): |second derivative| <= 1/360.
+inline Form one_minus_cosine_over(const Form& u) {
+  return detail::of_squared_angle(u, 2, 1.0 / 360.0);
+}
+
+}  // namespace ninedof::over_region

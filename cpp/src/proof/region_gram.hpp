@@ -1,0 +1,31 @@
+#pragma once
+/// M^T M of the conditioning matrix as forms over a box of poses. Its eigenvalues are the squares of the singular
+/// values of M, so that the condition number is at most K where K^2 M^T M - t and t - M^T M are positive definite for
+/// some t.
+
+#include "proof/region_quantity.hpp"
+
+namespace ninedof::over_region {
+
+/// A symmetric matrix: its entries (i, j) with i >= j, row after row.
+using Symmetric6 = std::array<Form, 21>;
+
+constexpr std::size_t entry(std::size_t i, std::size_t j) {
+  return i >= j ? i * (i + 1) / 2 + j : entry(j, i);
+}
+
+/// M^T M = A^T A + K^T ((C^T C)^-1 + (B^T B)^-1)^-1 K, with K = [-y x / l_c, 1], y = s - p. The middle matrix is
+/// H - H (H + F)^-1 H with H = C^T C and F = B^T B: neither needs to be regular. `moves` is of the directions of the
+/// legs.
+Symmetric6 gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves);
+
+/// The matrix at the middle of the box.
+Mat6 middle_of(const Symmetric6& g);
+
+/// Whether the condition number is proved to be at most K in all of the box.
+bool bounded(const Symmetric6& g, double condition);
+
+/// A number that the condition number of some matrix of the form, taken at one pose, is not below.
+double condition_attained(const Symmetric6& g);
+
+}  // namespace ninedof::over_region

@@ -1,0 +1,90 @@
+"""`ninedof certify`: prove that the machine of a run keeps its limits at every pose of its region."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from ninedof.cli.options import Json, Threads
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.design.indices import LEGS
+from ninedof.optimize.result import Result
+from ninedof.proof.machine_record import MachineCertificate, outward
+from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
+from ninedof.runs.objects import load
+
+PLACE = 4
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof certify runs/20260101-120000                certify.json in the run folder
+
+  ninedof certify runs/20260101-120000 --condition 3.4 --time 600
+
+  ninedof certify runs/20260101-120000 --resume       go on where time was over"""
+
+
+def certify(
+    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")],
+    condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None,
+    gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05,
+    time: Annotated[float, typer.Option(help="Seconds for the condition number; limits take seconds.")] = 300.0,
+    tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the boxes that an earlier run left.")] = False,
+    threads: Threads = None,
+    json: Json = False,
+) -> None:
+    """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
+    screen = Screen(json)
+    found = load(run)
+    if not isinstance(found, Result):
+        raise ValueError(
+            f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
+        )
+    earlier = load_certificate(run) if resume else None
+    with screen.boxes("proving") as bar:
+        certificate = found.certify(
+            condition_number=condition,
+            gap=gap,
+            time_limit=time,
+            tolerance=tolerance,
+            threads=threads or 0,
+            resume=earlier,
+            progress=lambda done, total, _: bar.show(done, total, None),
+        )
+    file = save_certificate(certificate, certificate_file(run))
+    screen.print(_table(certificate))
+    for sentence in certificate.sentences():
+        screen.print(sentence)
+    screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
+    screen.data(certificate.to_dict() | {"file": str(file), "left": []})
+    if certificate.interrupted:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
+
+
+def _table(certificate: MachineCertificate) -> Table:
+    table = Table("at every pose", "limit", "proved", "margin", "")
+    unit = certificate.unit
+    for leg, (low, high) in zip(LEGS, certificate.lengths, strict=True):
+        table.add_row(leg, "", f"{outward(low, False)} to {outward(high, True)} {unit}".rstrip(), "", "")
+    for one in certificate.limits:
+        word = "at most" if one.side == "max" else "at least"
+        limit = f"{word} {one.shown(one.limit):.6g} {one.unit(unit)}".rstrip()
+        if one.limit == 0.0:
+            limit = "no change of sign"
+        proved = f"{word} {one.worded()} {one.unit(unit)}".rstrip()
+        on_limit = abs(one.margin) <= certificate.tolerance
+        if on_limit:
+            proved = f"{word} {one.worded(9)} {one.unit(unit)}".rstrip()
+        margin = (
+            "" if one.limit == 0.0 else f"within {certificate.tolerance:g}" if on_limit else f"{100 * one.margin:.3g} %"
+        )
+        table.add_row(one.name.replace("_", " "), limit, proved, margin, one.answer)
+    low, high = certificate.condition
+    if not any(one.name == "condition_number" for one in certificate.limits):
+        proved = f"at most {outward(high, True)}" if math.isfinite(high) else "nothing"
+        table.add_row("condition number", "", proved, "", "")
+    return table

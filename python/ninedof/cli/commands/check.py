@@ -1,0 +1,34 @@
+"""`ninedof check`: a certificate of an optimum, read by a program that does not trust who wrote it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from ninedof.cli.options import Json
+from ninedof.cli.screen import Screen
+from ninedof.proof.optimum import FILE, check_certificate
+
+PLACE = 4
+EXAMPLES = f"""[bold]Examples[/bold]
+
+  ninedof optimize --certify --out proved       writes {FILE} into the run folder
+
+  ninedof check proved"""
+
+
+def check(
+    certificate: Annotated[Path, typer.Argument(help=f"A certificate, or a run folder that has {FILE}.")],
+    json: Json = False,
+) -> None:
+    """Check a certificate: that no design of its study has a condition number below the bound it states."""
+    screen = Screen(json)
+    path = certificate / FILE if certificate.is_dir() else certificate
+    found = check_certificate(path)
+    screen.print(f"[bold]{'Proved' if found.proved else 'Refused'}[/bold]: {escape(found.words)}")
+    screen.print(f"{found.boxes} boxes of the certificate, {found.recut} cut further by the checker")
+    screen.data({"proved": found.proved, "words": found.words, "boxes": found.boxes})
+    raise typer.Exit(0 if found.proved else 1)

@@ -1,0 +1,76 @@
+"""A figure as PNG, SVG and PDF."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ninedof.plot import style
+from ninedof.support.files import write_whole
+
+
+def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
+    """Write a figure as PNG, SVG and PDF.
+
+    Each file appears whole or not at all, and equal figures give equal bytes.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    directory : path
+        Created if it does not exist.
+    stem : str
+        File name without suffix.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The PNG (200 dots per inch), the SVG and the PDF.
+
+    Raises
+    ------
+    OSError
+        If the directory cannot be written to; no partial file is left.
+
+    Examples
+    --------
+    >>> from ninedof import plot
+    >>> paths = plot.save(figure, "run", "mechanism")  # doctest: +SKIP
+
+    """
+    folder = Path(directory)
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    with style.settings():
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.execute(figure)  # once for all files
+            figure.set_layout_engine("none")
+        for kind, image in _images(figure):
+            paths.append(write_whole(folder / f"{stem}.{kind}", image))
+    return paths
+
+
+def _images(figure: Figure) -> Iterator[tuple[str, bytes]]:
+    """Yield suffix and content of each file. The canvases draw once for each; `savefig` would draw twice."""
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    shown, dpi = figure.canvas, figure.dpi
+    try:
+        for kind, canvas, entries in (
+            ("png", FigureCanvasAgg, {}),
+            ("svg", FigureCanvasSVG, {"Date": None}),
+            ("pdf", FigureCanvasPdf, {"CreationDate": None}),
+        ):
+            image = io.BytesIO()
+            figure.set_dpi(style.DPI)  # of rasters; a canvas may leave its own
+            getattr(canvas(figure), f"print_{kind}")(image, metadata=entries)
+            yield kind, image.getvalue()
+    finally:
+        figure.set_canvas(shown)
+        figure.set_dpi(dpi)

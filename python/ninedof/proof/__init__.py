@@ -1,0 +1,1 @@
+"""Statements that hold with certainty, by interval arithmetic."""

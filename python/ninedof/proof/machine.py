@@ -1,0 +1,202 @@
+"""Prove that a machine keeps its limits at every pose of its region."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from time import perf_counter
+from typing import Any
+
+from ninedof import _core
+from ninedof.design.region_stack import places_o
+from ninedof.design.study import Study
+from ninedof.proof.machine_limits import SPREADS, Extreme, Key, Plan
+from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, Met
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import finite, whole
+
+Progress = Callable[[int, int, float | None], None]
+
+
+def certify(
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    *,
+    condition_number: float | None = None,
+    gap: float = 0.05,
+    time_limit: float = 300.0,
+    tolerance: float = 1e-6,
+    threads: int = 0,
+    resume: MachineCertificate | None = None,
+    progress: Progress | None = None,
+) -> MachineCertificate:
+    """Prove the limits of a study for one design, and enclose its worst condition number.
+
+    Parameters
+    ----------
+    study : Study
+    geometry : Geometry
+    configurations : Configuration, shape (n,)
+        The neutral one, then the poses listed in the study.
+    characteristic_length : float
+    condition_number : float, optional
+        A bound of the condition number to be proved: one more limit.
+    gap : float
+        Relative width of the enclosure of the worst condition number.
+    time_limit : float
+        Seconds for the condition number; limits take seconds.
+    tolerance : float
+        Relative: a limit that is passed by no more counts as kept. Designs of the optimizer lie on their limits.
+    threads : int
+        0: one per processor.
+    resume : MachineCertificate, optional
+        An earlier one of the same design whose boxes left are to be gone on with.
+    progress : callable, optional
+        Called with boxes done, 0, and the worst condition number met.
+
+    Returns
+    -------
+    MachineCertificate
+
+    Raises
+    ------
+    ValueError
+        For a bad argument, and for a region where O is placed anew at every pose.
+
+    """
+    region = study.objective.region
+    if region is not None and not places_o(region):
+        raise ValueError(
+            'internal_point: got "best", expected "shifted" or "held": where O is placed anew at every pose, '
+            "nothing is proved yet"
+        )
+    finite("gap", gap, 1e-9)
+    seconds = finite("time_limit", time_limit, 0.0)
+    finite("tolerance", tolerance, 0.0, 0.01)
+    if condition_number is not None:
+        finite("condition_number", condition_number, 1.0)
+    how = {"threads": whole("threads", threads, 0), "seconds": seconds, "gap": gap, "condition": 0.0}
+    only_neutral = region is None and len(configurations) == 1
+    if resume is not None and resume.where != _where(study, only_neutral):
+        raise ValueError(
+            f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
+        )
+    start = perf_counter()
+
+    neutral = configurations[0]
+    stack = configurations[[0, 0]] if only_neutral else configurations
+    shape = None if region is None else region.for_core()
+    plan = Plan(study, geometry, neutral, tolerance)
+    found: dict[Key, Extreme] = {}
+    alone = configurations[[0, 0]]
+
+    def look(keys: Iterable[Key]) -> None:
+        for where, posed, of in (("poses", stack, shape), ("neutral", alone, None)):
+            here = [key for key in keys if key[0] == where]
+            wanted = [plan.requests[key] for key in here]
+            arrays = (posed.position, posed.rotation, posed.internal_point)
+            ends = _core.pose_extremes(geometry, *arrays, of, wanted, how) if here else []
+            at_neutral = only_neutral or where == "neutral"
+            found.update(
+                (k, Extreme(end[:2], _met(end, at_neutral), end[6])) for k, end in zip(here, ends, strict=True)
+            )
+
+    look(list(plan.requests))
+    proofs = [row(found) for row in plan.rows]
+    if any(proof.answer == UNDECIDED and proof.name.startswith(SPREADS) for proof in proofs):
+        look(plan.narrowed())
+        proofs = [row(found) for row in plan.rows]
+
+    arrays = (stack.position, stack.rotation, stack.internal_point)
+    runs = _Runs(
+        lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
+        how,
+        start + seconds,
+    )
+    if resume is not None:
+        runs.go_on(resume, condition_number)
+    else:
+        runs.enclose(condition_number)
+    if condition_number is not None:
+        proofs.append(_condition_proof(condition_number, runs, tolerance, only_neutral))
+    return MachineCertificate(
+        where=_where(study, only_neutral),
+        unit=study.unit,
+        limits=tuple(proofs),
+        lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
+        condition=(runs.low, runs.high),
+        condition_at=_met(runs.end, only_neutral),
+        condition_boxes=runs.boxes,
+        left=tuple(map(tuple, runs.left)),
+        left_count=runs.left_count,
+        target=runs.target,
+        tolerance=tolerance,
+        seconds=perf_counter() - start,
+        interrupted=runs.interrupted,
+    )
+
+
+class _Runs:
+    """Searches for the worst condition number, one after another."""
+
+    def __init__(self, search: Callable[[dict[str, Any], Any], Any], how: dict[str, Any], end: float) -> None:
+        self._search, self._how, self._end = search, how, end
+        self.low, self.high, self.target, self.boxes = 0.0, math.inf, math.inf, 0
+        self.left: list[tuple[float, ...]] = []
+        self.end: Any = None
+        self.interrupted, self.left_count = False, 0
+
+    def enclose(self, wanted: float | None) -> None:
+        """Enclose it; then prove a bound that lies inside."""
+        self._run([], 0.0)
+        if wanted is not None and not self.left_count and not self.interrupted and self.low < wanted < self.high:
+            self._run([], wanted)
+
+    def go_on(self, earlier: MachineCertificate, wanted: float | None) -> None:
+        """Go on with the boxes of an earlier certificate; from the beginning where it has none, keeping its bound."""
+        self.high, self.boxes = earlier.condition[1], earlier.condition_boxes
+        if earlier.left:
+            self._run(list(earlier.left), earlier.target)
+        else:
+            self.enclose(wanted)
+
+    def _run(self, boxes: list[tuple[float, ...]], target: float) -> None:
+        seconds = max(self._end - perf_counter(), 0.1)
+        # A bound within the gap is tried at once, another after wider ones.
+        gap = min(self._how["gap"], target / self.low - 1.0) if target and self.low else self._how["gap"]
+        end, left, count, tried, stopped = self._search(
+            self._how | {"seconds": seconds, "condition": target, "gap": gap}, boxes
+        )
+        if end[0] > self.low:
+            self.low, self.end = end[0], end
+        self.high = min(self.high, end[1])
+        self.boxes += end[6]
+        self.left, self.left_count, self.target, self.interrupted = left, count, tried, stopped
+
+
+def _condition_proof(limit: float, runs: _Runs, tolerance: float, neutral: bool) -> LimitProof:
+    low, high = runs.low, runs.high
+    edge = limit * (1.0 + tolerance)
+    answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
+    at = (_met(runs.end, neutral),)
+    return LimitProof(
+        "condition_number", "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", at, runs.boxes
+    )
+
+
+def _met(end: Any, neutral: bool) -> Met:
+    """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
+    _, _, shift, tilt, yaw, listed, _ = end
+    return Met(shift, tilt, yaw, None if listed < 0 else 0 if neutral else listed + 1)
+
+
+def _where(study: Study, only_neutral: bool) -> str:
+    objective = study.objective
+    count = len(objective.poses)
+    listed = f"{count} listed pose{'s' * (count != 1)}"
+    if objective.region is not None:
+        return objective.region.worded(study.unit) + (f" and of {listed}" if count else "")
+    return "the study, the neutral one" if only_neutral else f"the study, {listed}"

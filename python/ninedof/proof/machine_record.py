@@ -1,0 +1,202 @@
+"""What is proved of a machine: its limits one by one, in words and as plain values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ninedof.design.indices import LEGS
+from ninedof.support.short import short_repr
+from ninedof.support.units import amount
+
+FORMAT = "ninedof-machine-certificate-1"
+PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
+
+
+@dataclass(frozen=True)
+class Met:
+    """A pose: a listed one, counted from 1, or shifts and turns from the neutral one."""
+
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    tilt: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    yaw: float = 0.0
+    listed: int | None = None
+
+    def worded(self, unit: str = "") -> str:
+        """Return the pose in words, angles in degrees."""
+        if self.listed is not None:
+            return f"pose {self.listed} of the study" if self.listed else "the neutral pose"
+        shift = ", ".join(f"{x:.5g}" for x in self.shift)
+        said = [f"p shifted by {amount(f'({shift})', unit)}"]
+        if any(self.tilt):
+            said.append(f"tilted by {' and '.join(f'{math.degrees(x):.4g}' for x in self.tilt[:2])} deg about x and y")
+        if self.yaw:
+            said.append(f"yaw {math.degrees(self.yaw):.4g} deg")
+        return ", ".join(said)
+
+
+@short_repr
+@dataclass(frozen=True)
+class LimitProof:
+    """One side of one limit."""
+
+    name: str
+    kind: str
+    """"ratio", "length", "angle" (radians) or "sign"."""
+    side: str
+    """"min" or "max"."""
+    limit: float
+    answer: str
+    """"proved", "violated" or "undecided"."""
+    value: tuple[float, float]
+    """The worst value over all poses is in here, rigorously; one end was met at a pose."""
+    margin: float
+    """What is proved, relative to the limit: negative where the limit is not proved."""
+    which: str
+    """The leg, pair of legs or determinant that is worst."""
+    at: tuple[Met, ...]
+    """Where the worst value was met; of a stroke where the leg is longest and where it is shortest."""
+    boxes: int
+
+    def shown(self, value: float) -> float:
+        """Return a value as it is shown: angles in degrees."""
+        return math.degrees(value) if self.kind == "angle" else value
+
+    def unit(self, length: str) -> str:
+        """Return the unit of shown values."""
+        return {"angle": "deg", "length": length}.get(self.kind, "")
+
+    def worded(self, digits: int = 6) -> str:
+        """Return the bound that is proved, rounded to the safe side."""
+        return outward(self.shown(self.value[self.side == "max"]), self.side == "max", digits)
+
+
+@short_repr
+@dataclass(frozen=True)
+class MachineCertificate:
+    """What is proved of a design at every pose it is made for."""
+
+    where: str
+    """The poses in words."""
+    unit: str
+    limits: tuple[LimitProof, ...]
+    """First that no pose is singular, then the limits of the study."""
+    lengths: tuple[tuple[float, float], ...]
+    """Every leg (l, q, r) stays between these lengths."""
+    condition: tuple[float, float]
+    """The worst condition number over all poses is in here; the first was met, the second is proved."""
+    condition_at: Met
+    condition_boxes: int
+    left: tuple[tuple[float, ...], ...]
+    """Boxes of poses where the condition number is not proved to be below `target`; empty if it is, or too many."""
+    left_count: int
+    target: float
+    """The bound that was tried last; infinite where none was."""
+    tolerance: float
+    """Relative: limits count as kept up to this."""
+    seconds: float
+    interrupted: bool = False
+
+    @property
+    def proved(self) -> bool:
+        """Whether every limit is proved."""
+        return all(limit.answer == PROVED for limit in self.limits)
+
+    def sentences(self) -> list[str]:
+        """Return what is proved, and what is not, in words."""
+        low, high = min(a for a, _ in self.lengths), max(b for _, b in self.lengths)
+        legs = f"every leg stays between {outward(low, False)} and {amount(outward(high, True), self.unit)}"
+        index = ""
+        if math.isfinite(self.condition[1]):
+            index = f", and the condition number is at most {outward(self.condition[1], True)}"
+        out = [f"Proved: at every pose of {self.where}, {legs}{index}."]
+        kept = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
+        if self.limits and self.limits[0].answer == PROVED:
+            out.append(
+                "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
+            )
+        if kept:
+            out.append(f"Proved, up to {self.tolerance:g} of each: the limits {', '.join(kept)}.")
+        if self.condition[0] > 0.0:
+            out.append(
+                f"The worst met is {outward(self.condition[0], False)}, at {self.condition_at.worded(self.unit)}."
+            )
+        if not math.isfinite(self.condition[1]):
+            out.append(f"No bound of the condition number is proved; {self.left_count} boxes of poses are left.")
+        elif self.left_count:
+            out.append(f"A bound of {self.target:.6g} is not decided: {self.left_count} boxes of poses are left.")
+        for limit in self.limits:
+            name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
+            size = [amount(f"{limit.shown(x):.9g}", limit.unit(self.unit)) for x in limit.value]
+            if limit.answer == VIOLATED:
+                poses = [met.worded(self.unit) for met in limit.at]
+                at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
+                out.append(f"Violated: {name}: {size[limit.side == 'min']}{at}.")
+            elif limit.answer == UNDECIDED:
+                out.append(f"Undecided: {name}: the worst value is between {' and '.join(size)}.")
+        return out
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values, for a file."""
+        return {"format": FORMAT, **asdict(self), "proved": self.proved}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> MachineCertificate:
+        """Make the certificate from what `to_dict` returns.
+
+        Raises
+        ------
+        ValueError
+            If it is none, or not whole.
+
+        """
+        if data.get("format") != FORMAT:
+            raise ValueError(f"got no {FORMAT!r} mark, expected a certificate written by ninedof")
+        known = {key: value for key, value in data.items() if key not in ("format", "proved")}
+        try:
+            limits = [
+                LimitProof(**{**one, "value": tuple(one["value"]), "at": tuple(_met(met) for met in one["at"])})
+                for one in known.pop("limits")
+            ]
+            return cls(
+                **{
+                    **known,
+                    "limits": tuple(limits),
+                    "lengths": tuple((float(a), float(b)) for a, b in known["lengths"]),
+                    "condition": tuple(float(x) for x in known["condition"]),
+                    "condition_at": _met(known["condition_at"]),
+                    "left": tuple(tuple(map(float, box)) for box in known["left"]),
+                    "target": float(known["target"]),
+                }
+            )
+        except (KeyError, TypeError) as error:
+            raise ValueError(f"got a certificate without {error}, expected a whole one") from None
+
+    def __str__(self) -> str:
+        """Return the sentences."""
+        return "\n".join(self.sentences())
+
+    def leg_table(self) -> dict[str, tuple[float, float]]:
+        """Return the proved lengths by leg."""
+        return dict(zip(LEGS, self.lengths, strict=True))
+
+
+def _met(data: Mapping[str, Any]) -> Met:
+    x, y, z = data["shift"]
+    a, b, c = data["tilt"]
+    return Met((x, y, z), (a, b, c), data["yaw"], data["listed"])
+
+
+def outward(value: float, up: bool, digits: int = 6) -> str:
+    """Return a number in a few digits, rounded up or down."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    whole = math.ceil(value / step) if up else math.floor(value / step)
+    text = f"{whole * step:.{digits}g}"
+    # The last digit may have gone the wrong way in binary.
+    if (float(text) < value) if up else (float(text) > value):
+        text = f"{(whole + (1 if up else -1)) * step:.{digits}g}"
+    return text

@@ -1,0 +1,214 @@
+"""A proved lower bound of the condition number of every design that a study allows."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import ROUND_FLOOR, Decimal
+from pathlib import Path
+from typing import Any
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.support.arguments import finite
+from ninedof.support.arrays import thread_argument
+from ninedof.support.files import write_whole
+from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.short import short_repr
+
+FILE = "optimum.certificate"
+GAPS = {"hexagonal": 1e-12, "symmetric": 0.03}
+"""What is aimed at: of hexagons five numbers matter, of other symmetric designs seven."""
+MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
+PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better")
+
+
+@short_repr
+@dataclass(frozen=True)
+class OptimumProof:
+    """What `prove_optimum` returns."""
+
+    lower_bound: float
+    """No design of the study has a condition number below it, at the neutral pose."""
+    target: float
+    """What was to be proved; `lower_bound` if the search came to its end."""
+    complete: bool
+    boxes: int
+    """Boxes of designs examined."""
+    open: int
+    """Boxes left for which less than the target is proved."""
+    seconds: float
+    better: float | None = None
+    """Where a design below the target was found, and the search ended: its condition number is no greater. It keeps the
+    bounds and limits that the proof sees, and perhaps not those it leaves out."""
+    left_out: tuple[str, ...] = ()
+    """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
+    certificate: bytes = field(default=b"", repr=False, compare=False)
+    """A file that `ninedof check` and the program ninedof_check read; empty if the search did not come to its end."""
+
+    @property
+    def words(self) -> str:
+        """What is proved, as a sentence."""
+        bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR)  # never more than was proved
+        said = f"Proved: no machine of this class has a condition number below {bound.normalize():f}"
+        if not self.left_out:
+            return f"{said}."
+        return f"{said}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."
+
+    def gap(self, condition_number: float) -> float:
+        """Return what is left open below a condition number, as a fraction of it."""
+        return max(0.0, 1.0 - self.lower_bound / condition_number)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the certificate.
+
+        Raises
+        ------
+        ValueError
+            If there is none: the search was ended before all was proved.
+
+        """
+        if not self.certificate:
+            raise ValueError("certificate: got a proof that did not come to its end, expected a complete one")
+        return write_whole(Path(path), self.certificate)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return every field but the certificate as plain values."""
+        return {name: getattr(self, name) for name in PLAIN} | {"left_out": list(self.left_out)}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:
+        """Return the proof of a mapping as `to_dict` makes it, without its certificate."""
+        return cls(**{name: data[name] for name in PLAIN}, left_out=tuple(data["left_out"]))
+
+
+def prove_optimum(
+    study: Study,
+    condition_number: float,
+    *,
+    gap: float | None = None,
+    time_limit: float | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> OptimumProof:
+    """Prove that no design of a study is better than a known one by more than a given gap.
+
+    Branch and bound over all designs, in interval arithmetic: boxes of designs are cut until each is proved to hold
+    none below the target. A design counts through the five numbers (hexagons) or seven (other planar symmetric
+    designs) on which its singular values depend, so that the paper's problem takes a second or two. Ctrl-C and the time
+    limit return what is proved so far.
+
+    Parameters
+    ----------
+    study : Study
+        Of the family "hexagonal" or "symmetric", at the neutral pose, with a characteristic length that is a number.
+        Its bounds and the limits radius_ratio, leg_ratio (max) and zs_fraction are part of the proof. Others are left
+        out, see `OptimumProof.left_out`.
+    condition_number : float
+        Of the best design known.
+    gap : float, optional
+        To be proved: no condition number below (1 - gap) condition_number. By default 1e-12 for hexagons and 0.03 for
+        other symmetric designs, which is the work of minutes.
+    time_limit : float, optional
+        Seconds; none by default.
+    threads : int, optional
+        One per processor by default. Without a time limit the result is the same for any number.
+    progress : callable, optional
+        Called as progress(boxes examined, 0, lower bound so far).
+
+    Returns
+    -------
+    OptimumProof
+
+    Raises
+    ------
+    ValueError
+        If the theory does not reach the study: the message says what it expects.
+    RuntimeError
+        If floating-point numbers of this process do not follow IEEE 754, as after loading code built with -ffast-math.
+
+    Notes
+    -----
+    docs/theory/proof.md has the lemmas. Assumed: IEEE 754 arithmetic, and a logarithm, exponential, sine and cosine of
+    the C library that are right within two units in the last place.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> proof = nd.prove_optimum(nd.Study.paper(), 3.7626590785960, gap=1e-3)
+    >>> proof.complete, round(proof.lower_bound, 3)
+    (True, 3.759)
+
+    """
+    best = finite("condition_number", condition_number)
+    problem = _problem(study)
+    aim = GAPS.get(study.family, 0.0) if gap is None else finite("gap", gap, least=0.0, most=1.0)
+    limit = 0.0 if time_limit is None else finite("time_limit", time_limit, least=0.0)
+    progress_argument(progress)
+    target = best * (1.0 - aim)
+    if not target > 1.0:
+        raise ValueError(f"condition_number: got {best!r} and a gap of {aim!r}, expected more than 1 to be proved")
+    return _proved(problem, target, thread_argument(threads), MOST_BOXES, limit, progress)
+
+
+def left_out_of(study: Study) -> tuple[str, ...]:
+    """Return the limits of a study that a proof leaves out; raise ValueError if the theory does not reach the study."""
+    return _proved(_problem(study), 2.0, 1, 0, 0.0, None).left_out  # looks at the study and at no box
+
+
+def _problem(study: Study) -> _core.Problem:
+    if not isinstance(study, Study):
+        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    if study.objective.region is not None:
+        raise ValueError("objective: got a region of poses, expected the neutral pose alone for a proof")
+    return study.problem()
+
+
+def _proved(
+    problem: _core.Problem, target: float, threads: int, boxes: int, limit: float, progress: Progress | None
+) -> OptimumProof:
+    found = _core.prove_optimum(problem, target, threads, boxes, limit, True, progress)
+    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), **found)
+
+
+@short_repr
+@dataclass(frozen=True)
+class Checked:
+    """What `check_certificate` returns."""
+
+    proved: bool
+    words: str
+    """What is proved, or why the certificate is refused."""
+    boxes: int
+    recut: int
+    """Boxes that were cut further than by the search."""
+
+
+def check_certificate(path: str | os.PathLike[str]) -> Checked:
+    """Check a certificate of an optimum, without trusting the search that wrote it.
+
+    By the code of the program ninedof_check, which shares none with the search: interval numbers, formulas and the
+    bounds of the domain are its own. The certificate of the paper's study takes some eight seconds.
+
+    Parameters
+    ----------
+    path : path
+        As `OptimumProof.save` writes it.
+
+    Returns
+    -------
+    Checked
+        A certificate that is damaged, changed or no proof is refused with the reason.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read.
+
+    """
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
+    return Checked(*_core.check_certificate(data))

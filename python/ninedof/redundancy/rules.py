@@ -1,0 +1,54 @@
+"""The rules for O when the platform moves: one name for each, the same in every command, file and argument."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ninedof.support.arguments import choice
+from ninedof.support.units import amount
+
+RULES = ("carried", "shifted", "held", "best")
+
+WORDS = {
+    "carried": "carried as a point of the platform",
+    "shifted": "shifted with the platform's origin",
+    "held": "held in the base",
+    "best": "placed at its best",
+}
+"""What follows "O is"."""
+
+MEANING = {
+    "carried": "Qᵀ (s - p) stays as at the neutral pose",
+    "shifted": "s - p stays as at the neutral pose, in base axes",
+    "held": "s stays as at the neutral pose",
+    "best": "anew at every pose",
+}
+
+STUDY_RULES = ("shifted", "held", "best")
+"""Those that a study takes."""
+
+
+def study_rule(rule: str) -> str:
+    """Return a rule for O in a study; earlier studies said "carried" where they meant "shifted"."""
+    if rule == "carried":
+        raise ValueError(
+            f"internal_point: got 'carried', expected one of {', '.join(STUDY_RULES)}; what studies called 'carried' "
+            f"before, {MEANING['shifted']}, is now 'shifted'"
+        )
+    return choice("internal_point", rule, STUDY_RULES)
+
+
+def where_o(rule: Any, unit: str = "") -> str:
+    """Return what follows "O is" for a rule, a fraction, a point of the platform {"platform": [x, y, z]} or a point."""
+    if isinstance(rule, str):
+        return WORDS.get(rule, rule)
+    if isinstance(rule, int | float):
+        return f"at {rule:.4g} of the way from the lower to the upper internal joints"
+    if isinstance(rule, Mapping):
+        return f"{WORDS['carried']}, at {amount(_point(rule['platform']), unit)} of its frame"
+    return f"{WORDS['held']}, at {amount(_point(rule), unit)}"
+
+
+def _point(values: Iterable[float]) -> str:
+    return "(" + ", ".join(f"{value + 0.0:.6g}" for value in values) + ")"

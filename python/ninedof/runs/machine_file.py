@@ -1,0 +1,56 @@
+"""The certificate of a machine beside the record of its run: certify.json, or certify-7.json for point 7."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ninedof.proof.machine_record import MachineCertificate
+from ninedof.runs.objects import split
+from ninedof.support.files import write_whole
+from ninedof.support.json import decode, encode
+
+
+def certificate_file(run: str | os.PathLike[str]) -> Path:
+    """Return where the certificate of a run, or of one of its points, lies."""
+    place, point = split(os.fspath(run))
+    folder = place if place.is_dir() else place.parent
+    return folder / (f"certify-{point}.json" if point else "certify.json")
+
+
+def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
+    """Write a certificate; return its path."""
+    return write_whole(Path(file), (encode(certificate.to_dict()) + "\n").encode())
+
+
+def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
+    """Read the certificate of a machine.
+
+    Parameters
+    ----------
+    run : path
+        A run folder or "RUN#7", with what `ninedof certify` has written there; or the file itself.
+
+    Returns
+    -------
+    MachineCertificate
+
+    Raises
+    ------
+    ValueError
+        If there is none, or it is not whole; the message names the file.
+
+    """
+    file = Path(run)
+    if not file.name.startswith("certify"):
+        file = certificate_file(run)
+    try:
+        data = decode(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
+    except ValueError as error:
+        raise ValueError(f"{file}: not a JSON file: {error}") from None
+    try:
+        return MachineCertificate.from_dict(data if isinstance(data, dict) else {})
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None

@@ -1,0 +1,76 @@
+"""What is asked of a workspace, in words: its limits, its box, where O is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.indices import LEGS as LEG_NAMES
+from ninedof.redundancy.rules import where_o
+from ninedof.robot.configuration import Configuration
+from ninedof.sheet.pose_limits import CONES
+from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
+
+KINDS = {"external": slice(0, 3), "upper internal": slice(3, 6), "lower internal": slice(6, 9)}
+
+
+def asked_lines(
+    asked: Mapping[str, Any], home: Configuration, own: set[str], left: Sequence[str], unit: str = ""
+) -> Iterator[str]:
+    """Yield what is asked, a line for each part."""
+    p, o = (amount(_point(point), unit) for point in (home.position, home.internal_point))
+    yield f"home: p = {p}, O = {o}"
+    yield f"O: {rule_words(asked, unit)}"
+    for name, value in asked["criteria"].items():
+        whose = ", of the study" if name in own else ""
+        for words in criterion_words(name, value, unit):
+            yield f"limit: {words}{whose}"
+    if left:
+        yield f"of the study, no limit of a single pose: {', '.join(left)}"
+    if "box" in asked:
+        low, high = asked["box"]
+        yield f"box: p from {_point(low)} to {amount(_point(high), unit)}"
+    if "position" in asked:
+        yield f"position: p = {amount(_point(asked['position']), unit)}"
+    if "region" in asked:
+        yield "region: " + ", ".join(f"{name} to {math.degrees(a):.6g} degrees" for name, a in asked["region"].items())
+
+
+def rule_words(asked: Mapping[str, Any], unit: str) -> str:
+    """Return where O is, in words; where the platform does not turn, carried is the same as shifted."""
+    rule = asked["internal_point"]
+    turns = "position" in asked or "rotation" not in asked
+    return where_o(rule, unit) + ("; without turns as shifted" if isinstance(rule, Mapping) and not turns else "")
+
+
+def criterion_words(name: str, value: Any, unit: str, brief: bool = False) -> Iterator[str]:
+    """Yield a criterion in words, for legs of several kinds one for each; without nine ranges of legs if brief."""
+    if name == "leg_limits":
+        low, high = (np.broadcast_to(end, 9) for end in value)
+        kinds = {"all": slice(0, 9)} if np.ptp(low) == 0.0 and len(set(high.tolist())) == 1 else KINDS
+        if any(len(set(end[legs].tolist())) > 1 for end in (low, high) for legs in KINDS.values()):
+            ranges = (f"{leg} {a:.6g} to {b:.6g}" for leg, a, b in zip(LEG_NAMES, low, high, strict=True))
+            needs = "legs as the region needs them"
+            yield needs if brief else amount(f"{needs}: {', '.join(ranges)}", unit)
+            return
+        for kind, legs in kinds.items():
+            least, most = float(low[legs][0]), float(high[legs][0])
+            if least > 0.0 or math.isfinite(most):
+                yield amount(f"{kind} legs {least:.6g} to {most:.6g}", unit)
+    elif name in CONES:
+        angle, axis = (value["max"], value["axis"]) if isinstance(value, Mapping) else (value, None)
+        about = "each leg's direction at home" if axis is None else f"the axis {_point(axis)}"
+        yield f"{name.replace('_', ' ')} {math.degrees(angle):.6g} degrees about {about}"
+    elif name == "singularity_free":
+        yield "connected with home, on its side of every singularity"
+    else:
+        side, of = ("at least", unit) if name == "leg_clearance" else ("at most", "")
+        yield amount(f"{name.replace('_', ' ')} {side} {value:.6g}", of)
+
+
+def _point(values: Sequence[float] | Floats) -> str:
+    return "(" + ", ".join(f"{value:.6g}" for value in np.asarray(values, dtype=np.float64) + 0.0) + ")"

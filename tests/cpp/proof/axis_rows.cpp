@@ -1,0 +1,171 @@
+/// axis_pieces.hpp, axis_rows.hpp: against the closed form of the values, its dual numbers, and samples of boxes.
+
+#include "proof/axis_rows.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "math/numbers.hpp"
+#include "ninedof/conditioning/symmetric.hpp"
+#include "proof/box_bound.hpp"
+
+using namespace ninedof;
+using namespace ninedof::proof;
+
+namespace {
+
+using Point = std::array<double, coordinates>;
+
+/// The design of a point, with l_c = 1, over a number type; x(k) is a coordinate.
+template <class T, class X>
+AxisSpectrum<T> closed_form(const X& x) {
+  using std::cos;
+  using std::sin;
+  const T U = x(at_size), o = x(at_share), tau = x(at_angle), none(0.0);
+  const T c = (1.0 - square(tau)) / (1.0 + square(tau)), s = 2.0 * tau / (1.0 + square(tau));
+  const T zp = x(at_height) * U;
+  // The internal joints at angles that must not matter.
+  const T y = x(at_lower) * U, z = x(at_upper) * U;
+  const AxisDesign<T> d{{x(at_ratio) * U, none, none},
+                        {y * std::cos(0.7), y * std::sin(0.7), none},
+                        {U * c, U * s, none},
+                        {z * std::cos(2.9), z * std::sin(2.9), none},
+                        zp,
+                        zp * o / (1.0 + o)};
+  return axis_spectrum(d, T(1.0));
+}
+
+std::array<double, rows> logarithms(const Point& p) {
+  const AxisSpectrum<double> s = closed_form<double>([&](std::size_t k) { return p[k]; });
+  const double U = p[at_size];
+  return {std::log(s.axial_max), std::log(s.axial_min), std::log(s.transverse_max), std::log(s.transverse_min),
+          std::log(s.l / U),     std::log(s.q / U),     std::log(s.r / U)};
+}
+
+class Random {
+ public:
+  double log_uniform(double low, double high) { return low * std::pow(high / low, part_(engine_)); }
+  Point point() {
+    return {log_uniform(0.1, 20.0),  log_uniform(0.2, 8.0),  log_uniform(0.1, 8.0), log_uniform(0.05, 20.0),
+            log_uniform(0.02, 40.0), log_uniform(0.05, 5.0), log_uniform(0.05, 5.0)};
+  }
+  double part() { return part_(engine_); }
+
+ private:
+  std::mt19937_64 engine_{20261123};
+  std::uniform_real_distribution<double> part_{0.0, 1.0};
+};
+
+Box box_about(const Point& p, double factor, Random& random) {
+  Box box;
+  for (std::size_t k = 0; k < coordinates; ++k) {
+    const double f = 1.0 + factor * random.part();
+    box[k] = {p[k] / f, p[k] * f};
+  }
+  return box;
+}
+
+Box hexagonal(Box box) {
+  box[at_lower] = box[at_ratio];
+  box[at_upper] = 1.0;
+  return box;
+}
+
+Point inside(const Box& box, Random& random) {
+  Point p;
+  for (std::size_t k = 0; k < coordinates; ++k) {
+    const double part = random.part();
+    p[k] = part < 0.2 ? box[k].lo : part > 0.8 ? box[k].hi : box[k].lo * std::pow(box[k].hi / box[k].lo, random.part());
+  }
+  return p;
+}
+
+double condition_number(const std::array<double, rows>& v) {
+  return std::exp(std::max(v[axial_max], v[transverse_max]) - std::min(v[axial_min], v[transverse_min]));
+}
+
+}  // namespace
+
+TEST_SUITE("axis_rows") {
+  TEST_CASE("the reduced formulas have the values of the closed form") {
+    Random random;
+    for (int i = 0; i < 2000; ++i) {
+      const Point p = random.point();
+      Box box;
+      std::ranges::copy(p, box.begin());
+      const Values found = axis_values(axis_pieces(box));
+      const auto expected = logarithms(p);
+      for (std::size_t r = 0; r < rows; ++r) {
+        INFO("row " << r << ", design " << i);
+        // Where singular values meet, neither formula is good to more than the square root of the rounding.
+        CHECK(middle(found[r]) == doctest::Approx(expected[r]).epsilon(1e-9).scale(1.0));
+        CHECK(width(found[r]) < 1e-7);
+      }
+    }
+  }
+
+  TEST_CASE("values and slopes over a box enclose those of its designs") {
+    Random random;
+    for (const double factor : {0.01, 0.3, 2.0})
+      for (int i = 0; i < 150; ++i) {
+        const Box box = box_about(random.point(), factor, random);
+        const AxisPieces<Interval> pieces = axis_pieces(box);
+        const Values values = axis_values(pieces);
+        const auto slopes = axis_slopes(box, pieces, coordinates);
+        for (int j = 0; j < 8; ++j) {
+          const Point p = inside(box, random);
+          const auto at = logarithms(p);
+          using D = Dual<coordinates>;
+          const AxisSpectrum<D> s =
+              closed_form<D>([&](std::size_t k) { return D::variable(p[k], static_cast<int>(k)); });
+          const std::array<const D*, 4> four{&s.axial_max, &s.axial_min, &s.transverse_max, &s.transverse_min};
+          constexpr double slack = 1e-9;  // of the closed form in doubles
+          for (std::size_t r = 0; r < rows; ++r)
+            CHECK((values[r].lo - slack <= at[r] && at[r] <= values[r].hi + slack));
+          for (std::size_t r = 0; r < 4; ++r)
+            for (std::size_t k = 0; k < coordinates; ++k) {
+              const double slope = p[k] * four[r]->gradient[k] / four[r]->value;
+              INFO("row " << r << ", coordinate " << k << ": " << slope << " in " << slopes[r][k].lo << ", "
+                          << slopes[r][k].hi);
+              CHECK((slopes[r][k].lo - 1e-6 <= slope && slope <= slopes[r][k].hi + 1e-6));
+            }
+        }
+      }
+  }
+
+  TEST_CASE("no design of a box is below its bound, of any kind") {
+    Random random;
+    for (const bool hexagons : {true, false})
+      for (const double leg_ratio : {infinity, 2.0})
+        for (const double factor : {0.001, 0.05, 0.5, 3.0})
+          for (int i = 0; i < 60; ++i) {
+            Box box = box_about(random.point(), factor, random);
+            if (hexagons) box = hexagonal(box);
+            const std::size_t dimension = hexagons ? hexagonal_coordinates : coordinates;
+            const BoxBound bound = bound_box(box, dimension, 1e300, std::log(leg_ratio));
+            for (int j = 0; j < 30; ++j) {
+              Point p = inside(box, random);
+              if (hexagons) p[at_lower] = p[at_ratio], p[at_upper] = 1.0;
+              const auto at = logarithms(p);
+              const auto [least, most] = std::minmax({at[external_leg], at[upper_leg], at[lower_leg]});
+              if (most - least > std::log(leg_ratio)) continue;
+              CHECK(condition_number(at) >= bound.condition_number * (1.0 - 1e-9));
+            }
+          }
+  }
+
+  TEST_CASE("a small box is bounded to the second order of its size") {
+    Random random;
+    const auto loss = [](const Point& p, double size) {
+      Box box;
+      for (std::size_t k = 0; k < coordinates; ++k) box[k] = {p[k] * (1.0 - size), p[k] * (1.0 + size)};
+      return std::log(condition_number(logarithms(p)) / bound_box(box, coordinates, 1e300, infinity).condition_number);
+    };
+    for (int i = 0; i < 50; ++i) {
+      const Point p = random.point();
+      CHECK(loss(p, 1e-5) < 1e-3);  // slopes of the combination are first order where it is not stationary
+    }
+  }
+}

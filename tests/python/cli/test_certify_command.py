@@ -1,0 +1,68 @@
+"""`ninedof certify`: what it prints and writes, and one line for anything wrong."""
+
+import json
+import shutil
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("runs") / "paper"
+    nd.save(nd.optimize(nd.Study.paper(), starts=2), folder)
+    return folder
+
+
+def status(*arguments):
+    with pytest.raises(SystemExit) as end:
+        main(["certify", *map(str, arguments)])
+    return end.value.code
+
+
+def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
+    assert status(run) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "Proved: at every pose of the study, the neutral one" in out
+    assert "the condition number is at most 3.76266." in out
+    certificate = nd.load_certificate(run)
+    assert certificate.proved
+    assert certificate.condition[0] <= nd.load(run).condition_number * (1.0 + 1e-12)
+    assert "the condition number is at most 3.76266." in nd.report(run, run / "page.html").read_text()
+    assert certificate == nd.load_certificate(run / "certify.json")
+
+
+def test_a_bound_that_does_not_hold_is_said(run, capsys):
+    assert status(run, "--condition", 3.7, "--json") == 3
+    said = capsys.readouterr()
+    assert json.loads(said.out)["limits"][-1]["answer"] == "violated"
+    assert "Violated: condition number: 3.76265" in said.err
+
+
+@pytest.mark.parametrize(
+    ("written", "message"),
+    [
+        ("", "not a JSON file"),
+        ("[]", "expected a certificate written by ninedof"),
+        ('{"format": "ninedof-machine-certificate-1"}', "got a certificate without 'limits'"),
+    ],
+)
+def test_a_broken_certificate_is_named(run, tmp_path, capsys, written, message):
+    folder = tmp_path / "run"
+    shutil.copytree(run, folder)
+    (folder / "certify.json").write_text(written)
+    assert status(folder, "--resume") == 2
+    said = capsys.readouterr().err.strip()
+    assert message in said
+    assert "Traceback" not in said
+
+
+def test_what_is_no_design_of_a_study_is_refused(tmp_path, capsys):
+    assert status(tmp_path) == 2
+    assert "record.json: cannot be read" in capsys.readouterr().err
+    g, c = nd.Geometry.hexagonal(0.0, 5.8, 2.9, 0.0), nd.Configuration.neutral(3.9, 2.4)
+    nd.save(nd.Design(g, c, 1.0), tmp_path / "design.toml")
+    assert status(tmp_path / "design.toml") == 2
+    assert "got no design of a study, expected a run of `ninedof optimize`" in " ".join(capsys.readouterr().err.split())

@@ -1,0 +1,93 @@
+"""Ctrl-C at any time: exit status 130, no traceback, and what is finished stays."""
+
+import gc
+import shlex
+import signal
+import subprocess
+import sys
+import time
+import weakref
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.cli.commands import paper as paper_command
+from ninedof.cli.interruption import interruptible
+from ninedof.support.starting import is_command
+
+LOADING = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
+sys.argv = {argv}
+class Loaded:
+    def find_spec(self, name, path=None, target=None):
+        if name == {name!r}:
+            signal.raise_signal(signal.SIGINT)
+sys.meta_path.insert(0, Loaded())
+{code}
+"""
+
+
+@pytest.mark.parametrize("name", ["ninedof._core", "ninedof.design.study", "ninedof.cli.commands.optimize"])
+def test_an_interruption_while_the_command_is_loaded(name):
+    """As the installed script does: it has its own name and imports `main`."""
+    code = "from ninedof.cli.app import main; main()"
+    script = LOADING.format(argv=["/usr/bin/ninedof", "--version"], name=name, code=f"sys.path[:] = {sys.path}\n{code}")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+def test_a_program_that_uses_the_package_keeps_its_handler():
+    script = LOADING.format(argv=["plan.py"], name="none", code=f"sys.path[:] = {sys.path}\nimport ninedof")
+    script += "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+    assert is_command(["-m"], ["python3", "-X", "dev", "-m", "ninedof", "sheet"])
+    assert not is_command(["-m"], ["python3", "-m", "planner", "ninedof"])
+    assert not is_command([], [])
+
+
+def test_an_interruption_lost_in_a_callback_is_raised_again():
+    """Python drops an exception of a callback of a weak reference; figures have thousands of them."""
+
+    class Thing:
+        pass
+
+    def gone(_):
+        raise KeyboardInterrupt
+
+    def work():
+        thing = Thing()
+        reference = weakref.ref(thing, gone)
+        del thing
+        gc.collect()
+        assert reference() is None
+        end = time.perf_counter() + 5.0
+        while time.perf_counter() < end:
+            time.sleep(0.001)
+
+    with pytest.raises(KeyboardInterrupt), interruptible():
+        work()
+
+
+def test_an_interruption_while_drawing_leaves_the_record(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("ninedof.plot.save", lambda *_: signal.raise_signal(signal.SIGINT))
+    for line, kind in (("optimize --starts 2", nd.Result), ("path --circle 0.2 --points 9", nd.Followed)):
+        with pytest.raises(SystemExit) as ended:
+            main(shlex.split(f"{line} --out run-{kind.__name__}"))
+        said = capsys.readouterr()
+        assert ended.value.code == 130
+        assert f"interrupted while drawing; run folder run-{kind.__name__} has the record" in said.out
+        assert "Traceback" not in said.err
+        assert isinstance(nd.load(f"run-{kind.__name__}"), kind)
+
+
+def test_an_interruption_of_the_figures_of_the_paper(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(paper_command, "verdicts", lambda _: ())
+    monkeypatch.setattr("ninedof.plot.figure_1", lambda *_: signal.raise_signal(signal.SIGINT))
+    with pytest.raises(SystemExit) as ended:
+        main(["paper", "--figures", "--out", "drawn"])
+    assert ended.value.code == 130
+    assert [file.name for file in (tmp_path / "drawn").iterdir()] == ["record.json"]

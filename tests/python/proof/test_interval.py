@@ -1,0 +1,156 @@
+"""Interval operations against balls of 200 bits (Arb through python-flint): what they enclose, and how tightly.
+
+Not a digit is shared with the package: Arb has its own arithmetic and functions.
+"""
+
+import flint
+import numpy as np
+import pytest
+from flint import arb
+from numpy.testing import assert_array_equal
+from sizes import size
+
+from ninedof import _core
+
+COUNT = size(10_000, 72_000)  # of each operation: 140 thousand operations, or a million
+BINARY = {
+    "add": lambda x, y: x + y,
+    "subtract": lambda x, y: x - y,
+    "multiply": lambda x, y: x * y,
+    "divide": lambda x, y: x / y,
+    "min": lambda x, y: x.min(y),
+    "max": lambda x, y: x.max(y),
+}
+UNARY = {
+    "negative": lambda x: -x,
+    "abs": abs,
+    "square": lambda x: x * x,
+    "sqrt": lambda x: x.sqrt(),
+    "exp": lambda x: x.exp(),
+    "log": lambda x: x.log(),
+    "sin": lambda x: x.sin(),
+    "cos": lambda x: x.cos(),
+}
+EXACT = {**BINARY, **UNARY}
+INF = np.inf
+TINY, HUGE, LEAST = np.finfo(float).tiny, np.finfo(float).max, np.finfo(float).smallest_subnormal
+HARD = [0.0, -0.0, LEAST, 3 * LEAST, TINY, np.nextafter(TINY, 0), 1.0, np.nextafter(1, 0), np.nextafter(1, 2), 1e-162]
+HARD += [np.pi / 2, np.pi, 1.5 * np.pi, 1e8, 2.0**30, 709.78, 745.2, 1e154, 1.5e154, HUGE, np.nextafter(HUGE, 0), 1e300]
+
+
+@pytest.fixture(autouse=True)
+def _bits():
+    flint.ctx.prec = 200
+
+
+def numbers(rng, count):
+    """Finite doubles of every size and sign, moderate ones, and hard ones."""
+    kind = rng.integers(4, size=count)
+    sign = rng.choice([-1.0, 1.0], size=count)
+    with np.errstate(over="ignore"):
+        spread = np.ldexp(rng.uniform(1.0, 2.0, size=count), rng.integers(-1080, 1024, size=count))
+    moderate = np.ldexp(rng.uniform(1.0, 2.0, size=count), rng.integers(-6, 7, size=count))
+    return sign * np.select([kind == 0, kind == 1], [spread, rng.choice(HARD, size=count)], moderate)
+
+
+def intervals(rng, count):
+    """Lower and upper ends, and a finite number in each: points, narrow, wide and unbounded intervals."""
+    x, other = numbers(rng, count), numbers(rng, count)
+    kind = rng.integers(5, size=count)
+    with np.errstate(over="ignore"):
+        near = np.nextafter(x, rng.choice([-INF, INF], size=count))
+    far = np.select([kind <= 1, kind == 2, kind == 3], [x, near, other], rng.choice([-INF, INF], size=count))
+    lo, hi = np.minimum(x, far), np.maximum(x, far)
+    inside = np.where(np.isfinite(far), np.clip(0.5 * x + 0.5 * far, lo, hi), x)
+    return lo, hi, np.where(rng.uniform(size=count) < 0.7, x, inside)
+
+
+def defined(name, x, y):
+    return {"divide": y != 0.0, "sqrt": x >= 0.0, "log": x > 0.0}.get(name, np.full(x.shape, True))
+
+
+def operated(name, a, b=None):
+    b = a if b is None else b
+    return _core.interval_operations(name, np.stack([a[0], a[1], b[0], b[1]], axis=-1)).T
+
+
+def exact_values(name, x, y):
+    xs = [arb(v) for v in x.tolist()]
+    if name in UNARY:
+        return [UNARY[name](v) for v in xs]
+    return [BINARY[name](v, arb(w)) for v, w in zip(xs, y.tolist(), strict=True)]
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_every_value_is_enclosed_and_points_tightly(name):
+    rng = np.random.default_rng([16, *name.encode()])
+    a, b = intervals(rng, COUNT), intervals(rng, COUNT)
+    lo, hi = operated(name, a, b)
+    assert np.all(lo <= hi)  # false for NaN
+    meant = defined(name, a[2], b[2])
+    exact = exact_values(name, a[2][meant], b[2][meant])
+    lo, hi = lo[meant], hi[meant]
+    # A ball that lies wholly outside is a number left out; an infinite end leaves out none.
+    wrong = [
+        (low, value, high)
+        for low, value, high in zip(lo.tolist(), exact, hi.tolist(), strict=True)
+        if (low != -INF and value < low) or (high != INF and value > high)
+    ]
+    assert not wrong, wrong[:3]
+
+    points = (a[0] == a[1])[meant] & ((b[0] == b[1])[meant] | (name in UNARY))
+    periodic = name in ("sin", "cos")
+    largest = np.maximum(np.abs(lo), np.abs(hi))
+    looked_at = points & (largest < 0.5 * HUGE) & ~(periodic & (np.abs(a[2][meant]) >= 2.0**30))
+    assert looked_at.mean() > 0.05
+    ulps = (hi[looked_at] - lo[looked_at]) / np.spacing(largest[looked_at])
+    assert ulps.max() <= (12.0 if name in ("exp", "log", "sin", "cos") else 4.0)
+
+
+def test_the_nudge_is_needed():
+    """Rounding to nearest alone leaves out sums, products and roots: what the ends are moved for."""
+    rng = np.random.default_rng(3)
+    x, y = rng.uniform(1.0, 2.0, size=(2, 2000))
+    for name, rounded in {"add": x + y, "multiply": x * y, "divide": x / y, "sqrt": np.sqrt(x)}.items():
+        exact = exact_values(name, x, y)
+        inexact = np.array([value != r for value, r in zip(exact, rounded.tolist(), strict=True)])
+        lo, hi = operated(name, (x, x), (y, y))
+        assert inexact.mean() > 0.2
+        assert np.all((lo < rounded) & (rounded < hi))
+        below = np.array([value < r for value, r in zip(exact, rounded.tolist(), strict=True)])
+        assert 0.1 < below.mean() < 0.9
+
+
+def test_wide_operands_are_enclosed_throughout():
+    """A grid of each interval, not only one number of it."""
+    rng = np.random.default_rng(5)
+    count, steps = 400, np.linspace(0.0, 1.0, 5)
+    for name in EXACT:
+        ends = np.sort(rng.uniform(-8.0, 8.0, size=(2, 2, count)), axis=1)
+        a, b = ends
+        lo, hi = operated(name, a, b)
+        for s in steps:
+            for t in steps if name in BINARY else [0.0]:
+                x = np.clip(a[0] + s * (a[1] - a[0]), *a)
+                y = np.clip(b[0] + t * (b[1] - b[0]), *b)
+                meant = defined(name, x, y)
+                exact = np.array([float(v.mid()) for v in exact_values(name, x[meant], y[meant])])
+                # Rounded to a double: one unit in the last place may be missing at either end.
+                assert np.all(np.nextafter(lo[meant], -INF) <= exact)
+                assert np.all(exact <= np.nextafter(hi[meant], INF))
+
+
+def test_inverted_and_missing_operands_are_refused():
+    for ends in ((2.0, 1.0), (np.nan, 1.0), (0.0, np.nan)):
+        with pytest.raises(ValueError, match=r"interval: got .* expected a lower end at most the upper"):
+            _core.interval_operations("add", np.array([[0.0, 1.0, *ends]]))
+    with pytest.raises(ValueError, match="name: got nothing"):
+        _core.interval_operations("nothing", np.zeros((1, 4)))
+
+
+def test_what_is_not_defined_anywhere_gives_all_numbers():
+    everything = [[-INF], [INF]]
+    one, zero, below = ([1.0], [1.0]), ([0.0], [0.0]), ([-2.0], [-1.0])
+    assert_array_equal(operated("divide", one, zero), everything)
+    assert_array_equal(operated("log", zero), everything)
+    assert_array_equal(operated("sqrt", below), everything)

@@ -1,0 +1,314 @@
+"""What is proved of a machine at every pose of a region.
+
+Oracle: poses sampled in the region from its definition, rotations by scipy, every number by the numpy model; segments
+by points on them. None of it shares code with the proofs.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import numpy_model as model
+import pytest
+from scipy.spatial.transform import Rotation
+from singular_robots import unit_rows
+from sizes import LONG, size
+
+import ninedof as nd
+from ninedof.proof.machine import certify
+from ninedof.proof.machine_record import MachineCertificate
+
+VARIABLES = {
+    "base_external_radius": 500.0,
+    "base_internal_radius": 230.0,
+    "base_internal_angle": 0.4,
+    "platform_external_radius": 150.0,
+    "platform_external_angle": 0.9,
+    "platform_internal_radius": 90.0,
+    "platform_internal_angle": -0.3,
+    "zp": 360.0,
+    "zs": 260.0,
+}
+LIMITS = {
+    "leg_length": (100.0, 700.0),
+    "base_cone": {"max_deg": 60.0},
+    "platform_cone": {"max_deg": 60.0, "axis": (0.0, 0.3, -1.0)},
+    "leg_clearance": {"min": 10.0},
+    "stroke_ratio": (None, 1.7),
+    "stroke": (None, 300.0),
+    "leg_ratio": (None, 8.0),
+    "radius_ratio": (None, 4.0),
+    "footprint": (None, 510.0),
+    "joint_spacing": (5.0, None),
+}
+REGIONS = {
+    "box": nd.Region(box=(30.0, 40.0, 20.0), tilt=0.12),
+    "ball": nd.Region(ball=25.0, internal_point="held"),
+    "cylinder": nd.Region(cylinder=(0.1, 0.05), tilt=0.1, unit="zp"),
+    "path": nd.Region(path=((0.0, 0.0, 0.0), (40.0, 0.0, 10.0), (40.0, -40.0, 10.0)), yaw=0.2),
+}
+
+
+def study(region, **changes):
+    return nd.Study(
+        family="symmetric",
+        variables={name: (value, value) for name, value in VARIABLES.items()},
+        constraints=LIMITS | changes,
+        characteristic_length=150.0,
+        objective=nd.Objective(region=region),
+    )
+
+
+def proved(region, constraints=None, **options):
+    asked = study(region, **(constraints or {}))
+    problem = asked.problem()
+    geometry = problem.geometry(list(VARIABLES.values()))
+    neutral = nd.Configuration.neutral([VARIABLES["zp"]], [VARIABLES["zs"]])
+    return geometry, neutral, certify(asked, geometry, neutral, 150.0, **options)
+
+
+def disc(rng, count, dimensions):
+    """Points of a disc or ball, half of them on its boundary."""
+    v = rng.normal(size=(count, dimensions))
+    v /= np.linalg.norm(v, axis=1, keepdims=True)
+    return v * np.where(rng.random((count, 1)) < 0.5, 1.0, rng.random((count, 1)) ** (1.0 / dimensions))
+
+
+def sampled(region, geometry, neutral, rng, count):
+    """Poses of a region, drawn from its definition; a good part on its boundary."""
+    edge = np.clip(1.5 * rng.uniform(-1.0, 1.0, (count, 3)), -1.0, 1.0)
+    if region.box is not None:
+        shift = np.array(region.box) * edge
+    elif region.ball is not None:
+        shift = region.ball * disc(rng, count, 3)
+    elif region.cylinder is not None:
+        shift = np.column_stack([region.cylinder[0] * disc(rng, count, 2), region.cylinder[1] * edge[:, 2]])
+    else:
+        corners = np.array(region.path)
+        part, t = rng.integers(len(corners) - 1, size=count), rng.random((count, 1))
+        shift = corners[part] + t * (corners[part + 1] - corners[part])
+    shift = shift * (VARIABLES["zp"] if region.unit == "zp" else 1.0)
+    tilt = np.column_stack([region.tilt * disc(rng, count, 2), np.zeros(count)])
+    yaw = np.column_stack([np.zeros((count, 2)), region.yaw * edge[:, 0]])
+    turn = Rotation.from_rotvec(tilt) * Rotation.from_rotvec(yaw)
+    q = (turn * Rotation.from_matrix(neutral.rotation[0])).as_matrix()
+    s = neutral.internal_point + (0.0 if region.internal_point == "held" else shift)
+    s = np.broadcast_to(s, shift.shape)
+    return model.robot(geometry, nd.Configuration(neutral.position + shift, q, s))
+
+
+def angles(m, neutral, legs, platform, axis):
+    """Angles of legs at the joints of a body from an axis, or from the neutral direction."""
+
+    def seen(robot):
+        external, upper, lower = model.legs(robot)[:3]
+        v = np.concatenate([-external if platform else external, upper if platform else lower], axis=-2)
+        return v @ robot.Q if platform else v  # in the frame of the body
+
+    v, reference = seen(m), seen(neutral) if axis is None else np.broadcast_to(axis, (1, 6, 3))
+    cosine = (v * reference).sum(-1) / np.linalg.norm(v, axis=-1) / np.linalg.norm(reference, axis=-1)
+    return np.arccos(np.clip(cosine, -1.0, 1.0))
+
+
+def apart(m, rng):
+    """Distances of random points of the external legs from random points of all others."""
+    v = np.concatenate(model.legs(m)[:3], axis=-2)
+    s = np.broadcast_to(m.s[:, None, :], (len(v), 3, 3))
+    ends = np.concatenate([np.broadcast_to(m.r, s.shape) + v[:, :3], s, s], axis=1)
+    t = np.clip(1.4 * rng.random((len(v), 9, 1)) - 0.2, 0.0, 1.0)
+    at = ends - t * v
+    gaps = np.linalg.norm(at[:, :3, None] - at[:, None], axis=-1)
+    gaps[:, range(3), range(3)] = np.inf
+    return gaps
+
+
+@pytest.mark.parametrize("shape", REGIONS)
+def test_no_sampled_pose_of_a_proved_region_passes_what_is_proved(shape):
+    region = REGIONS[shape]
+    geometry, neutral, certificate = proved(region, gap=0.25)
+    by_name = {(one.name, one.side): one for one in certificate.limits}
+    assert certificate.left_count == 0
+    rng = np.random.default_rng(7)
+    reached = {"condition": 0.0, "longest": np.zeros(9), "base": 0.0}
+    for _ in range(size(1, 100)):
+        m = sampled(region, geometry, neutral, rng, 25_000)
+        lengths = model.lengths(m)
+        low, high = np.transpose(certificate.lengths)
+        assert (lengths >= low * (1.0 - 1e-13)).all()
+        assert (lengths <= high * (1.0 + 1e-13)).all()
+        strokes = lengths.max(axis=0) - lengths.min(axis=0)
+        assert strokes.max() <= by_name["stroke", "max"].value[1]
+        assert lengths.max() / lengths.min() <= by_name["leg_ratio", "max"].value[1]
+        first = m.at(slice(0, 4_000))
+        condition = model.condition_number(first, 150.0)
+        assert condition.max() <= certificate.condition[1]
+        start = model.robot(geometry, neutral)
+        side = np.sign(np.linalg.det(np.stack(unit_rows(start))))
+        determinants = np.linalg.det(np.stack(unit_rows(m))) * side
+        assert determinants.min() >= by_name["no singularity", "min"].value[0]
+        base = angles(m, start, None, False, None)
+        assert base.max() <= by_name["base_cone", "max"].value[1]
+        axis = np.array(LIMITS["platform_cone"]["axis"])
+        assert angles(m, start, None, True, axis).max() <= by_name["platform_cone", "max"].value[1]
+        assert apart(first, rng).min() >= by_name["leg_clearance", "min"].value[0]
+        reached["condition"] = max(reached["condition"], condition.max())
+        reached["longest"] = np.maximum(reached["longest"], lengths.max(axis=0))
+        reached["base"] = max(reached["base"], base.max())
+    # What is said to be met is met nearly by a sample too, and the bounds are not far above it.
+    assert reached["condition"] > 0.93 * certificate.condition[0]
+    assert (reached["longest"] > 0.97 * high).all()
+    assert reached["base"] > 0.9 * by_name["base_cone", "max"].value[0]
+    assert certificate.condition[1] <= 1.25 * certificate.condition[0] * (1.0 + 1e-12)
+
+
+def at_pose(met, geometry, neutral):
+    turn = Rotation.from_rotvec(met.tilt) * Rotation.from_rotvec((0.0, 0.0, met.yaw))
+    shift = np.array(met.shift)
+    q = (turn * Rotation.from_matrix(neutral.rotation[0])).as_matrix()
+    return model.robot(geometry, nd.Configuration(neutral.position[0] + shift, q, neutral.internal_point[0] + shift))
+
+
+PLANTED = {
+    "leg_length": lambda m, start: model.lengths(m).max(),
+    "base_cone": lambda m, start: angles(m, start, None, False, None).max(),
+    "stroke": None,
+    "leg_clearance": None,
+}
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_limit_passed_in_a_thin_corner_alone_is_found(name):
+    """The limit is a millionth part tighter than what was met: it is passed in a tiny part of the region alone."""
+    region = REGIONS["box"]
+    _, _, before = proved(region, time_limit=0.01)
+    side = "min" if name == "leg_clearance" else "max"
+    one = next(p for p in before.limits if p.name == name and p.side == side)
+    worst = one.value[side == "min"]
+    tight = worst * (1.0 + 2e-6) if side == "min" else worst * (1.0 - 2e-6)
+    limit = {side: tight}
+    geometry, neutral, certificate = proved(region, {name: limit}, time_limit=0.01)
+    planted = next(p for p in certificate.limits if p.name == name and p.side == side)
+    assert planted.answer != "proved"
+    if PLANTED[name] is not None:
+        assert planted.answer == "violated"
+        (met,) = planted.at
+        found = PLANTED[name](at_pose(met, geometry, neutral), model.robot(geometry, neutral))
+        assert found == pytest.approx(planted.value[0], rel=1e-9)
+        assert found > tight
+
+
+def test_a_bound_below_the_worst_condition_number_is_never_proved():
+    region = REGIONS["box"]
+    geometry, neutral, certificate = proved(region, gap=0.5)
+    met = model.condition_number(at_pose(certificate.condition_at, geometry, neutral), 150.0)
+    assert met == pytest.approx(certificate.condition[0], rel=1e-9)
+    for below, answer in ((1.0 - 1e-5, "violated"), (1.0 + 1e-9, "undecided"), (0.8, "violated")):
+        bound = float(met) * below
+        _, _, again = proved(region, condition_number=bound, gap=0.5, tolerance=0.0, time_limit=0.2)
+        assert again.limits[-1].answer == answer
+
+
+def test_random_designs_with_bounds_just_below_their_worst_sample():
+    rng = np.random.default_rng(3)
+    region = nd.Region(box=(0.05, 0.05, 0.05), tilt=0.05, unit="zp")
+    for _ in range(size(3, 200)):
+        radius, angle = rng.uniform(0.5, 3.0, 4), rng.uniform(-np.pi, np.pi, 4)
+        geometry = nd.Geometry(*(model.orbit(r, a, 0.0) for r, a in zip(radius, angle, strict=True)))
+        neutral = nd.Configuration.neutral([2.0], [1.2])
+        asked = nd.Study(family="general", objective=nd.Objective(region=region))
+        edge = sampled(region, geometry, neutral, rng, 500)
+        half = edge._replace(p=neutral.position + (edge.p - neutral.position) / VARIABLES["zp"] * 2.0)
+        half = half._replace(s=neutral.internal_point + (edge.s - neutral.internal_point) / VARIABLES["zp"] * 2.0)
+        worst = float(model.condition_number(half, 1.0).max())
+        found = certify(
+            asked, geometry, neutral, 1.0, condition_number=worst * (1.0 - 1e-9), tolerance=0.0, time_limit=0.3
+        )
+        assert found.limits[-1].answer != "proved"
+        assert found.condition[1] > worst
+
+
+def test_a_singular_pose_in_the_region_is_found():
+    """O held in the plane of the upper joints at one place of the region: det C changes its sign."""
+    region = nd.Region(box=(20.0, 20.0, 120.0), internal_point="held")
+    *_, certificate = proved(region, time_limit=0.5)
+    singular = certificate.limits[0]
+    assert singular.answer == "violated"
+    assert singular.which == "det C"
+    assert singular.value[1] < 0.0
+    assert math.isinf(certificate.condition[1])
+    assert certificate.left_count > 0
+    assert "Violated: no singularity, det C" in str(certificate)
+
+
+def test_an_interrupted_proof_goes_on_where_it_stopped():
+    region = REGIONS["box"]
+    *_, whole = proved(region, gap=0.25)
+    *_, part = proved(region, gap=1e-5, time_limit=0.02)  # minutes of work, on any machine
+    assert part.left_count
+    assert part.condition[1] > part.target
+    again = MachineCertificate.from_dict(part.to_dict())
+    *_, rest = proved(region, gap=0.25, resume=again)
+    assert rest.left_count == 0
+    *_, kept = proved(region, gap=0.01, time_limit=0.02, resume=replace(rest, left=()))
+    assert kept.condition[1] <= rest.condition[1]
+    with pytest.raises(ValueError, match=r"^resume: got a certificate over a box"):
+        proved(REGIONS["path"], resume=rest)
+    assert rest.condition[1] <= max(rest.target, whole.condition[1]) * (1.0 + 1e-12)
+
+
+def test_a_study_without_a_region_is_proved_at_its_poses():
+    poses = (nd.Pose(position=(30.0, 0.0, 0.0)), nd.Pose(rotation=(0.0, 0.1, 0.05), internal_point=(5.0, 0.0, -3.0)))
+    asked = nd.Study(
+        family="symmetric",
+        variables={name: (value, value) for name, value in VARIABLES.items()},
+        constraints=LIMITS,
+        characteristic_length=150.0,
+        objective=nd.Objective(poses=poses),
+    )
+    problem = asked.problem()
+    configurations = nd.Configuration(*problem.configurations(list(VARIABLES.values())))
+    geometry = problem.geometry(list(VARIABLES.values()))
+    certificate = certify(asked, geometry, configurations, 150.0)
+    worst = model.condition_number(model.robot(geometry, configurations[1:]), 150.0)
+    low, high = certificate.condition
+    assert low <= worst.max() * (1.0 + 1e-12)
+    assert worst.max() <= high <= low * (1.0 + 1e-8)
+    assert certificate.condition_at.listed == 1 + worst.argmax()
+    assert "2 listed poses" in str(certificate)
+
+
+def test_what_the_record_holds_comes_back():
+    *_, certificate = proved(REGIONS["path"], gap=0.5)
+    assert MachineCertificate.from_dict(certificate.to_dict()) == certificate
+
+
+def test_a_region_in_which_o_is_searched_for_is_refused():
+    with pytest.raises(ValueError, match=r'^internal_point: got "best", expected "shifted" or "held"'):
+        proved(nd.Region(box=(10.0, 10.0, 10.0), internal_point="best"))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"gap": 0.0}, "^gap: got 0.0, expected a finite number at least 1e-09"),
+        ({"time_limit": -1.0}, "^time_limit: got -1.0"),
+        ({"condition_number": 0.5}, "^condition_number: got 0.5"),
+    ],
+)
+def test_bad_options_are_named(options, message):
+    with pytest.raises(ValueError, match=message):
+        proved(REGIONS["box"], **options)
+
+
+@pytest.mark.skipif(not LONG, reason="ten minutes: NINEDOF_LONG=1")
+def test_ten_million_poses_of_the_region():
+    region = REGIONS["box"]
+    geometry, neutral, certificate = proved(region, gap=0.02)
+    rng = np.random.default_rng(11)
+    low, high = np.transpose(certificate.lengths)
+    for _ in range(100):
+        m = sampled(region, geometry, neutral, rng, 100_000)
+        lengths = model.lengths(m)
+        assert (lengths >= low * (1.0 - 1e-13)).all()
+        assert (lengths <= high * (1.0 + 1e-13)).all()
+        assert model.condition_number(m, 150.0).max() <= certificate.condition[1]

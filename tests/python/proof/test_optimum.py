@@ -1,0 +1,225 @@
+"""prove_optimum, certificates, `optimize(certify=True)`, `ninedof optimize --certify`, `ninedof check`."""
+
+import dataclasses
+import json
+import math
+import zlib
+
+import certificate_in_balls as balls
+import numpy as np
+import pytest
+from sizes import LONG
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.proof.optimum import FILE, OptimumProof
+from ninedof.report.proof import of_result as report_proof
+
+BEST = 3.7626590785960471961  # by a solution of the optimality conditions in 50 digits
+PAPER = nd.Study.paper()
+
+
+@pytest.fixture(scope="module")
+def proved():
+    return nd.optimize(PAPER, starts=8, certify=True)
+
+
+@pytest.mark.slow
+def test_the_papers_problem_is_proved_to_twelve_digits(proved):
+    proof = proved.proof
+    assert proof.complete
+    assert proof.open == 0
+    assert BEST * (1.0 - 1.1e-12) < proved.lower_bound < BEST
+    assert proof.gap(proved.condition_number) < 1.1e-12
+    assert proof.words == "Proved: no machine of this class has a condition number below 3.76265907859."
+    assert proof.left_out == ()
+    bound = nd.applicable_bounds(proved)[0]
+    assert (bound.name, bound.proved) == ("certificate", True)
+
+
+def test_the_words_never_round_up():
+    proof = OptimumProof(2.0 - 1e-15, 2.0, False, 1, 1, 0.1)
+    assert proof.words.endswith("below 1.99999999999.")
+    assert OptimumProof(3.0, 3.0, True, 1, 0, 0.1, left_out=("stroke",)).words == (
+        "Proved: no machine of this class has a condition number below 3. The proof does without stroke: with them it "
+        "holds all the more."
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("change", "best", "gap"),
+    [
+        ({"constraints": {"radius_ratio": (None, 1.2)}}, 4.0916506638403645, 1e-9),
+        ({"constraints": {"radius_ratio": (None, 2.0), "leg_ratio": (None, 2.0)}}, 3.8574528079169568, 1e-6),
+        ({"constraints": {"radius_ratio": (None, 2.0)}, "characteristic_length": 2.0}, BEST, 1e-3),
+        pytest.param(
+            {"constraints": {"radius_ratio": (None, 2.0)}, "variables": {"theta_z": (-10.0, 10.0)}},
+            3.749827,
+            1e-6,
+            marks=pytest.mark.skipif(not LONG, reason="ten seconds: NINEDOF_LONG=1"),
+        ),
+    ],
+)
+def test_other_studies_are_proved(change, best, gap):
+    study = nd.Study(**({"variables": dict(PAPER.variables)} | change))
+    proof = nd.prove_optimum(study, best, gap=gap)
+    assert proof.complete
+    assert proof.lower_bound == best * (1.0 - gap)
+
+
+@pytest.mark.parametrize("seed", range(200 if LONG else 8))
+def test_nothing_is_proved_above_a_design_that_is_known(seed):
+    """With the target above the condition number of some allowed design, the search must not come to its end."""
+    rng = np.random.default_rng(seed)
+    ratio, top = rng.uniform(1.1, 6.0), 10.0 ** rng.uniform(0.3, 2.0)
+    length = 10.0 ** rng.uniform(-1.0, 1.0)
+    limits = {"radius_ratio": (None, ratio), "zs_fraction": sorted(rng.uniform(0.05, 0.95, 2))}
+    variables = dict.fromkeys(("a1", "a2", "b1", "b2"), (0.0, top)) | {
+        "zp": (0.01 * top, top),
+        "zs": (0.001 * top, top),
+        "theta_z": (-1.0, 1.0) if seed % 2 else 0.0,
+    }
+    study = nd.Study(variables=variables, constraints=limits, characteristic_length=length)
+    best = math.inf
+    for _ in range(400):
+        u, phi = rng.uniform(0.05, 0.5) * top, rng.uniform(0.0, 1.0, 2)
+        r = u * rng.uniform(0.2, ratio)
+        x = dict(
+            zip(("a1", "a2", "b1", "b2"), (r * phi[0], r * (1 - phi[0]), u * phi[1], u * (1 - phi[1])), strict=True)
+        )
+        x["zp"] = rng.uniform(0.05, 1.0) * top
+        x["zs"] = x["zp"] * rng.uniform(*limits["zs_fraction"])
+        x["theta_z"] = rng.uniform(-1.0, 1.0) if seed % 2 else 0.0
+        point = study.evaluate(x)
+        if all(margin >= 0.0 for margin in point.margins.values()):
+            best = min(best, point.condition_number)
+    assert math.isfinite(best)
+    proof = nd.prove_optimum(study, best * 1.001, gap=0.0, time_limit=0.3)
+    assert not proof.complete
+    assert proof.lower_bound <= best
+    assert proof.better is None or proof.better < best * 1.001
+
+
+def test_a_symmetric_study_has_a_bound_at_any_time():
+    study = nd.Study("symmetric", constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)})
+    proof = nd.prove_optimum(study, 2.3430924, time_limit=1.0)
+    assert not proof.complete
+    assert 1.0 < proof.lower_bound < 2.3430924
+    assert proof.certificate == b""
+    with pytest.raises(ValueError, match="did not come to its end"):
+        proof.save("nowhere")
+
+
+@pytest.mark.parametrize(
+    ("study", "options", "words"),
+    [
+        (3, {}, "study: got int, expected a Study"),
+        (nd.Study("general"), {}, "family: got general"),
+        (nd.Study(characteristic_length="mean_leg"), {}, "characteristic_length: got no number"),
+        (nd.Study(objective=nd.Objective(poses=[nd.Pose(position=(0.1, 0.0, 0.0))])), {}, "objective: got 1 poses"),
+        (nd.Study(variables={"zp": (0.0, 5.0)}), {}, r"zp: got \[0, 5\]"),
+        (nd.Study(objective=nd.Objective(index="speed")), {}, "objective: got another index"),
+        (PAPER, {"gap": -1.0}, "gap: got -1.0"),
+        (PAPER, {"gap": 1.0}, "more than 1 to be proved"),
+        (PAPER, {"time_limit": math.nan}, "time_limit"),
+        (PAPER, {"progress": 3}, "progress"),
+    ],
+)
+def test_what_cannot_be_proved_is_said(study, options, words):
+    with pytest.raises(ValueError, match=words):
+        nd.prove_optimum(study, 3.0, **options)
+    if isinstance(study, nd.Study) and not options:
+        with pytest.raises(ValueError, match=words):
+            nd.optimize(study, certify=True)
+
+
+@pytest.mark.slow
+def test_records_keep_the_proof_and_the_certificate(proved, tmp_path):
+    path = nd.save(proved, tmp_path / "run")
+    again = nd.load(path)
+    assert again.proof == dataclasses.replace(proved.proof, certificate=b"")
+    assert again.lower_bound == proved.lower_bound
+    folder = tmp_path / "run"
+    record = json.loads((folder / "record.json").read_text())
+    assert FILE in record["files"]
+    assert (folder / FILE).read_bytes() == proved.proof.certificate
+
+
+@pytest.mark.slow
+def test_the_command_proves_and_checks(tmp_path, capsys):
+    study = tmp_path / "study.toml"
+    study.write_text(
+        "[constraints]\nradius_ratio = { max = 1.2 }\nleg_clearance = { min = 0.01 }\n[solver]\nstarts = 4\n"
+    )
+    run = tmp_path / "run"
+    with pytest.raises(SystemExit) as ended:
+        main(["optimize", str(study), "--certify", "--no-figures", "--out", str(run)])
+    assert ended.value.code == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Proved: no machine of this class has a condition number below 4.09165066" in said
+    assert "The proof does without leg_clearance" in said
+    assert FILE in said
+
+    data = bytearray((run / FILE).read_bytes())
+    data[len(data) // 2] ^= 4
+    (tmp_path / "damaged").write_bytes(data)
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(tmp_path / "damaged")])
+    assert ended.value.code == 1
+    assert "Refused: the checksum does not agree" in " ".join(capsys.readouterr().out.split())
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(tmp_path / "nothing")])
+    assert ended.value.code == 2
+    assert "expected a file that can be read" in capsys.readouterr().err
+
+
+def test_a_small_certificate_is_checked(tmp_path):
+    proof = nd.prove_optimum(PAPER, BEST, gap=0.3)
+    path = proof.save(tmp_path / "small")
+    found = nd.check_certificate(path)
+    assert found.proved
+    assert found.words.startswith("no design of this study has a condition number below 2.6338613550")
+    head, body = path.read_bytes().split(b"\n", 2)[:2], path.read_bytes().split(b"\n", 2)[2]
+    assert head[1] == f"checksum {zlib.crc32(body):x}".encode()
+
+
+@pytest.mark.skipif(not LONG, reason="ten seconds: NINEDOF_LONG=1")
+def test_the_certificate_of_the_papers_problem_is_checked(proved, tmp_path):
+    assert nd.check_certificate(proved.proof.save(tmp_path / "whole")).proved
+
+
+@pytest.mark.slow
+def test_the_report_no_longer_says_that_nothing_better_was_only_searched(proved):
+    page = str(report_proof(proved))
+    assert "Proved: no machine of this class has a condition number below 3.76265907859." in page
+    assert "That no other design is better" not in page
+    assert "hexagonal plates" not in page  # the weaker bound of long searches
+    page = str(report_proof(dataclasses.replace(proved, proof=None)))
+    assert "That no other design is better" in page
+
+
+@pytest.mark.slow
+def test_leaves_of_the_certificate_hold_in_balls_too(proved, tmp_path):
+    """A third reader, in another language and arithmetic: of boxes nearest to the optimum and of others."""
+    path = proved.proof.save(tmp_path / "whole")
+    words, tree = balls.parts(path)
+    target = float.fromhex(next(value for key, value in (w[:2] for w in words if len(w) == 2) if key == "target"))
+    assert target == proved.lower_bound
+    u = (0.05 / (target * 60.0), 60.0)  # lemma 9, in doubles
+    x = (u[0] / 60.0, 2.0)
+    root = [u, x, (0.05 / 60.0, 80.0 / u[0]), None, (0.5 * x[0], math.tan(math.pi / 6.0)), x, (1.0, 1.0)]
+    longest = math.hypot(1.0 + x[1], root[balls.ETA][1])
+    t = (max(0.05 / 80.0, x[0] / (target * longest)), 1.0 - 1.0 / (target * longest))
+    root[balls.O] = (t[0] / (1.0 - t[0]), t[1] / (1.0 - t[1]))
+    found = [leaf for leaf in balls.leaves(root, tree) if leaf[1] == 18]
+    sizes = [sum(math.log(high / low) for low, high in box[:5]) for box, _, _ in found]
+    rng = np.random.default_rng(1)
+    count = 400 if LONG else 10
+    by_size = np.argsort(sizes)  # the largest fifth takes the plain formulas of the balls many cuts
+    others = rng.choice(by_size[: len(by_size) * 4 // 5], count, replace=False)
+    chosen = {*by_size[:count].tolist(), *others.tolist()}
+    # Cuts differ in the last digits, and so do the boxes.
+    assert all(balls.closed(found[k][0][:5], target * (1.0 - 1e-12), found[k][2]) for k in sorted(chosen))
+    small = found[int(np.argmin(sizes))]
+    assert not balls.closed(small[0][:5], target * 1.01, small[2], depth=3)
