@@ -107,7 +107,8 @@ Eigen::MatrixXd starts(const Problem& problem, const Settings& settings) {
   settings.validate();
   const PreparedProblem p(problem, size_limits(problem).back());
   Eigen::MatrixXd out(static_cast<Eigen::Index>(problem.names().size()), settings.starts);
-  for (int k = 0; k < settings.starts; ++k) out.col(k) = p.coordinates.variables(p.coordinates.start(k, settings.seed));
+  for (int k = 0; k < settings.starts; ++k)
+    out.col(k) = p.without_auxiliary(p.coordinates.variables(p.coordinates.start(k, settings.seed)));
   return out;
 }
 
