@@ -23,9 +23,9 @@ from ninedof.conditioning.conditioning import (
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import singularity_margins
 
-LEGS = tuple(f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3))
 MECHANISMS = ("det_n", "det_b", "det_c")
 
 

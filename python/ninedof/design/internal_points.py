@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.design.indices import LEGS
 from ninedof.design.pose import ZERO, Pose
 from ninedof.redundancy.rules import WORDS
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.arrays import Floats
 
 IDLE = 1e-9  # of the longest length: a leg whose stroke is shorter does not move

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ninedof.export.model import LEGS, Model
+from ninedof.export.model import Model
 from ninedof.robot.geometry import triples
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import Floats
 

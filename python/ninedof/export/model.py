@@ -19,9 +19,6 @@ from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_argument
 
-LEGS = ("l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3")
-"""The legs in the order of `leg_lengths`."""
-
 Ranges = tuple[tuple[float, float], ...]
 
 

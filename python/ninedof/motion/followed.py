@@ -11,6 +11,7 @@ import numpy as np
 from ninedof.motion.trajectory import Trajectory
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
@@ -18,7 +19,6 @@ from ninedof.support.json import decode, encode
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
 
-LEGS = tuple(f"{kind}{k}" for kind in "lqr" for k in (1, 2, 3))
 ROUNDING = 1e-9  # of a limit: a length that passes it by less keeps it
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 

@@ -9,11 +9,11 @@ from fractions import Fraction
 from typing import Any
 
 from ninedof.design import limits
-from ninedof.design.indices import LEGS
 from ninedof.design.study import Study
 from ninedof.proof.machine_record import LimitProof, Met
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 
 Enclosure = tuple[float, float]
 Key = tuple[Any, ...]

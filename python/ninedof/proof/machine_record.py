@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ninedof.design.indices import LEGS
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.indices import LEGS
 from ninedof.design.region_outline import box_lines
 from ninedof.report import origin, proof, scene
 from ninedof.report.body import body_of
@@ -17,6 +16,7 @@ from ninedof.report.numbers import short
 from ninedof.report.pages import Page, machine_section
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.units import amount, with_unit
 from ninedof.workspace import WorkspaceMap
 from ninedof.workspace.question_words import rule_words

@@ -6,9 +6,9 @@ from itertools import combinations
 
 import numpy as np
 
-from ninedof.design.indices import LEGS
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.arrays import Floats
 
 SAME = 1e-9  # of the largest coordinate of a body: joints nearer than that are one

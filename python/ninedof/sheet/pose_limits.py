@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.indices import LEGS
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.clearance import clearances
 from ninedof.sheet.legs import angle, directions
 from ninedof.sheet.limit_rows import LINEAR

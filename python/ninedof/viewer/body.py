@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.indices import LEGS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_limits import SPREADS, PoseLimit
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from html import escape
 
-from ninedof.design.indices import LEGS
 from ninedof.plot.style import LEG_COLOURS
+from ninedof.robot.leg_names import LEGS
 from ninedof.support.units import amount
 from ninedof.viewer.numbers import DETERMINANTS, Limit, Numbers
 

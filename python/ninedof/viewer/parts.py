@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.indices import LEGS
+from ninedof.robot.leg_names import LEGS
 from ninedof.viewer import shapes
 
 EXTENT = 4.0  # of any machine in the scene, whose lights and clipping planes are made for such sizes

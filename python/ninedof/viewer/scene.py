@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.indices import LEGS
 from ninedof.design.region import Region
 from ninedof.design.region_outline import region_lines
 from ninedof.motion.rotations import to_quaternions
 from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.clearance import leg_ends
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes

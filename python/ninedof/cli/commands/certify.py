@@ -10,9 +10,9 @@ from rich.table import Table
 
 from ninedof.cli.options import Json, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
-from ninedof.design.indices import LEGS
 from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import MachineCertificate, outward
+from ninedof.robot.leg_names import LEGS
 from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
 from ninedof.runs.objects import load
 

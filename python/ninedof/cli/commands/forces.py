@@ -11,7 +11,7 @@ from rich.table import Table
 from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.screen import Screen
-from ninedof.design.indices import LEGS
+from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_words import vector_words
 from ninedof.statics.statics import leg_forces
 from ninedof.support.arrays import Floats
