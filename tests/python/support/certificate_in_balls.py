@@ -123,7 +123,7 @@ def excluded(ends, target, weights):
     return at_middle.lower() >= arb(target).log()
 
 
-def closed(ends, target, weights, depth=9):
+def closed(ends, target, weights, depth=15):
     """The same, cutting the box where one look is not enough."""
     ctx.prec = 120
     if excluded(ends, target, weights):
