@@ -8,6 +8,7 @@
 
 #include "math/numbers.hpp"
 #include "math/splitmix.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "proof/region_gram.hpp"
 
@@ -92,6 +93,17 @@ struct Looked {
   int divide = -1;
 };
 
+/// Throws unless the box is a part of the domain: boxes may come from a file.
+void require_part(const Domain& domain, const Box& box) {
+  const bool part = std::ranges::any_of(domain.roots(), [&](const Box& root) {
+    if (root.piece != box.piece) return false;
+    for (std::size_t k = 0; k < form_size; ++k)
+      if (!(root.low[k] <= box.low[k] && box.low[k] <= box.high[k] && box.high[k] <= root.high[k])) return false;
+    return true;
+  });
+  if (!part) throw InvalidArgument("boxes", "a box of other poses", "boxes that a run of the same machine has left");
+}
+
 Looked look(const Domain& domain, const Box& box, double condition) {
   Looked out{true, false, 0.0, -1};
   if (domain.outside(box)) {
@@ -119,18 +131,19 @@ WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& s
            std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
   };
   const Domain domain(machine);
-  Met met = searched(domain, settings.threads);
   std::vector<Box> boxes = domain.roots();
   if (!from.empty()) {
     boxes.clear();
     for (const auto& row : from) {
       Box box;
-      box.piece = static_cast<int>(row[0]);
+      box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
       std::copy_n(row.begin() + 1, form_size, box.low.begin());
       std::copy_n(row.begin() + 7, form_size, box.high.begin());
+      require_part(domain, box);
       boxes.push_back(box);
     }
   }
+  Met met = searched(domain, settings.threads);
   WorstCondition out;
   double proved = infinity;
   long count = 0;

@@ -35,6 +35,7 @@ class Climb {
 
   template <class Stop>
   Extreme run(const Stop& stopped) {
+    at_ = middle_of(domain_.roots().front());  // to name where nothing is known of any pose: beyond the doubles
     for (const Box& root : domain_.roots()) look(root);
     long boxes = static_cast<long>(domain_.roots().size());
     double done = -infinity;  // the greatest bound of boxes that were given up

@@ -136,7 +136,8 @@ inline Form inverse_root(const Form& x) {
   const double w = radius(x), least = lower(x);
   if (!(least > 0.0)) return detail::unknown();
   const double value = 1.0 / std::sqrt(x.c);
-  const double rest = 0.375 * w * w / (least * least * std::sqrt(least)) * (1.0 + detail::grain);
+  const double part = w / least;  // powers of very small numbers would leave the doubles
+  const double rest = 0.375 * part * part / std::sqrt(least) * (1.0 + detail::grain);
   return detail::linear(x, value, -0.5 * value / x.c, 0.0, rest);
 }
 /// The second derivative of sines is at most 1.

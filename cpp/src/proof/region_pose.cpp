@@ -114,7 +114,8 @@ MetAt Domain::met(const Box& point) const {
 
 bool Domain::outside(const Box& box) const {
   return cut(box) && std::ranges::any_of(discs_, [&](const Disc& disc) {
-           return least_length(box, disc) > disc.radius * (1.0 + slack);
+           const double least = least_length(box, disc);  // infinite where squares leave the doubles: not known then
+           return least > disc.radius * (1.0 + slack) && std::isfinite(least);
          });
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import ROUND_FLOOR, Context
 from typing import Any
 
 from ninedof.redundancy.rules import study_rule
@@ -126,18 +127,18 @@ class Region:
         unit = "zp" if self.unit == "zp" else unit
         where = "the neutral position"
         if self.box is not None:
-            where = f"a box of half edges {amount(', '.join(f'{x:g}' for x in self.box), unit)}"
+            where = f"a box of half edges {amount(', '.join(map(_plain, self.box)), unit)}"
         elif self.ball is not None:
-            where = f"a ball of radius {amount(f'{self.ball:g}', unit)}"
+            where = f"a ball of radius {amount(_plain(self.ball), unit)}"
         elif self.cylinder is not None:
-            radius, half = (amount(f"{x:g}", unit) for x in self.cylinder)
+            radius, half = (amount(_plain(x), unit) for x in self.cylinder)
             where = f"a cylinder of radius {radius} and half height {half}"
         elif self.path is not None:
             where = f"a path of {len(self.path)} corners"
         turns = [("tilts", self.tilt), ("yaws", self.yaw)]
         if self.internal_point == "best":
             where += " with O placed at every pose"
-        said = [f"{name} of at most {math.degrees(angle):.6g} degrees" for name, angle in turns if angle > 0.0]
+        said = [f"{name} of at most {_degrees(angle)} degrees" for name, angle in turns if angle > 0.0]
         return ", ".join([where, *said])
 
     @property
@@ -168,6 +169,18 @@ class Region:
             "shifted": self.internal_point == "shifted",
             "in_zp": self.unit == "zp",
         }
+
+
+def _plain(x: float) -> str:
+    """Return a number to its last digit: what is said of a region may be what is proved of it."""
+    return repr(float(x)).removesuffix(".0")
+
+
+def _degrees(angle: float) -> str:
+    """Return an angle in degrees, as it was typed or in six digits, never more than it is."""
+    if exact := exact_degrees(angle):
+        return _plain(exact[0])
+    return _plain(float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal_from_float(math.degrees(angle))))
 
 
 def _cylinder(value: Any) -> tuple[float, float]:

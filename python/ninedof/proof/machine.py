@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from hashlib import sha256
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 from ninedof import _core
+from ninedof.design.limits import label
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_limits import SPREADS, Extreme, Key, Plan
@@ -35,6 +40,8 @@ def certify(
 ) -> MachineCertificate:
     """Prove the limits of a study for one design, and enclose its worst condition number.
 
+    The limits are those of the constraints and, of the objective, condition_limit and neutral_condition_limit.
+
     Parameters
     ----------
     study : Study
@@ -53,7 +60,7 @@ def certify(
     threads : int
         0: one per processor.
     resume : MachineCertificate, optional
-        An earlier one of the same design whose boxes left are to be gone on with.
+        An earlier one of the same design, as it was written, whose boxes left are to be gone on with.
     progress : callable, optional
         Called with boxes done, 0, and the worst condition number met.
 
@@ -83,6 +90,12 @@ def certify(
     if resume is not None and resume.where != _where(study, only_neutral):
         raise ValueError(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
+        )
+    machine = _machine(study, geometry, configurations, characteristic_length)
+    if resume is not None and resume.seal != _seal(machine, resume):
+        raise ValueError(
+            "resume: got a certificate of another machine or one that was changed, expected one of this machine as it "
+            "was written"
         )
     start = perf_counter()
 
@@ -116,13 +129,27 @@ def certify(
         how,
         start + seconds,
     )
+    objective = study.objective
+    bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
+    wanted = {name: bound for name, bound in bounds.items() if bound is not None}
+    goals = list(wanted.values())
     if resume is not None:
-        runs.go_on(resume, condition_number)
+        runs.go_on(resume, goals, tolerance)
     else:
-        runs.enclose(condition_number)
-    if condition_number is not None:
-        proofs.append(_condition_proof(condition_number, runs, tolerance, only_neutral))
-    return MachineCertificate(
+        runs.enclose(goals, tolerance)
+    for name, bound in wanted.items():
+        proofs.append(_condition_proof(name, bound, runs, tolerance, only_neutral))
+    if objective.neutral_condition_limit is not None:
+        there = (alone.position, alone.rotation, alone.internal_point)
+        of_neutral = _Runs(
+            lambda how, boxes: _core.worst_condition(geometry, *there, characteristic_length, None, how, boxes, None),
+            how,
+            start + seconds,
+        )
+        of_neutral.enclose([objective.neutral_condition_limit], tolerance)
+        name = label("condition_limit", "neutral")
+        proofs.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance, True))
+    made = MachineCertificate(
         where=_where(study, only_neutral),
         unit=study.unit,
         limits=tuple(proofs),
@@ -137,6 +164,7 @@ def certify(
         seconds=perf_counter() - start,
         interrupted=runs.interrupted,
     )
+    return replace(made, seal=_seal(machine, made))
 
 
 class _Runs:
@@ -149,19 +177,25 @@ class _Runs:
         self.end: Any = None
         self.interrupted, self.left_count = False, 0
 
-    def enclose(self, wanted: float | None) -> None:
-        """Enclose it; then prove a bound that lies inside."""
+    def enclose(self, wanted: Sequence[float], tolerance: float) -> None:
+        """Enclose it; then prove bounds that lie inside, or what still counts as keeping them."""
         self._run([], 0.0)
-        if wanted is not None and not self.left_count and not self.interrupted and self.low < wanted < self.high:
-            self._run([], wanted)
+        self._prove(wanted, tolerance)
 
-    def go_on(self, earlier: MachineCertificate, wanted: float | None) -> None:
+    def _prove(self, wanted: Sequence[float], tolerance: float) -> None:
+        for bound in sorted(wanted, reverse=True):
+            goal = bound if self.low < bound else bound * (1.0 + tolerance)
+            if not self.left_count and not self.interrupted and self.low < goal < self.high:
+                self._run([], goal)
+
+    def go_on(self, earlier: MachineCertificate, wanted: Sequence[float], tolerance: float) -> None:
         """Go on with the boxes of an earlier certificate; from the beginning where it has none, keeping its bound."""
         self.high, self.boxes = earlier.condition[1], earlier.condition_boxes
         if earlier.left:
             self._run(list(earlier.left), earlier.target)
+            self._prove(wanted, tolerance)
         else:
-            self.enclose(wanted)
+            self.enclose(wanted, tolerance)
 
     def _run(self, boxes: list[tuple[float, ...]], target: float) -> None:
         seconds = max(self._end - perf_counter(), 0.1)
@@ -170,21 +204,35 @@ class _Runs:
         end, left, count, tried, stopped = self._search(
             self._how | {"seconds": seconds, "condition": target, "gap": gap}, boxes
         )
-        if end[0] > self.low:
+        if self.end is None or end[0] > self.low:
             self.low, self.end = end[0], end
         self.high = min(self.high, end[1])
         self.boxes += end[6]
         self.left, self.left_count, self.target, self.interrupted = left, count, tried, stopped
 
 
-def _condition_proof(limit: float, runs: _Runs, tolerance: float, neutral: bool) -> LimitProof:
+def _machine(study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float) -> str:
+    """Return a digest of every number on which a proof of the condition number depends."""
+    region = study.objective.region
+    digest = sha256(repr((float(characteristic_length), region and region.for_core())).encode())
+    joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
+    for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
+        digest.update(repr(np.asarray(array, float).tolist()).encode())
+    return digest.hexdigest()
+
+
+def _seal(machine: str, made: MachineCertificate) -> str:
+    """Return a digest of a machine and of what a run that goes on takes from its certificate."""
+    taken = (machine, made.condition, made.target, made.left_count, made.left)
+    return sha256(repr(taken).encode()).hexdigest()
+
+
+def _condition_proof(name: str, limit: float, runs: _Runs, tolerance: float, neutral: bool) -> LimitProof:
     low, high = runs.low, runs.high
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
     at = (_met(runs.end, neutral),)
-    return LimitProof(
-        "condition_number", "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", at, runs.boxes
-    )
+    return LimitProof(name, "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", at, runs.boxes)
 
 
 def _met(end: Any, neutral: bool) -> Met:

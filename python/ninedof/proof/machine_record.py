@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 from ninedof.robot.leg_names import LEGS
@@ -70,7 +71,15 @@ class LimitProof:
 
     def worded(self, digits: int = 6) -> str:
         """Return the bound that is proved, rounded to the safe side."""
-        return outward(self.shown(self.value[self.side == "max"]), self.side == "max", digits)
+        return self.outward(self.value[self.side == "max"], self.side == "max", digits)
+
+    def outward(self, value: float, up: bool, digits: int) -> str:
+        """Return a value as it is shown, rounded up or down."""
+        shown = self.shown(value)
+        if self.kind == "angle" and value != 0.0:  # less than two units in the last place from the exact degrees
+            for _ in range(2):
+                shown = math.nextafter(shown, math.inf if up else -math.inf)
+        return outward(shown, up, digits)
 
 
 @short_repr
@@ -98,6 +107,8 @@ class MachineCertificate:
     """Relative: limits count as kept up to this."""
     seconds: float
     interrupted: bool = False
+    seal: str = ""
+    """Of the machine, its poses, and what another run goes on with: only that of the same machine, unchanged, does."""
 
     @property
     def proved(self) -> bool:
@@ -129,7 +140,8 @@ class MachineCertificate:
             out.append(f"A bound of {self.target:.6g} is not decided: {self.left_count} boxes of poses are left.")
         for limit in self.limits:
             name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
-            size = [amount(f"{limit.shown(x):.9g}", limit.unit(self.unit)) for x in limit.value]
+            ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]
+            size = [amount(end, limit.unit(self.unit)) for end in ends]
             if limit.answer == VIOLATED:
                 poses = [met.worded(self.unit) for met in limit.at]
                 at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
@@ -193,10 +205,8 @@ def outward(value: float, up: bool, digits: int = 6) -> str:
     """Return a number in a few digits, rounded up or down."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g}"
-    step = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
-    whole = math.ceil(value / step) if up else math.floor(value / step)
-    text = f"{whole * step:.{digits}g}"
-    # The last digit may have gone the wrong way in binary.
-    if (float(text) < value) if up else (float(text) > value):
-        text = f"{(whole + (1 if up else -1)) * step:.{digits}g}"
-    return text
+    rounded = Context(prec=digits, rounding=ROUND_CEILING if up else ROUND_FLOOR).create_decimal_from_float(value)
+    if -5 < rounded.adjusted() < digits:
+        return f"{rounded.normalize():f}"
+    mantissa, power = f"{rounded.normalize():e}".split("e")
+    return f"{mantissa}e{int(power):+03d}"

@@ -77,6 +77,17 @@ TEST_SUITE("region_form") {
     CHECK(std::isinf(lower(inverse_root(x))));
     CHECK(std::isinf(upper(inverse(x) * x - inverse(x))));
   }
+  TEST_CASE("errors of roots do not get lost where powers leave the doubles") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> any(0.1, 1.0);
+    for (int trial = 0; trial < 100; ++trial) {
+      Form x(any(random));
+      x.a[0] = 0.9 * any(random) * x.c;
+      const Form small = 0x1p-420 * x;
+      CHECK(inverse_root(small).r * 0x1p-210 >= inverse_root(x).r * (1.0 - 1e-13));
+    }
+  }
+
   TEST_CASE("the error is of second order in the size of the box") {
     const auto error = [](double half) {
       const Form x = Form::coordinate(1.0 - half, 1.0 + half, 0), y = Form::coordinate(2.0 - half, 2.0 + half, 1);

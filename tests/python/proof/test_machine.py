@@ -6,6 +6,7 @@ by points on them. None of it shares code with the proofs.
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import numpy_model as model
@@ -15,8 +16,9 @@ from singular_robots import unit_rows
 from sizes import LONG, size
 
 import ninedof as nd
+from ninedof import _core
 from ninedof.proof.machine import certify
-from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.machine_record import MachineCertificate, outward
 
 VARIABLES = {
     "base_external_radius": 500.0,
@@ -312,3 +314,74 @@ def test_ten_million_poses_of_the_region():
         assert (lengths >= low * (1.0 - 1e-13)).all()
         assert (lengths <= high * (1.0 + 1e-13)).all()
         assert model.condition_number(m, 150.0).max() <= certificate.condition[1]
+
+
+SMALL = nd.Region(box=(3.0, 4.0, 2.0), tilt=0.01)
+
+
+def test_only_the_certificate_of_the_same_machine_is_gone_on_with():
+    _, _, made = proved(SMALL, time_limit=0.5)
+    asked, other = study(SMALL), nd.Configuration.neutral([VARIABLES["zp"]], [1.05 * VARIABLES["zs"]])
+    geometry = asked.problem().geometry(list(VARIABLES.values()))
+    with pytest.raises(ValueError, match="resume: got a certificate of another machine"):
+        certify(asked, geometry, other, 150.0, resume=made)
+    with pytest.raises(ValueError, match="resume: got a certificate of another machine"):
+        certify(asked, geometry, nd.Configuration.neutral([360.0], [260.0]), 151.0, resume=made)
+    changed = replace(made, condition=(1.0, 1.1))
+    with pytest.raises(ValueError, match="or one that was changed"):
+        proved(SMALL, resume=changed)
+    again = MachineCertificate.from_dict(made.to_dict())
+    assert proved(SMALL, resume=again, time_limit=0.5)[2].condition[1] <= made.condition[1]
+
+
+def test_boxes_of_other_poses_are_refused():
+    _, neutral, _ = proved(None)
+    stack = neutral[[0, 0]]
+    how = {"threads": 1, "seconds": 1.0, "gap": 0.1, "condition": 0.0}
+    geometry = study(None).problem().geometry(list(VARIABLES.values()))
+    arrays = (stack.position, stack.rotation, stack.internal_point)
+    for piece in (0.0, -2.0, 7.0, math.nan):
+        with pytest.raises(ValueError, match="boxes: got a box of other poses"):
+            _core.worst_condition(geometry, *arrays, 150.0, None, how, [(piece,) + (0.0,) * 12], None)
+
+
+def test_limits_of_the_condition_number_count():
+    kappa = proved(SMALL, {}, gap=0.02)[2].condition
+    for limit, answer in ((0.9 * kappa[0], "violated"), (1.01 * kappa[1], "proved")):
+        asked = study(SMALL)
+        objective = nd.Objective(region=SMALL, condition_limit=limit, neutral_condition_limit=2.0 * kappa[1])
+        asked = replace(asked, objective=objective)
+        geometry = asked.problem().geometry(list(VARIABLES.values()))
+        neutral = nd.Configuration.neutral([VARIABLES["zp"]], [VARIABLES["zs"]])
+        made = certify(asked, geometry, neutral, 150.0, gap=0.02)
+        answers = {one.name: one.answer for one in made.limits}
+        assert answers["condition_limit"] == answer
+        assert answers["condition_limit at neutral"] == "proved"
+        assert made.proved == all(one == "proved" for one in answers.values())
+
+
+def test_poses_beyond_the_doubles_are_undecided():
+    region = nd.Objective(poses=(nd.Pose((1e200, 0.0, 0.0)),))
+    asked = replace(study(None), objective=region, constraints={"leg_length": (None, 700.0)})
+    geometry = asked.problem().geometry(list(VARIABLES.values()))
+    far = np.array([[0.0, 0.0, 360.0], [1e200, 0.0, 360.0]])
+    poses = nd.Configuration(far, np.repeat(np.eye(3)[None], 2, 0), far - [0.0, 0.0, 100.0])
+    made = certify(asked, geometry, poses, 150.0, time_limit=1.0)
+    assert "proved" not in {one.answer for one in made.limits}
+    assert made.condition[1] == math.inf
+
+
+def test_words_never_claim_more_than_is_proved():
+    assert nd.Region(box=(49.99999999, 50.0, 0.1)).words == "a box of half edges 49.99999999, 50, 0.1"
+    assert nd.Region(tilt=0.1).words == "the neutral position, tilts of at most 5.72957 degrees"
+    assert nd.Region(tilt=math.radians(10.0)).words.endswith("of at most 10 degrees")
+    rng = np.random.default_rng(3)
+    for value in rng.uniform(0.1, 10.0, 300) * 10.0 ** rng.integers(-9, 9, 300):
+        near = [float(f"{value:.5g}")]
+        near += [math.nextafter(near[0], way) for way in (-math.inf, math.inf)]
+        for x in (*near, *(-x for x in near)):
+            for digits in (6, 9):
+                down, up = (Fraction(outward(x, way, digits)) for way in (False, True))
+                assert down <= Fraction(x) <= up
+                assert up - down <= abs(Fraction(x)) * Fraction(2, 10 ** (digits - 1))
+    assert outward(5e-324, False) == "4.94065e-324"
