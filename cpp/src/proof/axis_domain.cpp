@@ -20,6 +20,14 @@ Interval both(const Interval& a, const Interval& b) {
   return out;
 }
 
+/// The same of what lemma 9 leaves: if nothing, no condition number is below the target.
+Interval left_of(const Interval& a, const Interval& b, bool& empty) {
+  const Interval out{std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+  if (out.lo <= out.hi) return out;
+  empty = true;
+  return a;
+}
+
 Interval of(const Bounds& b) {
   return Interval::between(b.low, b.high);
 }
@@ -120,32 +128,35 @@ AxisDomain axis_domain(const Problem& study, double target, std::vector<std::str
   read_variables(study, d);
   read_limits(study, d, left_out);
 
+  const bool hexagonal = d.dimension == hexagonal_coordinates;
+  Interval t = both(d.share, d.zs / d.zp);
+  if (hexagonal) both(d.base_external / d.platform_external, d.radius_ratio);
+
   // Lemma 9: kappa >= f0 / g0 >= zp / (R U) and kappa >= f0 / w0 >= max(z (1 + o), y (1 + 1/o)) / sqrt(N): outside
   // these bounds there is no condition number below the target.
   const Interval least_area = d.zp.lo / Interval(target);  // of R U
   Interval& U = d.box[at_size];
-  U = both(d.platform_external, {(least_area / d.base_external.hi).lo, infinity});
-  const Interval R = both(d.base_external, {(least_area / U.hi).lo, infinity});
-  const bool hexagonal = d.dimension == hexagonal_coordinates;
+  U = left_of(d.platform_external, {(least_area / d.base_external.hi).lo, infinity}, d.empty);
+  const Interval R = left_of(d.base_external, {(least_area / U.hi).lo, infinity}, d.empty);
   d.box[at_upper] = hexagonal ? Interval(1.0) : d.platform_internal / U;
   d.box[at_ratio] = R / U;
-  if (d.radius_ratio.hi < infinity)
-    d.box[at_ratio].hi = std::min(d.box[at_ratio].hi, (d.radius_ratio * std::max(1.0, d.box[at_upper].hi)).hi);
-  if (hexagonal) d.box[at_ratio] = both(d.box[at_ratio], d.radius_ratio);
+  const double most_ratio =
+      d.radius_ratio.hi < infinity ? (d.radius_ratio * std::max(1.0, d.box[at_upper].hi)).hi : infinity;
+  const double least_ratio = hexagonal ? d.radius_ratio.lo : 0.0;
+  d.box[at_ratio] = left_of(d.box[at_ratio], {least_ratio, most_ratio}, d.empty);
   d.box[at_lower] = hexagonal ? d.box[at_ratio] : d.base_internal / U;
   d.box[at_height] = d.zp / U;
   // Lemma 9 again: sin theta >= zp / (R U kappa), and tan(theta / 2) lies from sin(theta) / 2 to 2 / sin(theta).
   const double least_sine = (least_area / (Interval(R.hi) * U.hi)).lo;
   const auto half_tangent = [](double c) { return sqrt((1.0 - Interval(c)) / (1.0 + Interval(c))); };
-  d.box[at_angle] =
-      both({half_tangent(std::min(d.cosine.hi, 1.0)).lo, d.cosine.lo > -1.0 ? half_tangent(d.cosine.lo).hi : infinity},
-           {0.5 * least_sine, (2.0 / Interval(least_sine)).hi});
+  d.box[at_angle] = left_of(
+      {half_tangent(std::min(d.cosine.hi, 1.0)).lo, d.cosine.lo > -1.0 ? half_tangent(d.cosine.lo).hi : infinity},
+      {0.5 * least_sine, (2.0 / Interval(least_sine)).hi}, d.empty);
 
   const Interval longest = sqrt(square(1.0 + Interval(d.box[at_ratio].hi)) + square(Interval(d.box[at_height].hi)));
   const Interval room = target * longest;
-  Interval t = both(d.share, d.zs / d.zp);
   const Interval least_share = 1.0 / (room / d.box[at_lower].lo), least_rest = 1.0 / (room / d.box[at_upper].lo);
-  t = both(t, {least_share.lo, (1.0 - Interval(least_rest.lo)).hi});
+  t = left_of(t, {least_share.lo, (1.0 - Interval(least_rest.lo)).hi}, d.empty);
   d.box[at_share] = {(Interval(t.lo) / (1.0 - Interval(t.lo))).lo, (Interval(t.hi) / (1.0 - Interval(t.hi))).hi};
   return d;
 }

@@ -13,6 +13,7 @@ namespace ninedof::proof {
 struct AxisDomain {
   std::size_t dimension = hexagonal_coordinates;
   Box box;
+  bool empty = false;  ///< no design that the study allows has a condition number below `target`, by lemma 9 alone
   // In characteristic lengths: distances of the joints from the axis, and heights.
   Interval base_external, base_internal, platform_external, platform_internal, zp, zs;
   Interval share;  ///< zs / zp

@@ -152,6 +152,14 @@ OptimumProof prove_optimum(const Problem& study, const OptimumSettings& settings
   study.validate();
   OptimumProof out;
   const AxisDomain domain = axis_domain(study, settings.target, out.left_out);
+  if (domain.empty) {  // nothing to be searched
+    out.lower_bound = settings.target;
+    out.complete = true;
+    ProofTree nothing;
+    nothing.close(0, excluded_by_domain());
+    if (settings.keep_tree) out.certificate = certificate(study, settings.target, out.left_out, nothing.bytes());
+    return out;
+  }
   Search search(domain, settings);
   search.run(control, out);
   if (out.complete && settings.keep_tree)

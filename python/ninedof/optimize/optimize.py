@@ -122,7 +122,9 @@ def proved(result: Result, threads: int | None = None, progress: Progress | None
     gap = GAPS[study.family]
     proof = prove_optimum(study, known, gap=gap, time_limit=LONGEST, threads=threads, progress=progress)
     while proof.better is not None:  # one that keeps what the proof sees of the bounds, and perhaps no more
-        known, gap = proof.better, max(10.0 * gap, 1e-3)
+        known, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)
+        if known * (1.0 - gap) <= 1.0:
+            break  # what was proved so far is all that can be aimed at
         proof = prove_optimum(study, known, gap=gap, time_limit=LONGEST, threads=threads, progress=progress)
     return replace(result, proof=proof)
 

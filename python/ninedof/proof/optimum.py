@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from decimal import ROUND_FLOOR, Decimal
+from decimal import ROUND_FLOOR, Context, Decimal
 from pathlib import Path
 from typing import Any
 
@@ -40,8 +40,9 @@ class OptimumProof:
     """Boxes left for which less than the target is proved."""
     seconds: float
     better: float | None = None
-    """Where a design below the target was found, and the search ended: its condition number is no greater. It keeps the
-    bounds and limits that the proof sees, and perhaps not those it leaves out."""
+    """Where a design below the target was found in the domain of the search, which then ended: its condition number is
+    no greater. Perhaps no design of the study: the proof takes the radii and the twist of hexagons as independent
+    within their ranges, and leaves limits out."""
     left_out: tuple[str, ...] = ()
     """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
@@ -50,8 +51,9 @@ class OptimumProof:
     @property
     def words(self) -> str:
         """What is proved, as a sentence."""
-        bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR)  # never more than was proved
-        said = f"Proved: no machine of this class has a condition number below {bound.normalize():f}"
+        digits = Context(prec=400)  # of any double
+        bound = Decimal(self.lower_bound).quantize(Decimal("1e-11"), ROUND_FLOOR, digits)  # never more than was proved
+        said = f"Proved: no machine of this class has a condition number below {bound.normalize(digits):f}"
         if not self.left_out:
             return f"{said}."
         return f"{said}. The proof does without {', '.join(self.left_out)}: with them it holds all the more."

@@ -4,6 +4,7 @@ import dataclasses
 import json
 import math
 import zlib
+from fractions import Fraction
 
 import certificate_in_balls as balls
 import numpy as np
@@ -174,12 +175,19 @@ def test_the_command_proves_and_checks(tmp_path, capsys):
     assert "expected a file that can be read" in capsys.readouterr().err
 
 
-def test_a_small_certificate_is_checked(tmp_path):
+def test_a_small_certificate_is_checked(tmp_path, capsys):
     proof = nd.prove_optimum(PAPER, BEST, gap=0.3)
     path = proof.save(tmp_path / "small")
     found = nd.check_certificate(path)
     assert found.proved
     assert found.words.startswith("no design of this study has a condition number below 2.6338613550")
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(path)])
+    assert ended.value.code == 0
+    said = capsys.readouterr().out
+    assert "study of the certificate: hexagonal designs with 0 < zs < zp" in said
+    assert "  a1 from 0 to 60\n" in said
+    assert "  radius_ratio from 0 to 2\n" in said
     head, body = path.read_bytes().split(b"\n", 2)[:2], path.read_bytes().split(b"\n", 2)[2]
     assert head[1] == f"checksum {zlib.crc32(body):x}".encode()
 
@@ -223,3 +231,73 @@ def test_leaves_of_the_certificate_hold_in_balls_too(proved, tmp_path):
     assert all(balls.closed(found[k][0][:5], target * (1.0 - 1e-12), found[k][2]) for k in sorted(chosen))
     small = found[int(np.argmin(sizes))]
     assert not balls.closed(small[0][:5], target * 1.01, small[2], depth=3)
+
+
+# Plates so flat that a condition number below the target is excluded before any box is looked at.
+FAR = {"a1": (3.0, 3.001), "a2": (0.0, 0.1), "b1": (3.0, 3.01), "b2": (0.0, 0.1), "theta_z": (0.0, 0.01)}
+# The search finds designs of its domain of which no sides exist, far below the best design.
+LOOSE = {"a1": (0.0, 3.0), "a2": (0.0, 0.01), "b1": (0.0, 3.0), "b2": (0.0, 0.01), "theta_z": (0.0, 0.01)}
+
+
+def hexagons(sides):
+    heights = {"zp": (1.0, 9.0), "zs": (0.05, 9.0)}
+    return nd.Study(family="hexagonal", variables=sides | heights, constraints={}, characteristic_length=1.0)
+
+
+def test_a_domain_without_designs_below_the_target_is_a_proof(tmp_path):
+    proof = nd.prove_optimum(hexagons(FAR), 3.0, gap=0.0)
+    assert (proof.complete, proof.lower_bound, proof.boxes) == (True, 3.0, 0)
+    found = nd.check_certificate(proof.save(tmp_path / "empty"))
+    assert (found.proved, found.words) == (True, "no design of this study has a condition number below 3")
+    # The same tree for a target that designs reach.
+    body = (tmp_path / "empty").read_bytes().split(b"\n", 2)[2].replace(b"target 0x1.8p+1", b"target 0x1p+7")
+    (tmp_path / "forged").write_bytes(b"ninedof certificate 1\nchecksum %x\n%b" % (zlib.crc32(body), body))
+    assert not nd.check_certificate(tmp_path / "forged").proved
+
+
+@pytest.mark.parametrize("sides", [FAR, LOOSE])
+def test_a_proof_after_the_optimization_never_loses_its_result(sides):
+    result = nd.optimize(hexagons(sides), starts=8, certify=True)
+    assert 1.0 <= result.lower_bound <= result.condition_number
+
+
+def test_the_words_of_any_double():
+    assert OptimumProof(2.0**70, 2.0**70, True, 1, 0, 0.1).words.endswith("below 1180591620717411303424.")
+
+
+def test_the_words_of_the_checker_never_round_up(tmp_path):
+    for target in (3.0246913578024692, 2.0 - 1e-15, 3.5):
+        proof = nd.prove_optimum(
+            hexagons({"a1": 0.0, "a2": 6.0, "b1": 3.0, "b2": 0.0, "theta_z": 0.0}), target, gap=0.0
+        )
+        found = nd.check_certificate(proof.save(tmp_path / "small"))
+        assert found.proved
+        said = Fraction(found.words.rsplit(" ", 1)[1])
+        assert Fraction(target) * (1 - Fraction(2, 10**14)) < said <= Fraction(target)
+
+
+def test_two_limits_of_one_kind_are_checked(tmp_path):
+    limits = {"radius_ratio": (None, 2.0), "leg_ratio": [{"max": 2.0}, {"max": 1.8, "at": "neutral"}]}
+    proof = nd.prove_optimum(dataclasses.replace(PAPER, constraints=limits), 2.0, gap=0.0)
+    assert nd.check_certificate(proof.save(tmp_path / "two")).proved
+
+
+def test_boxes_that_touch_the_bounds_at_a_corner_are_checked(tmp_path):
+    # Products of geometric means meet the narrow bounds to rounding, where the search and the checker may differ.
+    variables = {
+        "base_external_radius": (3938.618814702605, 3938.6418147026047),
+        "base_internal_radius": (5462.390091494856, 5485.390091494856),
+        "base_internal_angle": -1.0590961864354336,
+        "platform_external_radius": (500.0, 8000.0),
+        "platform_external_angle": (-1.7891466847022524, -1.4691460500400428),
+        "platform_internal_radius": (2522.908016806041, 3272.908016806041),
+        "platform_internal_angle": (1.0701514757105077, 1.2583832474555643),
+        "zp": (500.0, 6535.3690507547735),
+        "zs": 3781.535996793496,
+    }
+    limits = {"radius_ratio": (None, 1.3849281319109614), "leg_ratio": (None, 2.4616297882496605)}
+    study = nd.Study(family="symmetric", variables=variables, constraints=limits, characteristic_length=700.0)
+    for target in (3.71559214862, 4.64449018577, 6.50228626008):
+        proof = nd.prove_optimum(study, target, gap=0.0)
+        assert proof.complete
+        assert nd.check_certificate(proof.save(tmp_path / "touching")).proved

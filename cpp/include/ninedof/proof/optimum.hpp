@@ -23,8 +23,9 @@ struct OptimumProof {
   bool complete = false;     ///< else the search was stopped by a limit or by the caller
   long boxes = 0;            ///< examined
   long open = 0;             ///< boxes for which less than the target is proved
-  /// Where a design below the target was found, and the search ended: its condition number is no greater. It keeps what
-  /// the proof sees of the study. Else infinite.
+  /// Where a design below the target was found in the domain of the search, which then ended: its condition number is
+  /// no greater. The study need not allow it: the proof takes the radii and the twist of hexagons as independent within
+  /// their ranges, and leaves limits out. Else infinite.
   double better = std::numeric_limits<double>::infinity();
   double seconds = 0.0;
   /// Limits of the study that the proof leaves out. The bound holds all the same: for more designs than are allowed.

@@ -22,6 +22,7 @@ struct Range {
   constexpr Range(double x) : a(x), b(x) {}  // NOLINT: numbers are ranges
   constexpr Range(double low, double high) : a(low), b(high) {}
   bool sound() const { return a <= b; }
+  bool operator==(const Range&) const = default;
 };
 
 inline Range operator+(Range x, Range y) {

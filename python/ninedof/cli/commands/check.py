@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -28,7 +29,27 @@ def check(
     screen = Screen(json)
     path = certificate / FILE if certificate.is_dir() else certificate
     found = check_certificate(path)
+    if found.proved:
+        for line in _study_of(path.read_bytes()):
+            screen.print(escape(line))
     screen.print(f"[bold]{'Proved' if found.proved else 'Refused'}[/bold]: {escape(found.words)}")
     screen.print(f"{found.boxes} boxes of the certificate, {found.recut} cut further by the checker")
     screen.data({"proved": found.proved, "words": found.words, "boxes": found.boxes})
     raise typer.Exit(0 if found.proved else 1)
+
+
+def _study_of(certificate: bytes) -> Iterator[str]:
+    """Return what a certificate that was checked says of its study: that in the same folder may be another."""
+    lines = certificate.partition(b"\ntree ")[0].decode().splitlines()[2:]
+    for kind, name, *ends in map(str.split, lines):
+        if kind == "family":
+            yield f"study of the certificate: {name} designs with 0 < zs < zp"
+        elif kind == "characteristic_length":
+            yield f"  characteristic length {_plain(name)}"
+        elif kind in ("variable", "limit"):
+            low, high = map(_plain, ends)
+            yield f"  {name} {low}" if low == high else f"  {name} from {low} to {high}"
+
+
+def _plain(hexadecimal: str) -> str:
+    return repr(float.fromhex(hexadecimal)).removesuffix(".0")
