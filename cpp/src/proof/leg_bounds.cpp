@@ -26,9 +26,11 @@ class VectorSum {
   std::array<DotSum, 3> at_;
 };
 
-/// x 2^power, moved outwards where it is rounded: below the normal numbers.
+/// x 2^power, moved outwards where it is rounded: below the normal numbers, and beyond the largest.
 double times_power_outwards(double x, int power, double outwards) {
   const double y = std::ldexp(x, power);
+  if (std::isinf(y) && std::isfinite(x) && (y > 0.0) != (outwards > 0.0))
+    return std::copysign(detail::greatest_double, y);
   return x != 0.0 && std::abs(y) < std::numeric_limits<double>::min() ? y + outwards : y;
 }
 

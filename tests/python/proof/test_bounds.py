@@ -17,6 +17,7 @@ from reference_cases import of_case, reference_cases, rotation
 from sizes import size
 
 import ninedof as nd
+from ninedof import _core
 
 COUNT = size(120, 3000)
 UNITS = (1.0, 1e3, 1e-100, 1e100)
@@ -179,5 +180,15 @@ def test_arithmetic_with_another_rounding_mode_is_refused(published, neutral):
     except RuntimeError as error:
         message = str(error)
     finally:
+        checked = _core.check_certificate(b"")
         library.fesetround(nearest)
+    assert checked[1] == "numbers are not rounded as they must be here: to nearest, with gradual underflow"
     assert message == "the arithmetic of this process is unfit for proofs: numbers are not rounded to nearest"
+
+
+def test_a_length_beyond_the_largest_double_has_a_finite_lower_bound():
+    g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    far = nd.Configuration(np.array([1.5e308, 1.5e308, 4.0]), np.eye(3), np.array([0.0, 0.0, 2.0]))
+    lower, upper = nd.leg_length_bounds(g, far)
+    assert np.isfinite(lower).all()  # sqrt(2) 1.5e308 is a number
+    assert np.isinf(upper[:3]).all()
