@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ninedof.conditioning.conditioning import axis_singular_values
-from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
+from ninedof.proof.bounds import leg_length_bounds
+from ninedof.proof.machine_record import outward
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.short import short_repr
@@ -174,6 +175,9 @@ def _hexagonal(theta_z: float | tuple[float, float]) -> LowerBound:
     return LowerBound("hexagonal", value, False, f"no design with {which} has been found under {_digits(value)}")
 
 
+SLACK = 1e-15  # more than a quotient, or the bound, is rounded by
+
+
 def _symmetric(g: Geometry, c: Configuration, length: float) -> list[LowerBound]:
     zp, zs = float(c.position[2]), float(c.internal_point[2])
     out = []
@@ -185,10 +189,13 @@ def _symmetric(g: Geometry, c: Configuration, length: float) -> list[LowerBound]
     joints = np.vstack([g.base_external, g.base_internal, g.platform_external, g.platform_internal])
     planar = float(np.abs(joints[:, 2]).max()) <= 1e-12 * float(np.abs(joints).max())
     if planar and 0.0 < zs < zp:
-        legs = leg_lengths(g, c)
-        ratio = max(float(legs.max() / legs.min()), 1.0)
-        value = planar_leg_ratio_bound(ratio)
-        sentence = f"no design with flat plates and legs within {ratio:.4g} : 1 can be under {_digits(value)}"
+        shortest, longest = leg_length_bounds(g, c)
+        ratio = max(float(longest.max() / shortest.min()), 1.0) * (1.0 + SLACK)
+        value = planar_leg_ratio_bound(ratio) * (1.0 - SLACK)
+        said = outward(ratio, up=False, digits=4)  # legs within less stay above more
+        sentence = (
+            f"no three-fold symmetric design with flat plates and legs within {said} : 1 can be under {_digits(value)}"
+        )
         out.append(LowerBound("leg ratio", value, True, sentence))
     return out
 

@@ -1,6 +1,8 @@
 """Lower bounds: the printed digits, the equations they come from, and designs that come near them."""
 
 import math
+import re
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import ninedof as nd
 from ninedof.optimize.bounds import (
     HEXAGONAL_LIMIT,
     HEXAGONAL_TWIST_LIMIT,
+    _symmetric,
     applicable_bounds,
     kappa_star,
     planar_leg_ratio_bound,
@@ -157,3 +160,18 @@ def test_the_distance_bound_is_omitted_where_it_does_not_hold():
     far = nd.optimize(nd.Study(variables={"zp": 2.0, "zs": 0.8}), starts=4)
     assert "distance of O" not in [bound.name for bound in applicable_bounds(near)]
     assert "distance of O" in [bound.name for bound in applicable_bounds(far)]
+
+
+def test_the_words_of_the_leg_ratio_are_a_bound_of_what_they_say():
+    rng = np.random.default_rng(8)
+    for _ in range(50):
+        sides = dict(zip(("a1", "a2", "b1", "b2"), rng.uniform(0.5, 6.0, 4).tolist(), strict=True))
+        g, c = nd.Geometry.hexagonal(**sides), nd.Configuration.neutral(4.0, 2.0)
+        (bound,) = [b for b in _symmetric(g, c, 1.0) if b.name == "leg ratio"]
+        ratio, value = re.fullmatch(
+            r"no three-fold symmetric design with flat plates and legs within (.*) : 1 can be under (.*)",
+            bound.sentence,
+        ).groups()
+        assert Fraction(value) <= bound.value < planar_leg_ratio_bound(float(ratio))
+        legs = nd.leg_lengths(g, c)
+        assert float(ratio) <= legs.max() / legs.min() < float(ratio) + 2e-3
