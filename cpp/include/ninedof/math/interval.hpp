@@ -14,8 +14,11 @@
 /// intervals, as they take a double.
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <limits>
+
+static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16, "doubles must not be kept in wider registers");
 
 namespace ninedof {
 

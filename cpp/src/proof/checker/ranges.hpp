@@ -2,8 +2,11 @@
 /// The checker's interval numbers: every result is widened to the neighbouring doubles.
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <limits>
+
+static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16, "doubles must not be kept in wider registers");
 
 namespace ninedof::checker {
 
