@@ -18,7 +18,7 @@ from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.short import short_repr
 
 FILE = "optimum.certificate"
-GAPS = {"hexagonal": 1e-12, "symmetric": 1e-3}
+GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
 """What is aimed at: of hexagons five numbers matter, of other symmetric designs seven."""
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
 PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better")
@@ -110,7 +110,7 @@ def prove_optimum(
     condition_number : float
         Of the best design known.
     gap : float, optional
-        To be proved: no condition number below (1 - gap) condition_number. By default 1e-12 for hexagons and 1e-3 for
+        To be proved: no condition number below (1 - gap) condition_number. By default 1e-12 for hexagons and 1e-6 for
         other symmetric designs, which is the work of minutes.
     time_limit : float, optional
         Seconds; none by default.
