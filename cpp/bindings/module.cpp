@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_position(m);
   ninedof::python::bind_redundancy(m);
   ninedof::python::bind_workspace(m);
+  ninedof::python::bind_certified_workspace(m);
   ninedof::python::bind_acceleration(m);
   ninedof::python::bind_conditioning(m);
   ninedof::python::bind_singularity(m);

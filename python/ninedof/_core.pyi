@@ -320,4 +320,15 @@ def workspace(
     home: tuple[_Floats, _Floats, _Floats] | None,
     progress: _Progress | None,
 ) -> dict[str, Any]: ...
+def certified_workspace(
+    g: Geometry,
+    domain: dict[str, Any],
+    kind: str,
+    fraction: float,
+    point: _Floats,
+    criteria: dict[str, Any],
+    settings: dict[str, Any],
+    home: tuple[_Floats, _Floats, _Floats] | None,
+    progress: _Progress | None,
+) -> dict[str, Any]: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...

@@ -3,6 +3,7 @@
 /// values of M, so that the condition number is at most K where K^2 M^T M - t and t - M^T M are positive definite for
 /// some t.
 
+#include "proof/box_share.hpp"
 #include "proof/region_quantity.hpp"
 
 namespace ninedof::over_region {
@@ -24,6 +25,15 @@ Mat6 middle_of(const Symmetric6& g);
 
 /// Whether the condition number is proved to be at most K in all of the box.
 bool bounded(const Symmetric6& g, double condition);
+
+/// Where in a box the condition number is at most K, and where it is not; the box has three coordinates, the first.
+struct ConditionSplit {
+  bool everywhere = false;  ///< at most K in all of the box
+  Slope3 slope{};
+  double level = 0.0;  ///< at most K where slope . t >= level; infinite where that is nowhere known
+  Form excess;         ///< above K where it is positive
+};
+ConditionSplit split_by_condition(const Symmetric6& g, double condition);
 
 /// A number that the condition number of some matrix of the form, taken at one pose, is not below.
 double condition_attained(const Symmetric6& g);

@@ -1,0 +1,25 @@
+#pragma once
+/// The part of a box on one side of a plane: its share of the volume, and points whose hull holds it.
+///
+/// Coordinates t go from -1 to 1 over each side of the box, so that linear forms (region_form.hpp) give the planes.
+
+#include <array>
+#include <vector>
+
+#include "ninedof/math/interval.hpp"
+
+namespace ninedof::over_region {
+
+using Slope3 = std::array<double, 3>;
+
+/// At least the greatest slope . t of the box.
+double reach(const Slope3& slope);
+
+/// The share of the box where slope . t < level.
+Interval share_below(const Slope3& slope, double level);
+
+/// Points of the box whose hull holds all t of it with slope . t >= level: corners, and points of edges. They may lie
+/// below the level by rounding. None where no t of the box is above it.
+std::vector<Slope3> hull_above(const Slope3& slope, double level);
+
+}  // namespace ninedof::over_region

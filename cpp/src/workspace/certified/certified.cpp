@@ -1,0 +1,148 @@
+#include "ninedof/workspace/certified.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/proof/bounds.hpp"
+#include "workspace/certified/home_piece.hpp"
+#include "workspace/certified/scale.hpp"
+#include "workspace/certified/search.hpp"
+#include "workspace/criteria/placement.hpp"
+#include "workspace/requirements.hpp"
+
+namespace ninedof {
+namespace certified {
+namespace {
+
+constexpr long looks_beyond = 20'000;
+
+void require_certified(const WorkspaceDomain& domain, const InternalPointRule& rule, const WorkspaceCriteria& criteria,
+                       const CertifySettings& settings) {
+  if (domain.archetype == Archetype::orientation)
+    throw InvalidArgument("archetype", "\"orientation\"",
+                          "a workspace of positions: of orientations nothing is certified");
+  if (rule.kind == InternalPointRule::Kind::best)
+    throw InvalidArgument("internal_point", "\"best\"",
+                          "a rule that is a formula: where O is searched for, nothing is certified");
+  const bool any = criteria.legs || criteria.base_cone || criteria.platform_cone || criteria.leg_clearance ||
+                   criteria.condition_number || criteria.singularity_free;
+  if (!any) throw InvalidArgument("criteria", "none", "at least one");
+  if (!(settings.gap > 0.0 && settings.gap < 1.0))
+    throw InvalidArgument("gap", format_number(settings.gap), "a number in (0, 1)");
+  if (!(settings.seconds >= 0.0)) throw InvalidArgument("time_limit", format_number(settings.seconds), "at least 0");
+  if (settings.boxes < 1) throw InvalidArgument("boxes", std::to_string(settings.boxes), "at least 1");
+}
+
+/// As in a map: the middle of the box, O by the rule.
+Configuration home_or_middle(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                             const WorkspaceCriteria& criteria, const std::optional<Configuration>& home) {
+  if (home) return *home;
+  Configuration out;
+  out.position = 0.5 * (domain.low + domain.high);
+  if (domain.archetype == Archetype::constant_orientation) out.rotation = domain.rotations.front();
+  out.internal_point = Placement(g, rule, criteria).point(out.position, out.rotation);
+  return out;
+}
+
+/// What is in `all` but not in `box`, as boxes.
+std::vector<PositionBox> rest_of(PositionBox all, const PositionBox& box) {
+  std::vector<PositionBox> out;
+  for (int k = 0; k < 3; ++k) {
+    for (const bool above : {false, true}) {
+      PositionBox slab = all;
+      if (above) slab.low[k] = std::max(slab.low[k], box.high[k]);
+      else slab.high[k] = std::min(slab.high[k], box.low[k]);
+      if (slab.low[k] < slab.high[k]) out.push_back(slab);
+    }
+    all.low[k] = std::max(all.low[k], box.low[k]);
+    all.high[k] = std::min(all.high[k], box.high[k]);
+    if (!(all.low[k] <= all.high[k])) break;  // nothing of it is in the box
+  }
+  return out;
+}
+
+CertifiedWorkspace::Beyond beyond(const PoseCuts& cuts, const PositionBox& reached, const PositionBox& box, bool some) {
+  using Beyond = CertifiedWorkspace::Beyond;
+  if ((reached.low.array() > reached.high.array()).any()) return Beyond::nothing;  // no leg lengths fit anywhere
+  if (!(reached.low.allFinite() && reached.high.allFinite())) return Beyond::unknown;
+  Beyond out = Beyond::nothing;
+  for (const PositionBox& slab : rest_of(reached, box)) {
+    const Beyond one = anything_in(cuts, slab, some, looks_beyond);
+    if (one == Beyond::something) return one;
+    if (one == Beyond::unknown) out = one;
+  }
+  return out;
+}
+
+void write_boxes(const Tree& tree, CertifiedWorkspace& out) {
+  std::vector<int> leaves;
+  for (int n = 0; n < static_cast<int>(tree.size()); ++n) {
+    const Node& node = tree[static_cast<std::size_t>(n)];
+    if (!node.leaf() || node.seen.outer()) continue;
+    leaves.push_back(n);
+    if (node.seen.inner()) {
+      out.inner_low.push_back(node.box.low);
+      out.inner_high.push_back(node.box.high);
+      continue;
+    }
+    out.open_low.push_back(node.box.low);
+    out.open_high.push_back(node.box.high);
+    out.open_volume.push_back(volume_of_leaves(tree, {n}, {n}));
+    out.first_cut.push_back(std::ssize(out.cuts));
+    for (const Cut& cut : node.seen.cuts)
+      out.cuts.push_back({{cut.slope[0], cut.slope[1], cut.slope[2]}, cut.allowed, cut.forbidden});
+  }
+  out.first_cut.push_back(std::ssize(out.cuts));
+  out.volume = volume_of_leaves(tree, leaves, leaves);
+}
+
+}  // namespace
+}  // namespace certified
+
+CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                                       const WorkspaceCriteria& criteria, const CertifySettings& settings,
+                                       const std::optional<Configuration>& home, const Control& control) {
+  using namespace certified;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  require_sound_arithmetic();
+  require_question(domain, rule, criteria, home);
+  require_certified(domain, rule, criteria, settings);
+  const Question asked{g, domain, rule, criteria, home_or_middle(g, domain, rule, criteria, home)};
+  const int exponent = exponent_of(asked);
+  const Question question = scaled(asked, exponent);
+  const bool some = domain.archetype == Archetype::reachable;
+  const PoseCuts cuts(question.geometry, question.domain, question.rule, question.criteria, question.home);
+  const PositionBox given{question.domain.low, question.domain.high}, reached = cuts.reached();
+  const PositionBox box{given.low.cwiseMax(reached.low), given.high.cwiseMin(reached.high)};
+
+  CertifiedWorkspace out;
+  const bool nothing_there = (box.low.array() >= box.high.array()).any();
+  if (nothing_there) {
+    out.low = given.low;
+    out.high = given.high;
+    out.home_outside = true;
+    out.first_cut.push_back(0);
+  } else {
+    const auto time_is_over = [&] {
+      return std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
+    };
+    const Grown grown = grow(cuts, box, some, settings, time_is_over, control);
+    out.end = grown.end;
+    out.looked = grown.looked;
+    out.low = box.low;
+    out.high = box.high;
+    write_boxes(grown.tree, out);
+    const HomePiece piece = home_piece(grown.tree, question.home.position);
+    out.home_volume = piece.volume;
+    out.home_inside = piece.inside;
+    out.home_outside = piece.outside;
+  }
+  out.beyond = beyond(cuts, reached, given, some);
+  scale_back(out, exponent);
+  return out;
+}
+
+}  // namespace ninedof

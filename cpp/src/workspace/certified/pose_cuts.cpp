@@ -1,0 +1,282 @@
+#include "workspace/certified/pose_cuts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+#include "robot/joint_cones.hpp"
+
+namespace ninedof::certified {
+namespace {
+
+using over_region::Ends;
+using over_region::ends_of;
+
+// Places of the criteria among the bits.
+constexpr int legs_first = 0, base_first = 9, platform_first = 15, pairs_first = 21, signs_first = 42,
+              condition_first = 45;
+static_assert(pairs_first + leg_pairs == signs_first);
+
+constexpr Criteria bit(int k) {
+  return Criteria{1} << k;
+}
+constexpr Criteria bits(int first, int count) {
+  return (bit(count) - 1) << first;
+}
+
+/// Within which a rotation matrix of doubles is a rotation, entry by entry.
+constexpr double rotation_error = 0x1p-49;
+
+std::array<Vector, 3> columns_of(const Mat3& q) {
+  const auto entry = [&](Eigen::Index i, Eigen::Index j) {
+    Form out(q(i, j));
+    out.r = rotation_error;
+    return out;
+  };
+  std::array<Vector, 3> out;
+  for (Eigen::Index j = 0; j < 3; ++j) out[at_index(j)] = {entry(0, j), entry(1, j), entry(2, j)};
+  return out;
+}
+
+Vector centroid_of(const Triple& t) {
+  const Form third = Form::of(Interval(1.0) / 3.0);
+  return third * (over_region::fixed(t[0]) + over_region::fixed(t[1]) + over_region::fixed(t[2]));
+}
+
+Vector unit(const Vector& v) {
+  return over_region::inverse_root(dot(v, v)) * v;
+}
+
+/// Leg k of a body from its joint, in the base frame.
+Vector from_joint(const Geometry& g, const FormPose& pose, bool platform, int k) {
+  const Ends e = ends_of(g, pose, leg_at(platform, k));
+  return sense_at(platform, k) * (e.to - e.from);
+}
+
+Vector in_platform(const FormPose& pose, const Vector& v) {
+  return {dot(pose.q[0], v), dot(pose.q[1], v), dot(pose.q[2], v)};
+}
+
+/// The three determinants without their positive factors: rows are not of unit length.
+Form determinant(const Geometry& g, const FormPose& pose, int which) {
+  const auto row = [&](int k) -> Vector {
+    const Ends e = ends_of(g, pose, k + (which == 1 ? 6 : which == 2 ? 3 : 0));
+    return which > 0 ? e.to - e.from : cross(e.from - pose.s, e.to - pose.s);
+  };
+  return dot(row(0), cross(row(1), row(2)));
+}
+
+bool finite_form(const Form& f) {
+  return std::isfinite(over_region::radius(f)) && std::isfinite(f.c);
+}
+
+}  // namespace
+
+PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+                   const WorkspaceCriteria& criteria, const Configuration& home)
+    : robot_{g, home, criteria.characteristic_length, {}, {}},
+      criteria_(criteria),
+      rule_(rule),
+      some_(domain.archetype == Archetype::reachable) {
+  for (const Mat3& q : domain.rotations) rotations_.push_back(columns_of(q));
+  const FormPose at_home{over_region::fixed(home.position), over_region::fixed(home.internal_point),
+                         columns_of(home.rotation)};
+  if (criteria.legs)
+    for (int k = 0; k < 9; ++k)
+      if (criteria.legs->low[k] > 0.0 || std::isfinite(criteria.legs->high[k])) all_ |= bit(legs_first + k);
+  const auto cones = [&](const std::optional<ConeLimit>& limit, bool platform) {
+    std::array<Vector, 6>& axes = platform ? platform_axes_ : base_axes_;
+    if (!limit || !(limit->angle < std::numbers::pi)) return;  // no angle is greater
+    all_ |= bits(platform ? platform_first : base_first, legs_at_body);
+    (platform ? least_platform_cosine_ : least_base_cosine_) = Form::of(cos(Interval(limit->angle)));
+    for (int k = 0; k < legs_at_body; ++k) {
+      Vector axis = over_region::fixed(limit->axis);
+      if (limit->axis.isZero(0.0)) {
+        axis = from_joint(g, at_home, platform, k);
+        if (platform) axis = in_platform(at_home, axis);
+      }
+      axes[at_index(k)] = unit(axis);
+    }
+  };
+  cones(criteria.base_cone, false);
+  cones(criteria.platform_cone, true);
+  if (criteria.leg_clearance) {
+    const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(g);
+    for (int pair = 0; pair < leg_pairs; ++pair)
+      if (!exempt[at_index(pair)]) all_ |= bit(pairs_first + pair);
+  }
+  if (criteria.singularity_free) {
+    all_ |= bits(signs_first, 3);
+    for (int d = 0; d < 3; ++d) {
+      const Form at = determinant(g, at_home, d);
+      if (!(lower(at) > 0.0 || upper(at) < 0.0))
+        throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
+                              "a regular one with singularity_free");
+      sides_[at_index(d)] = lower(at) > 0.0 ? 1.0 : -1.0;
+    }
+  }
+  if (criteria.condition_number) all_ |= bit(condition_first);
+}
+
+FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
+  const auto coordinate = [&](Eigen::Index k) { return Form::coordinate(box.low[k], box.high[k], at_index(k)); };
+  FormPose out{{coordinate(0), coordinate(1), coordinate(2)}, {}, rotations_[rotation]};
+  using Kind = InternalPointRule::Kind;
+  if (rule_.kind == Kind::fixed) {
+    out.s = over_region::fixed(rule_.point);
+  } else if (rule_.kind == Kind::platform) {
+    out.s = out.p + over_region::turned(out, rule_.point);
+  } else {
+    const Vector lower = centroid_of(robot_.geometry.base_internal()),
+                 arm = centroid_of(robot_.geometry.platform_internal());
+    const Vector upper = out.p + (arm.x * out.q[0] + arm.y * out.q[1] + arm.z * out.q[2]);
+    out.s = lower + Form(rule_.fraction) * (upper - lower);
+  }
+  return out;
+}
+
+bool PoseCuts::decided(const Form& f, Criteria which, Found& found) {
+  if (!finite_form(f)) {
+    put({}, found);
+    return false;
+  }
+  if (lower(f) > 0.0) {
+    found.open &= ~which;
+    return true;
+  }
+  if (upper(f) < 0.0) {
+    found.violated = true;
+    return true;
+  }
+  put({{f.a[0], f.a[1], f.a[2]}, ninedof::detail::above(f.r - f.c), ninedof::detail::below(-f.r - f.c)}, found);
+  return false;
+}
+
+void PoseCuts::put(const Cut& cut, Found& found) {
+  found.cuts.push_back(cut);
+}
+
+void PoseCuts::look_at_legs(const FormPose& pose, Found& found) const {
+  for (int k = 0; k < 9; ++k) {
+    if (!(found.open & bit(legs_first + k))) continue;
+    const Ends e = ends_of(robot_.geometry, pose, k);
+    const Vector v = e.to - e.from;
+    const Form squared = dot(v, v);
+    const double low = criteria_.legs->low[k], high = criteria_.legs->high[k];
+    bool both = true;
+    if (low > 0.0) both = decided(squared - Form::of(square(Interval(low))), 0, found) && both;
+    if (std::isfinite(high)) both = decided(Form::of(square(Interval(high))) - squared, 0, found) && both;
+    if (found.violated) return;
+    if (both) found.open &= ~bit(legs_first + k);
+  }
+}
+
+void PoseCuts::look_at_cones(const FormPose& pose, bool platform, Found& found) const {
+  const int first = platform ? platform_first : base_first;
+  for (int k = 0; k < legs_at_body && !found.violated; ++k) {
+    if (!(found.open & bit(first + k))) continue;
+    const Vector leg = from_joint(robot_.geometry, pose, platform, k);
+    Vector axis = (platform ? platform_axes_ : base_axes_)[at_index(k)];
+    if (platform) axis = axis.x * pose.q[0] + axis.y * pose.q[1] + axis.z * pose.q[2];
+    decided(dot(unit(leg), axis) - (platform ? least_platform_cosine_ : least_base_cosine_), bit(first + k), found);
+  }
+}
+
+void PoseCuts::look_at_clearance(const FormPose& pose, Found& found) const {
+  for (int pair = 0; pair < leg_pairs; ++pair) {
+    const Criteria which = bit(pairs_first + pair);
+    if (!(found.open & which)) continue;
+    const auto [a, b] = leg_pair(pair);
+    const DistanceCut cut =
+        distance_cut(ends_of(robot_.geometry, pose, a), ends_of(robot_.geometry, pose, b), *criteria_.leg_clearance);
+    if (cut.everywhere) {
+      found.open &= ~which;
+      continue;
+    }
+    put({cut.slope, cut.allowed}, found);
+    if (!finite_form(cut.lack)) continue;
+    if (lower(cut.lack) > 0.0) {
+      found.violated = true;
+      return;
+    }
+    // Less than the distance apart where lack > 0: slope . t below.
+    put({{-cut.lack.a[0], -cut.lack.a[1], -cut.lack.a[2]}, -infinity, ninedof::detail::below(cut.lack.c - cut.lack.r)},
+        found);
+  }
+}
+
+void PoseCuts::look_at_signs(const FormPose& pose, Found& found) const {
+  for (int d = 0; d < 3 && !found.violated; ++d)
+    if (found.open & bit(signs_first + d))
+      decided(sides_[at_index(d)] * determinant(robot_.geometry, pose, d), bit(signs_first + d), found);
+}
+
+void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
+  if (!(found.open & bit(condition_first))) return;
+  over_region::Slopes unused;
+  const over_region::Symmetric6 m = over_region::gram(robot_, pose, unused);
+  const over_region::ConditionSplit split = over_region::split_by_condition(m, *criteria_.condition_number);
+  if (split.everywhere) {
+    found.open &= ~bit(condition_first);
+    return;
+  }
+  if (!finite_form(split.excess)) {
+    put({}, found);
+    return;
+  }
+  if (lower(split.excess) > 0.0) {
+    found.violated = true;
+    return;
+  }
+  put({split.slope, split.level, ninedof::detail::below(split.excess.c - split.excess.r)}, found);
+}
+
+PoseCuts::Found PoseCuts::look(const PositionBox& box, std::size_t rotation, Criteria open) const {
+  const FormPose at = pose(box, rotation);
+  Found found{open, false, {}};
+  look_at_legs(at, found);
+  if (!found.violated) look_at_cones(at, false, found);
+  if (!found.violated) look_at_cones(at, true, found);
+  if (!found.violated) look_at_signs(at, found);
+  if (!found.violated) look_at_clearance(at, found);
+  if (!found.violated) look_at_condition(at, found);
+  return found;
+}
+
+PositionBox PoseCuts::reached_with(std::size_t rotation) const {
+  PositionBox out{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
+  if (!criteria_.legs) return out;
+  // A leg is k p + what it is at p = 0.
+  const FormPose zero = pose({Vec3::Zero(), Vec3::Zero()}, rotation);
+  using Kind = InternalPointRule::Kind;
+  const Interval share = rule_.kind == Kind::fixed ? 0.0 : rule_.kind == Kind::platform ? 1.0 : rule_.fraction;
+  for (int leg = 0; leg < 9; ++leg) {
+    const Interval k = leg < 3 ? Interval(1.0) : leg < 6 ? share - 1.0 : share, high(criteria_.legs->high[leg]);
+    if (!std::isfinite(high.hi) || (k.lo <= 0.0 && k.hi >= 0.0)) continue;
+    const Ends e = ends_of(robot_.geometry, zero, leg);
+    const Vector at = e.to - e.from;
+    const std::array<const Form*, 3> parts{&at.x, &at.y, &at.z};
+    for (int i = 0; i < 3; ++i) {
+      const Interval start(lower(*parts[at_index(i)]), upper(*parts[at_index(i)]));
+      const Interval one = (-start - high) / k, other = (high - start) / k;
+      out.low[i] = std::max(out.low[i], std::min(one.lo, other.lo));
+      out.high[i] = std::min(out.high[i], std::max(one.hi, other.hi));
+    }
+  }
+  return out;
+}
+
+PositionBox PoseCuts::reached() const {
+  PositionBox out = reached_with(0);
+  for (std::size_t r = 1; r < rotations_.size(); ++r) {
+    const PositionBox one = reached_with(r);
+    // Every rotation is wanted, or one is enough.
+    out.low = some_ ? Vec3(out.low.cwiseMin(one.low)) : Vec3(out.low.cwiseMax(one.low));
+    out.high = some_ ? Vec3(out.high.cwiseMax(one.high)) : Vec3(out.high.cwiseMin(one.high));
+  }
+  return out;
+}
+
+}  // namespace ninedof::certified

@@ -1,0 +1,84 @@
+#pragma once
+/// The criteria of a workspace over a box of positions, each as cuts: planes beyond which it is proved to hold, or to be
+/// violated.
+
+#include <cstdint>
+
+#include "ninedof/workspace/certified.hpp"
+#include "proof/region_gram.hpp"
+#include "robot/leg_pairs.hpp"
+
+namespace ninedof::certified {
+
+using over_region::Form;
+using over_region::FormPose;
+using over_region::Slope3;
+using over_region::Vector;
+
+/// A plane as in BoxCut.
+struct Cut {
+  Slope3 slope{};
+  double allowed = std::numeric_limits<double>::infinity();
+  double forbidden = -std::numeric_limits<double>::infinity();
+};
+
+/// One bit for each criterion that is not proved yet.
+using Criteria = std::uint64_t;
+
+struct PositionBox {
+  Vec3 low, high;
+};
+
+class PoseCuts {
+ public:
+  PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
+           const WorkspaceCriteria& criteria, const Configuration& home);
+
+  /// All criteria asked for.
+  Criteria all() const { return all_; }
+  std::size_t rotations() const { return rotations_.size(); }
+  FormPose pose(const PositionBox& box, std::size_t rotation) const;
+
+  struct Found {
+    Criteria open = 0;      ///< not proved to hold in all of the box
+    bool violated = false;  ///< one is violated in all of it
+    std::vector<Cut> cuts;  ///< of the open ones
+  };
+  /// Looks at the criteria that are `open`.
+  Found look(const PositionBox& box, std::size_t rotation, Criteria open) const;
+
+  /// A box that holds all positions where the limits of the legs are met; infinite where they do not bound it.
+  PositionBox reached() const;
+
+ private:
+  void look_at_legs(const FormPose& pose, Found& found) const;
+  void look_at_cones(const FormPose& pose, bool platform, Found& found) const;
+  void look_at_clearance(const FormPose& pose, Found& found) const;
+  void look_at_signs(const FormPose& pose, Found& found) const;
+  void look_at_condition(const FormPose& pose, Found& found) const;
+  /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether the criterion is decided.
+  static bool decided(const Form& f, Criteria bit, Found& found);
+  static void put(const Cut& cut, Found& found);
+  PositionBox reached_with(std::size_t rotation) const;
+
+  PosedRobot robot_;
+  WorkspaceCriteria criteria_;
+  InternalPointRule rule_;
+  bool some_;  // one allowed rotation is enough
+  std::vector<std::array<Vector, 3>> rotations_;  // by columns
+  std::array<Vector, 6> base_axes_, platform_axes_;
+  Form least_base_cosine_, least_platform_cosine_;
+  std::array<double, 3> sides_{};
+  Criteria all_ = 0;
+};
+
+/// Where two legs are at least the distance apart: an allowed plane, and a number that is positive where they are not.
+struct DistanceCut {
+  bool everywhere = false;
+  Slope3 slope{};
+  double allowed = std::numeric_limits<double>::infinity();
+  Form lack;
+};
+DistanceCut distance_cut(const over_region::Ends& one, const over_region::Ends& two, double distance);
+
+}  // namespace ninedof::certified

@@ -1,0 +1,64 @@
+#include "workspace/certified/scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ninedof/math/interval.hpp"
+
+namespace ninedof::certified {
+namespace {
+
+Vec3 times(const Vec3& v, int exponent) {
+  return v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+}
+Triple times(const Triple& t, int exponent) {
+  return {times(t[0], exponent), times(t[1], exponent), times(t[2], exponent)};
+}
+
+}  // namespace
+
+int exponent_of(const Question& q) {
+  double most = 0.0;
+  for (const Triple* t : {&q.geometry.base_external(), &q.geometry.base_internal(), &q.geometry.platform_external(),
+                          &q.geometry.platform_internal()})
+    for (const Vec3& joint : *t) most = std::max(most, joint.cwiseAbs().maxCoeff());
+  return -std::ilogb(most);
+}
+
+Question scaled(const Question& q, int exponent) {
+  const Geometry& g = q.geometry;
+  Question out{{times(g.base_external(), exponent), times(g.base_internal(), exponent),
+                times(g.platform_external(), exponent), times(g.platform_internal(), exponent)},
+               q.domain,
+               q.rule,
+               q.criteria,
+               q.home};
+  out.domain.low = times(q.domain.low, exponent);
+  out.domain.high = times(q.domain.high, exponent);
+  out.rule.point = times(q.rule.point, exponent);
+  const auto length = [&](double x) { return std::ldexp(x, exponent); };
+  if (out.criteria.legs)
+    for (Vec9* ends : {&out.criteria.legs->low, &out.criteria.legs->high}) *ends = ends->unaryExpr(length);
+  if (out.criteria.leg_clearance) out.criteria.leg_clearance = length(*out.criteria.leg_clearance);
+  out.criteria.characteristic_length = length(out.criteria.characteristic_length);
+  out.home.position = times(q.home.position, exponent);
+  out.home.internal_point = times(q.home.internal_point, exponent);
+  return out;
+}
+
+void scale_back(CertifiedWorkspace& found, int exponent) {
+  for (std::vector<Vec3>* all : {&found.inner_low, &found.inner_high, &found.open_low, &found.open_high})
+    for (Vec3& v : *all) v = times(v, -exponent);
+  found.low = times(found.low, -exponent);
+  found.high = times(found.high, -exponent);
+  // A volume may leave the range of doubles, and is then rounded outward as well.
+  const auto volume = [&](VolumeBounds& v) {
+    if (v.low > 0.0) v.low = std::max(detail::below(std::ldexp(v.low, -3 * exponent)), 0.0);
+    if (v.high > 0.0) v.high = detail::above(std::ldexp(v.high, -3 * exponent));
+  };
+  volume(found.volume);
+  volume(found.home_volume);
+  for (VolumeBounds& one : found.open_volume) volume(one);
+}
+
+}  // namespace ninedof::certified
