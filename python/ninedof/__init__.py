@@ -85,10 +85,12 @@ from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
 from ninedof.verify import check
 from ninedof.viewer.view import view
 from ninedof.workspace import (
+    CertifiedWorkspace,
     WorkspaceCells,
     WorkspaceMap,
     WorkspaceSlice,
     WorkspaceStatus,
+    certified_workspace,
     spread_rotations,
     workspace,
 )
@@ -102,6 +104,7 @@ __all__ = [
     "AssemblyModes",
     "Bounds",
     "Candidate",
+    "CertifiedWorkspace",
     "Configuration",
     "Design",
     "DesignPoint",
@@ -152,6 +155,7 @@ __all__ = [
     "best_internal_map",
     "best_internal_path",
     "best_internal_point",
+    "certified_workspace",
     "characteristic_length",
     "check",
     "check_certificate",

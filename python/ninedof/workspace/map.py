@@ -17,6 +17,7 @@ from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
 from ninedof.support.short import short
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
+from ninedof.workspace.certified_record import CertifiedWorkspace
 from ninedof.workspace.field import WorkspaceField, field_of, section_of
 from ninedof.workspace.statistics import IndexStatistics
 from ninedof.workspace.surface import WorkspaceSurface, surface_of
@@ -101,6 +102,8 @@ class WorkspaceMap(Saved):
     """Of the indices asked for, by name."""
     unit: str = ""
     """Name of the length unit; "" without one."""
+    certified: CertifiedWorkspace | None = None
+    """What is proved of the same question, of a run folder with `ninedof workspace --certify`. In a file of its own."""
 
     limit_names = LIMITS
 
@@ -233,7 +236,7 @@ class WorkspaceMap(Saved):
         out: dict[str, Any] = {}
         for one in fields(self):
             value = getattr(self, one.name)
-            if one.name in ("cells", "limit_area") or (one.name == "unit" and not self.unit):
+            if one.name in ("cells", "limit_area", "certified") or (one.name == "unit" and not self.unit):
                 continue
             if one.name == "levels":
                 names = ("cells", "evaluations", "volume", "error")
@@ -246,6 +249,8 @@ class WorkspaceMap(Saved):
         out["coordinates"] = list(self.coordinates)
         out["limits"] = self.limits()
         out["share"] = self.share
+        if self.certified is not None:
+            out["certified"] = self.certified.to_dict()
         return out
 
     def _contents(self) -> dict[str, Any]:
@@ -259,7 +264,7 @@ class WorkspaceMap(Saved):
                 words[one.name] = asdict(value)
             elif one.name == "indices":
                 words[one.name] = {name: asdict(found) for name, found in value.items()}
-            elif one.name != "cells":
+            elif one.name not in ("cells", "certified"):
                 words[one.name] = value
         return {"words": np.array(encode(words, indent=None)), **arrays}
 

@@ -1,0 +1,264 @@
+"""What is proved of a workspace: its volume, the boxes inside it, and what is left open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninedof.proof.machine_record import outward
+from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.files import Arrays, Saved
+from ninedof.support.json import decode, encode
+from ninedof.support.short import short_repr
+from ninedof.support.units import amount
+from ninedof.workspace.located import located
+
+AXES = ("x", "y", "z")
+ENDS = {
+    "gap": "the gap asked for is reached",
+    "time": "the time was over",
+    "boxes": "as many boxes as allowed were looked at",
+    "smallest": "the boxes left cannot be divided any more",
+    "stopped": "interrupted",
+}
+
+States = NDArray[np.int8]
+
+
+@short_repr
+class CertifiedSection(NamedTuple):
+    """A plane through a certified workspace. Arrays have the shape (len(vertical), len(horizontal))."""
+
+    axes: tuple[str, str]
+    plane: tuple[str, float]
+    horizontal: Floats
+    vertical: Floats
+    state: States
+    """As `CertifiedWorkspace.state` says."""
+    inner: Floats
+    """The inner boxes that the plane cuts, shape (n, 4): low and high corner in the two coordinates drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedWorkspace(Saved):
+    """A workspace of positions whose volume lies between proved bounds.
+
+    The box searched consists of inner boxes, in which every pose is allowed, of open ones, and of outer ones, in which
+    none is and which are not kept. Planes cut the open boxes: what they prove to be allowed and forbidden counts too.
+    """
+
+    FORMAT = "ninedof-certified-workspace-1"
+    COMPRESSED = True
+
+    volume: tuple[float, float]
+    """Of all allowed positions in the box: at least and at most, proved."""
+    home_volume: tuple[float, float]
+    """Of those connected with home."""
+    home: str
+    """"allowed" or "forbidden", proved, or "unknown"; "forbidden" also outside the box."""
+    beyond: str
+    """What is proved of the positions outside the box: "nothing" or "something" is allowed there; or "unknown"."""
+    connected: bool
+    """Whether only what is connected with home counts: with `singularity_free`."""
+    low: Floats
+    high: Floats
+    """The part of the box that was divided: in the rest, limits of legs allow nothing."""
+    box_low: Floats
+    box_high: Floats
+    """The box asked for."""
+    inner_low: Floats
+    inner_high: Floats
+    """Every pose in these boxes is allowed, shape (n, 3)."""
+    open_low: Floats
+    open_high: Floats
+    """All other allowed poses of the box are in these, shape (m, 3)."""
+    open_volume: Floats
+    """Bounds of the allowed volume in each of them, shape (m, 2)."""
+    first_cut: NDArray[np.int64]
+    """The planes of open box k are those from `first_cut[k]` to `first_cut[k + 1]`, shape (m + 1,)."""
+    cuts: Floats
+    """Planes: slope (3), a, b. With t from -1 to 1 over the sides of the box, a pose is allowed where slope . t >= a
+    for every plane, and forbidden where slope . t <= b for one. Shape (c, 5)."""
+    end: str
+    """Why the search ended: "gap", "time", "boxes", "smallest" or "stopped"."""
+    looked: int
+    """Boxes looked at."""
+    seconds: float
+    archetype: str
+    estimate: tuple[float, float] | None = None
+    """Volume and estimated error of a `WorkspaceMap` of the same question, where there is one."""
+    unit: str = ""
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """What is compared with the volume of a map: of the part connected with home, if only that counts."""
+        return self.home_volume if self.connected else self.volume
+
+    @property
+    def gap(self) -> float:
+        """How far the bounds are apart, relative to the upper one."""
+        low, high = self.bounds
+        return (high - low) / high if high > 0.0 else 0.0
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C ended the search."""
+        return self.end == "stopped"
+
+    def with_estimate(self, volume: float, error: float, unit: str = "") -> CertifiedWorkspace:
+        """Return the same beside the estimate of a map."""
+        return replace(self, estimate=(float(volume), float(error)), unit=unit or self.unit)
+
+    def __repr__(self) -> str:
+        """Show the bounds."""
+        low, high = self.bounds
+        boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open"
+        return f"<CertifiedWorkspace: volume {outward(low, False)} to {outward(high, True)}, {boxes}>"
+
+    def state(self, points: Any) -> States:
+        """Return what is proved of positions.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3)
+
+        Returns
+        -------
+        numpy.ndarray of int8, shape (n,)
+            1 where the pose is proved to be allowed, -1 where it is proved not to be, 0 where nothing is known. It does
+            not say whether the pose is connected with home.
+
+        """
+        at = as_floats("points", points, (3,)).reshape(-1, 3)
+        out = np.full(len(at), -1, dtype=np.int8)
+        if self.beyond != "nothing":
+            out[~((at >= self.box_low) & (at <= self.box_high)).all(axis=1)] = 0
+        out[located(self.inner_low, self.inner_high, at) >= 0] = 1
+        inside = located(self.open_low, self.open_high, at)
+        there = np.flatnonzero((inside >= 0) & (out < 1))
+        out[there] = self._cut_states(at[there], inside[there])
+        return out
+
+    def _cut_states(self, at: Floats, box: NDArray[np.int64]) -> States:
+        """Return the states of points in open boxes, by their planes; roundings count against both proofs."""
+        low, high = self.open_low[box], self.open_high[box]
+        half = 0.5 * (high - low)
+        t = (at - 0.5 * (low + high)) / half
+        error = 2.0**-48 * (1.0 + (np.abs(low) + np.abs(high) + np.abs(at)) / half)
+        allowed, forbidden = np.ones(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
+        count = np.diff(self.first_cut)[box]
+        for k in range(int(count.max(initial=0))):
+            some = np.flatnonzero(count > k)
+            cut = self.cuts[self.first_cut[box[some]] + k]
+            value = np.einsum("ij,ij->i", cut[:, :3], t[some])
+            room = np.einsum("ij,ij->i", np.abs(cut[:, :3]), error[some] + 2.0**-48)
+            allowed[some] &= value - room >= cut[:, 3]
+            forbidden[some] |= value + room <= cut[:, 4]
+        return np.where(allowed, 1, np.where(forbidden, -1, 0)).astype(np.int8)
+
+    def section(self, axis: str, at: float, pixels: int = 400) -> CertifiedSection:
+        """Return a plane through the box that was divided, for drawing.
+
+        Parameters
+        ----------
+        axis : {"x", "y", "z"}
+            The coordinate that is fixed.
+        at : float
+            Its value.
+        pixels : int
+            Along the longer side.
+
+        """
+        fixed = AXES.index(choice("axis", axis, AXES))
+        place = finite("at", at, float(self.low[fixed]), float(self.high[fixed]))
+        h, v = drawn = [k for k in range(3) if k != fixed]
+        side = (self.high - self.low)[drawn]
+        count = np.maximum(np.round(whole("pixels", pixels, 2, 4000) * side / side.max()), 2).astype(int)
+        x, y = (
+            self.low[k] + (np.arange(n) + 0.5) / n * (self.high[k] - self.low[k])
+            for k, n in zip(drawn, count.tolist(), strict=True)
+        )
+        points = np.empty((len(y), len(x), 3))
+        points[..., fixed], points[..., h], points[..., v] = place, x, y[:, None]
+        cut = (self.inner_low[:, fixed] <= place) & (place < self.inner_high[:, fixed])
+        inner = np.concatenate([self.inner_low[cut][:, drawn], self.inner_high[cut][:, drawn]], axis=1)
+        state = self.state(points.reshape(-1, 3)).reshape(points.shape[:2])
+        return CertifiedSection((AXES[h], AXES[v]), (axis, place), x, y, state, inner)
+
+    def sentences(self) -> Iterator[str]:
+        """Yield what is proved, in words."""
+        cubed = f"{self.unit}³" if self.unit else ""
+        what = "the part of the workspace that is connected with home" if self.connected else "the workspace"
+        where = "" if self.beyond == "nothing" else " within the box searched"
+        if self.volume[1] == 0.0:
+            yield f"Proved: no pose{' of the box searched' * (self.beyond != 'nothing')} is allowed."
+        elif self.connected and self.home == "forbidden":
+            yield "Proved: the home pose is not allowed, so that nothing is connected with it."
+        else:
+            yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{where} (gap {100.0 * self.gap:.2g} %)."
+            if self.connected and self.home_volume != self.volume:
+                size = _between(self.volume, cubed)
+                yield f"Proved: all allowed poses on home's side of every singularity have a volume {size}."
+            if self.connected and self.home == "unknown":
+                yield "The home pose is not proved to be allowed: the lower bound is zero."
+        if self.volume[1] > 0.0:
+            yield {
+                "nothing": "Proved: no pose outside the box searched is allowed.",
+                "something": "Proved: the workspace goes on beyond the box searched.",
+                "unknown": "Beyond the box searched nothing is known.",
+            }[self.beyond]
+        if self.estimate is not None and self.volume[1] > 0.0:
+            volume, error = self.estimate
+            low, high = self.bounds
+            said = "lies between the bounds" if low <= volume <= high else "lies outside the bounds"
+            yield f"The estimate, {volume:.6g} ± {error:.2g}, {said}."
+        boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open ones, {self.looked} looked at"
+        yield f"{boxes} in {self.seconds:.3g} s; {ENDS[self.end]}."
+
+    def __str__(self) -> str:
+        """Return the sentences."""
+        return "\n".join(self.sentences())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what is proved as plain values, without the boxes."""
+        out = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in ARRAYS}
+        for name in ("low", "high", "box_low", "box_high"):
+            out[name] = getattr(self, name).tolist()
+        counts = {"inner_boxes": len(self.inner_low), "open_boxes": len(self.open_low)}
+        return out | counts | {"bounds": self.bounds, "gap": self.gap}
+
+    def _contents(self) -> dict[str, Any]:
+        words: dict[str, Any] = {"format": self.FORMAT}
+        arrays: dict[str, Any] = {}
+        for one in fields(self):
+            (arrays if one.name in ARRAYS else words)[one.name] = getattr(self, one.name)
+        return {"words": np.array(encode(words, indent=None)), **arrays}
+
+    @classmethod
+    def _made(cls, contents: Arrays) -> CertifiedWorkspace:
+        data: dict[str, Any] = dict(contents)
+        words = decode(str(data.pop("words")))
+        if words.pop("format") != cls.FORMAT:
+            raise ValueError
+        for name in ("volume", "home_volume", "estimate"):
+            words[name] = None if words[name] is None else tuple(words[name])
+        return cls(**words, **data)
+
+
+ARRAYS = tuple(
+    one.name for one in fields(CertifiedWorkspace) if "Floats" in str(one.type) or "NDArray" in str(one.type)
+)
+
+
+def _between(bounds: tuple[float, float], unit: str) -> str:
+    low, high = bounds
+    digits = 4
+    if high > 0.0 and 0.0 < high - low < 1e-2 * high:  # as many as tell them apart
+        digits = min(4 + math.ceil(-math.log10((high - low) / high)), 15)
+    return f"between {outward(low, False, digits)} and {amount(outward(high, True, digits), unit)}"
