@@ -111,8 +111,7 @@ Looked look(const Domain& domain, const Box& box, double condition) {
     return out;
   }
   Slopes moves;
-  const Symmetric6 g = gram(domain.machine(), domain.pose(box), moves);
-  out.proved = bounded(g, condition);
+  out.proved = bounded(split_gram(domain.machine(), domain.pose(box), moves), condition);
   if (out.proved) return out;
   out.divide = divided_coordinate(box, moves.moves);
   out.met = condition_at(domain, domain.nearest(middle_of(box)));

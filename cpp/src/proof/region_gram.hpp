@@ -23,8 +23,23 @@ Symmetric6 gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves);
 /// The matrix at the middle of the box.
 Mat6 middle_of(const Symmetric6& g);
 
+/// A symmetric 3 x 3 matrix: its entries as above.
+using Symmetric3 = std::array<Form, 6>;
+
+/// M^T M between bounds without an inverse: for a number w of three components,
+///     x^T M^T M x = min over w of x^T above x + 2 w^T across x + w^T sum w,
+/// so that `above` is not below M^T M. `across` vanishes in the middle of the box.
+struct SplitGram {
+  Symmetric6 above;
+  Symmetric6 external;  ///< A^T A, which is not above M^T M
+  std::array<std::array<Form, 6>, 3> across;
+  Symmetric3 sum;  ///< H + F
+  bool known = false;
+};
+SplitGram split_gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves);
+
 /// Whether the condition number is proved to be at most K in all of the box.
-bool bounded(const Symmetric6& g, double condition);
+bool bounded(const SplitGram& g, double condition);
 
 /// Where in a box the condition number is at most K, and where it is not; the box has three coordinates, the first.
 struct ConditionSplit {
@@ -33,7 +48,10 @@ struct ConditionSplit {
   double level = 0.0;  ///< at most K where slope . t >= level; infinite where that is nowhere known
   Form excess;         ///< above K where it is positive
 };
-ConditionSplit split_by_condition(const Symmetric6& g, double condition);
+ConditionSplit split_by_condition(const SplitGram& g, double condition);
+
+/// The directions of a vector: its change from the middle, with an error that falls with the square of the box.
+Vector direction_of(const Vector& v);
 
 /// A number that the condition number of some matrix of the form, taken at one pose, is not below.
 double condition_attained(const Symmetric6& g);

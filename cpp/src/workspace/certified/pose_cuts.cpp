@@ -216,8 +216,8 @@ void PoseCuts::look_at_signs(const FormPose& pose, Found& found) const {
 void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
   if (!(found.open & bit(condition_first))) return;
   over_region::Slopes unused;
-  const over_region::Symmetric6 m = over_region::gram(robot_, pose, unused);
-  const over_region::ConditionSplit split = over_region::split_by_condition(m, *criteria_.condition_number);
+  const over_region::ConditionSplit split =
+      over_region::split_by_condition(over_region::split_gram(robot_, pose, unused), *criteria_.condition_number);
   if (split.everywhere) {
     found.open &= ~bit(condition_first);
     return;

@@ -1,0 +1,164 @@
+/// region_gram.hpp: directions, bounds of M^T M, and where in a box the condition number is proved to be at most K, or
+/// not. Oracle: directions in long double; the singular values of the conditioning matrix at points of the box.
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+
+#include "ninedof/conditioning/conditioning.hpp"
+#include "proof/region_gram.hpp"
+
+using namespace ninedof;
+using namespace ninedof::over_region;
+
+namespace {
+
+using Point = std::array<double, form_size>;
+
+struct Sampler {
+  std::mt19937_64 random{11};
+  std::uniform_real_distribution<double> any{-1.0, 1.0};
+  double operator()() { return any(random); }
+  Point point() {
+    Point t{};
+    for (std::size_t k = 0; k < 3; ++k) t[k] = random() % 3 == 0 ? std::copysign(1.0, any(random)) : any(random);
+    return t;
+  }
+};
+
+double at(const Form& f, const Point& t) {
+  double out = f.c;
+  for (std::size_t k = 0; k < form_size; ++k) out += f.a[k] * t[k];
+  return out;
+}
+
+/// A box of positions about a pose of a random robot, O half way.
+struct Case {
+  PosedRobot robot;
+  Configuration home;
+  double half;
+
+  explicit Case(Sampler& draw, double size) : robot{geometry(draw), {}, 1.0, {}, {}}, half(size) {
+    home.position = Vec3(0.3 * draw(), 0.3 * draw(), 4.5 + 0.5 * draw());
+    home.internal_point = Vec3(0.2 * draw(), 0.2 * draw(), 2.3 + 0.3 * draw());
+  }
+  static Geometry geometry(Sampler& draw) {
+    const auto triple = [&](double radius) {
+      Triple out;
+      for (int k = 0; k < 3; ++k) {
+        const double angle = 2.0943951 * k + 0.5 * draw();
+        out[static_cast<std::size_t>(k)] = Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.2 * draw());
+      }
+      return out;
+    };
+    return {triple(3.4), triple(3.0), triple(3.2), triple(1.7)};
+  }
+  FormPose pose() const {
+    const auto form = [&](int k) {
+      return Form::coordinate(home.position[k] - half, home.position[k] + half, static_cast<std::size_t>(k));
+    };
+    FormPose out;
+    out.p = {form(0), form(1), form(2)};
+    const Vec3 apart = home.internal_point - 0.5 * home.position;
+    out.s = 0.5 * out.p + fixed(apart);
+    for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = fixed(Vec3::Unit(k));
+    return out;
+  }
+  double condition(const Point& t) const {
+    Configuration c = home;
+    c.position += half * Vec3(t[0], t[1], t[2]);
+    c.internal_point += 0.5 * half * Vec3(t[0], t[1], t[2]);
+    return condition_number(robot.geometry, c, 1.0);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("region_split") {
+  TEST_CASE("directions at points of a box are within the error of their forms") {
+    Sampler draw;
+    for (int trial = 0; trial < 20'000; ++trial) {
+      const double size = std::exp(4.0 * draw() - 4.0), unit = trial % 5 == 0 ? 1e80 : 1.0;
+      std::array<Form, 3> v;
+      for (Form& x : v) {
+        x.c = 3.0 * draw() * unit;
+        for (std::size_t k = 0; k < 3; ++k) x.a[k] = size * draw() * unit;
+        x.r = trial % 2 == 0 ? 0.0 : 0.1 * size * std::abs(draw()) * unit;
+      }
+      const Vector e = direction_of({v[0], v[1], v[2]});
+      const Point t = draw.point();
+      std::array<long double, 3> value;
+      long double square = 0.0L;
+      for (std::size_t i = 0; i < 3; ++i) {
+        value[i] = v[i].c + static_cast<long double>(v[i].r) * (trial % 4 < 2 ? 1.0 : draw());
+        for (std::size_t k = 0; k < 3; ++k) value[i] += static_cast<long double>(v[i].a[k]) * t[k];
+        square += value[i] * value[i];
+      }
+      const std::array<const Form*, 3> form{&e.x, &e.y, &e.z};
+      for (std::size_t i = 0; i < 3; ++i) {
+        long double linear = form[i]->c;
+        for (std::size_t k = 0; k < 3; ++k) linear += static_cast<long double>(form[i]->a[k]) * t[k];
+        CHECK(!(std::abs(value[i] / std::sqrt(square) - linear) > form[i]->r));
+      }
+    }
+    CHECK(std::isinf(direction_of({Form(1e-150), Form(0.0), Form(0.0)}).x.r));
+    CHECK(std::isinf(direction_of({Form(1e150), Form(0.0), Form(0.0)}).x.r));
+    CHECK(std::isinf(direction_of({Form::coordinate(-1.0, 2.0, 0), Form(0.0), Form(0.0)}).x.r));
+  }
+
+  TEST_CASE("the bound above M^T M is above it, and the minimum gives it") {
+    Sampler draw;
+    for (int trial = 0; trial < 500; ++trial) {
+      const Case one(draw, std::pow(10.0, -1.5 + draw()));
+      Slopes unused;
+      const SplitGram split = split_gram(one.robot, one.pose(), unused);
+      REQUIRE(split.known);
+      const Point t = draw.point();
+      Case point = one;
+      point.home.position += one.half * Vec3(t[0], t[1], t[2]);
+      point.home.internal_point += 0.5 * one.half * Vec3(t[0], t[1], t[2]);
+      point.half = 0.0;
+      const Mat6 exact = middle_of(gram(one.robot, point.pose(), unused));
+      Mat6 above, error;
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) {
+          const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+          above(r, c) = at(split.above[entry(i, j)], t);
+          error(r, c) = split.above[entry(i, j)].r;
+        }
+      const Mat6 room = Vec6(error.rowwise().sum()).asDiagonal();
+      const Eigen::SelfAdjointEigenSolver<Mat6> above_it(above + room - exact);
+      CHECK(above_it.eigenvalues()[0] > -1e-11 * exact.norm());
+      if (one.half < 1e-2) CHECK((above - exact).norm() < 300.0 * one.half * one.half * exact.norm());
+    }
+  }
+
+  TEST_CASE("what is proved of the condition number holds at points") {
+    Sampler draw;
+    int everywhere = 0, parts = 0, nowhere = 0;
+    for (int trial = 0; trial < 2'000; ++trial) {
+      const Case one(draw, std::pow(10.0, -2.0 + draw()));
+      const double limit = one.condition({}) * (1.0 + draw() * one.half);
+      if (!(limit > 1.0)) continue;
+      Slopes unused;
+      const SplitGram g = split_gram(one.robot, one.pose(), unused);
+      const ConditionSplit split = split_by_condition(g, limit);
+      const bool all = bounded(g, limit);
+      everywhere += all;
+      parts += !split.everywhere && std::isfinite(split.level);
+      nowhere += lower(split.excess) > 0.0;
+      for (int n = 0; n < 20; ++n) {
+        const Point t = draw.point();
+        const double kappa = one.condition(t),
+                     along = split.slope[0] * t[0] + split.slope[1] * t[1] + split.slope[2] * t[2];
+        if (all || split.everywhere || along >= split.level) CHECK(kappa <= limit * (1.0 + 1e-11));
+        if (at(split.excess, t) > split.excess.r) CHECK(kappa >= limit * (1.0 - 1e-11));
+      }
+    }
+    CHECK(everywhere > 100);
+    CHECK(parts > 100);
+    CHECK(nowhere > 100);
+  }
+}
