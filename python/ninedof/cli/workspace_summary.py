@@ -17,7 +17,7 @@ from ninedof.design.region_outline import region_lines, section_outline
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import with_unit
-from ninedof.workspace import IndexStatistics, WorkspaceMap
+from ninedof.workspace import CertifiedWorkspace, IndexStatistics, WorkspaceMap
 from ninedof.workspace.region_share import RegionShare
 
 if TYPE_CHECKING:
@@ -128,6 +128,8 @@ def draw(
     files = plot.save(figure, directory, "workspace")
     if found.of_angles:
         return files
+    if found.certified is not None and found.certified.volume[1] > 0.0:
+        files += _draw_certified(found, found.certified, home, region, directory)
     screen.say("drawing the body of the workspace")
     surface = found.surface()
     if len(surface.faces):
@@ -135,6 +137,25 @@ def draw(
         body = plot.workspace_body(surface, found.coordinates, home=home.position, lines=lines, unit=found.unit)
         files += plot.save(body, directory, "workspace_body")
     return files
+
+
+def _draw_certified(
+    found: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
+) -> list[Path]:
+    """Draw a vertical and the horizontal section of what is proved."""
+    from ninedof import plot
+
+    middle = found.ball_centre if found.ball_radius > 0.0 and region is None else home.position
+    panels = []
+    for fixed, at in _planes(found, home, middle)[::2]:
+        place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
+        section = _section(found, home, region, middle, fixed, place)
+        panels.append(
+            plot.CertifiedPanel(
+                proved.section(found.coordinates[fixed], place), section.plane, section.region, section.home
+            )
+        )
+    return plot.save(plot.certified_workspace(panels, found.unit), directory, "certified_workspace")
 
 
 def _planes(found: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:

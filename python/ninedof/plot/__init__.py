@@ -5,6 +5,7 @@ Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no
 
 from ninedof.plot.atlas import atlas
 from ninedof.plot.body import workspace_body
+from ninedof.plot.certified import CertifiedPanel, certified_workspace
 from ninedof.plot.convergence import convergence
 from ninedof.plot.dimensions import figure_5
 from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
@@ -21,6 +22,7 @@ from ninedof.plot.sweep import sweep
 from ninedof.plot.workspace import workspace
 
 __all__ = [
+    "CertifiedPanel",
     "DesignCurves",
     "EllipsoidPanel",
     "Mechanism",
@@ -28,6 +30,7 @@ __all__ = [
     "Section",
     "Sketch",
     "atlas",
+    "certified_workspace",
     "condition_curves",
     "convergence",
     "draw_mechanism",

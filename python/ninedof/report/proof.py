@@ -49,6 +49,8 @@ def of_workspace(found: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
     of_positions = found.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
     if found.ball_radius > 0.0 and legs and of_positions:
         checked.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")
+    if found.certified is not None:
+        checked.extend(found.certified.sentences())
     searched = [
         "Limits not named as proved were sampled: a hole thinner than the samples may remain.",
         "The error of the volume is an estimate, not a bound.",

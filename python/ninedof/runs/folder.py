@@ -25,13 +25,14 @@ from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.versions import versions
 from ninedof.sweep import SweepResult
-from ninedof.workspace import WorkspaceMap
+from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 FORMAT = "ninedof-record-2"
 STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"  # of earlier releases
 FILE = "record.json"
 
 Run = Result | Comparison | Front | WorkspaceMap | SweepResult
+CERTIFIED = "certified.npz"  # beside the map of a workspace
 ARRAYS = {"workspace": "map.npz", "sweep": "sweep.npz", "atlas": "atlas.npz"}
 
 
@@ -94,6 +95,8 @@ def write_run(
     if isinstance(run, WorkspaceMap | SweepResult):
         run.save(folder / ARRAYS[record.kind])
         record = replace(record, files=(ARRAYS[record.kind],))
+    if isinstance(run, WorkspaceMap) and run.certified is not None:
+        record = replace(record, files=(*record.files, run.certified.save(folder / CERTIFIED).name))
     result = run.result if isinstance(run, Comparison) else run
     if isinstance(result, Result) and result.proof is not None and result.proof.certificate:
         record = replace(record, files=(result.proof.save(folder / CERTIFICATE).name,))
@@ -144,8 +147,12 @@ def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepR
     try:
         if record.kind in ARRAYS:
             place = Path(path)
-            file = (place if place.is_dir() else place.parent) / ARRAYS[record.kind]
-            return WorkspaceMap.load(file) if record.kind == "workspace" else SweepResult.load(file)
+            folder = place if place.is_dir() else place.parent
+            if record.kind != "workspace":
+                return SweepResult.load(folder / ARRAYS[record.kind])
+            found = WorkspaceMap.load(folder / ARRAYS[record.kind])
+            certified = CertifiedWorkspace.load(folder / CERTIFIED) if CERTIFIED in record.files else None
+            return replace(found, certified=certified)
         if record.kind == "front":
             return front_from(record.study, record.results["front"])
         return result_from(record.study, record.results["optimization"])

@@ -20,6 +20,7 @@ from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.domain import domain_of, home_of, rule_of
 
 FOREVER = 1e9  # seconds
+GAPS = (1e-9, 0.999)
 
 
 def require_certifiable(archetype: str, internal_point: Any) -> None:
@@ -114,7 +115,7 @@ def certified_workspace(
     domain = domain_of(archetype, box, None, rotation, region, orientations)
     limits = criteria_of(criteria, characteristic_length)
     settings = {
-        "gap": finite("gap", gap, 1e-9, 0.999),
+        "gap": finite("gap", gap, *GAPS),
         "seconds": FOREVER if time_limit is None else finite("time_limit", time_limit, 0.0, FOREVER),
         "boxes": whole("most_boxes", most_boxes, 1, 10**9),
         "threads": thread_argument(threads),

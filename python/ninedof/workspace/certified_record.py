@@ -202,8 +202,8 @@ class CertifiedWorkspace(Saved):
             yield "Proved: the home pose is not allowed, so that nothing is connected with it."
         else:
             yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{where} (gap {100.0 * self.gap:.2g} %)."
-            if self.connected and self.home_volume != self.volume:
-                size = _between(self.volume, cubed)
+            size = _between(self.volume, cubed)
+            if self.connected and size != _between(self.bounds, cubed):
                 yield f"Proved: all allowed poses on home's side of every singularity have a volume {size}."
             if self.connected and self.home == "unknown":
                 yield "The home pose is not proved to be allowed: the lower bound is zero."

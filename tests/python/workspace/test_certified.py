@@ -46,8 +46,8 @@ def margins(g, m, criteria, home):
     if criteria.get("singularity_free"):
         sides = oracle.signs(m) * oracle.signs(model.robot(g, nd.Configuration(*(x[None] for x in home_parts(home)))))
         least = np.where((sides > 0.0).all(axis=1), least, -1.0)
-    if "leg_clearance" in criteria:  # sampled: too large by at most 1e-3 here
-        apart = oracle.clearance(m, 200) - criteria["leg_clearance"]
+    if "leg_clearance" in criteria:  # sampled: too large by at most 2e-2 here
+        apart = oracle.clearance(m) - criteria["leg_clearance"]
         least = np.minimum(least, np.where(apart < 0.0, apart, np.maximum(apart, 0.0)))
     return least
 
@@ -110,14 +110,14 @@ def test_what_is_proved_of_poses_is_so(published, question, rule):
         least = margins(g, oracle.robots(g, p, q, placed(rule, g, p, q)), criteria, home)
         state = proved.state(p)
         assert (least[state == 1] > -1e-9).all()
-        room = 2e-3 if "leg_clearance" in criteria else 1e-9
+        room = 2e-2 if "leg_clearance" in criteria else 1e-9
         assert (least[state == -1] < room).all()
         inner = (
             ((p[:, None] >= proved.inner_low[:500]) & (p[:, None] <= proved.inner_high[:500])).all(axis=2).any(axis=1)
         )
         assert (least[inner] > -1e-9).all()
         share = (least[: len(p) // 2 if len(proved.open_low) else None] > 0.0).mean()
-        scatter = 5.0 * np.sqrt(max(share, 1e-3) / 1_500.0) + (0.01 if "leg_clearance" in criteria else 0.0)
+        scatter = 5.0 * np.sqrt(max(share, 1e-3) / 1_500.0) + (0.02 if "leg_clearance" in criteria else 0.0)
         box = np.prod(proved.box_high - proved.box_low)
         assert proved.volume[0] / box <= share + scatter
         assert proved.volume[1] / box >= share - scatter

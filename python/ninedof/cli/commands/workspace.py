@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Annotated, Any
 
@@ -24,13 +25,16 @@ from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
+from ninedof.workspace import certified_workspace
 from ninedof.workspace import workspace as find_workspace
+from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.question_words import asked_lines
 from ninedof.workspace.region_share import box_about, region_share
 from ninedof.workspace.study_question import box_around, built_ranges, narrowed
 
 Ends = Annotated[tuple[float, float] | None, typer.Option(metavar="LOW HIGH")]
 PLACE = 6
+OF_THE_MAP = ("method", "tolerance", "resolution", "points", "seed", "index")
 EXAMPLES = """[bold]Examples[/bold]
 
   ninedof workspace --legs 1.5 6.5 --condition 5 --singularity-free
@@ -40,6 +44,8 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof workspace runs/20260101-120000 --upper 1.5 3 --clearance 0 --no-figures
 
   ninedof workspace design.toml --legs 2.5 6.5 --x -2 2 --y -2 2 --z 3 7 --out run1
+
+  ninedof workspace runs/20260101-120000 --certify --gap 0.02    bounds of the volume, proved
 
   ninedof workspace --archetype orientation --angle-deg 60 --legs 1.5 6.5 --json | jq .workspace.volume"""
 
@@ -108,6 +114,13 @@ def workspace(
     index: Annotated[
         list[str] | None, typer.Option(help=f"An index over the workspace, may be repeated: {', '.join(computed())}.")
     ] = None,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Prove bounds of the volume, and boxes where every pose is allowed.")
+    ] = False,
+    gap: Annotated[
+        float | None, typer.Option(help="Of the bounds, relative to the upper one; 0.05 by default.")
+    ] = None,
+    time: Annotated[float | None, typer.Option(help="Seconds for the proof; 60 by default.")] = None,
     out: Out = None,
     threads: Threads = None,
     figures: Figures = True,
@@ -175,6 +188,14 @@ def workspace(
         "unit": given.unit or None,
     }
     about = None if region_asked is None else box_about(region_asked, home)
+    proof = _given({"gap": gap, "time_limit": time})
+    if certify:
+        require_certifiable(archetype, others["internal_point"])
+        finite("--gap", proof.get("gap", 0.5), *GAPS)
+        finite("--time", proof.get("time_limit", 0.0), 0.0)
+    elif proof:
+        name, value = next(iter(proof.items()))
+        raise ValueError(f"--{name.removesuffix('_limit')}: got {value:g} without --certify, expected both")
     asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position, about)
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
@@ -185,6 +206,22 @@ def workspace(
     screen.print(workspace_table(found))
     for sentence in sentences(found):
         screen.print(sentence)
+    if certify and not found.interrupted:
+        with screen.boxes("proving") as bar:
+            proved = certified_workspace(
+                given.geometry,
+                **{name: value for name, value in asked.items() if name not in OF_THE_MAP},
+                **proof,
+                home=home,
+                threads=threads,
+                progress=lambda done, total, _: bar.show(done, total, None),
+            )
+        if found.method != "sample" and not found.interrupted:
+            proved = proved.with_estimate(found.volume, found.error)
+        found = replace(found, certified=proved)
+        write_run(found, directory, None, question)
+        for sentence in proved.sentences():
+            screen.print(sentence)
     share = None
     if region_asked is not None and places_o(region_asked):
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
@@ -193,12 +230,13 @@ def workspace(
     outlined = None if archetype == "orientation" else region_asked
     drawing = partial(draw, found, screen, home, outlined) if drawn else None
     record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
+    arrays = "map.npz" if found.certified is None else "map.npz, certified.npz"
     names = sorted(path.stem for path in directory.glob("*.png"))
     figure = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if drawn else ""
-    screen.print(f"run folder {directory}: {record.name}, map.npz{figure}{report_words(directory)}")
+    screen.print(f"run folder {directory}: {record.name}, {arrays}{figure}{report_words(directory)}")
     data = {"workspace": found.to_dict(), "record": str(record)}
     screen.data(data | ({} if share is None else {"region": share._asdict()}))
-    if found.interrupted:
+    if found.interrupted or (found.certified is not None and found.certified.interrupted):
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
 
