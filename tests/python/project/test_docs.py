@@ -80,7 +80,7 @@ def test_the_page_of_figures_runs_as_written_and_leaves_out_none(tmp_path, monke
         exec(compile(ast.Module([statement], []), "figures.md", "exec"), known)
         if ast.unparse(statement).startswith("figure = "):
             drawn.append(known["figure"])
-    assert len(drawn) == code.count("figure = nd.plot.") == 19
+    assert len(drawn) == code.count("figure = nd.plot.") == 20
     assert all(isinstance(figure, Figure) for figure in drawn)
     assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == [
         f"mechanisms.{kind}" for kind in ("pdf", "png", "svg")
