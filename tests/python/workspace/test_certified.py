@@ -103,8 +103,9 @@ def test_what_is_proved_of_poses_is_so(published, question, rule):
         g = published if trial == 0 else some_robot(rng)
         q = np.eye(3) if trial == 0 else Rotation.from_rotvec(0.2 * rng.normal(size=3)).as_matrix()
         home = nd.Configuration([0.1, 0.0, 4.6], q, placed(rule, g, np.array([0.1, 0.0, 4.6]), q))
+        gap = 0.4 if question == "all" else 0.2
         proved = nd.certified_workspace(
-            g, BOX, criteria=criteria, internal_point=RULES[rule], rotation=q, home=home, gap=0.2, time_limit=20.0
+            g, BOX, criteria=criteria, internal_point=RULES[rule], rotation=q, home=home, gap=gap, time_limit=20.0
         )
         p = sampled(proved, rng, size(1_500, 7_000))
         least = margins(g, oracle.robots(g, p, q, placed(rule, g, p, q)), criteria, home)
@@ -224,7 +225,7 @@ def test_only_what_is_connected_with_home_counts(published):
     assert 0.0 < proved.home_volume[0] <= estimate.volume + estimate.error
     assert proved.home_volume[1] >= estimate.volume - estimate.error
     assert proved.home_volume[1] <= proved.volume[1]
-    assert proved.gap < 0.1
+    assert proved.gap <= 0.03
 
 
 def test_a_piece_apart_is_not_counted(published):

@@ -17,6 +17,7 @@ namespace certified {
 namespace {
 
 constexpr long looks_beyond = 20'000;
+constexpr double least_gap = 1e-3;  // of all poses, relative to that asked for, where home's piece needs it
 
 void require_certified(const WorkspaceDomain& domain, const InternalPointRule& rule, const WorkspaceCriteria& criteria,
                        const CertifySettings& settings) {
@@ -129,13 +130,23 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
     const auto time_is_over = [&] {
       return std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
     };
-    const Grown grown = grow(cuts, box, some, settings, time_is_over, control);
+    Grown grown = seed(cuts, box, some);
+    CertifySettings now = settings;
+    grow(grown, cuts, some, now, time_is_over, control);
+    HomePiece piece = home_piece(grown.tree, question.home.position);
+    // Where only home's piece counts, its own gap is to be small: others go on for as long as it takes.
+    const auto wide = [&] { return piece.volume.high - piece.volume.low > settings.gap * piece.volume.high; };
+    while (criteria.singularity_free && wide() && grown.end == CertifiedWorkspace::End::gap &&
+           now.gap > least_gap * settings.gap) {
+      now.gap *= 0.5;
+      grow(grown, cuts, some, now, time_is_over, control);
+      piece = home_piece(grown.tree, question.home.position);
+    }
     out.end = grown.end;
     out.looked = grown.looked;
     out.low = box.low;
     out.high = box.high;
     write_boxes(grown.tree, out);
-    const HomePiece piece = home_piece(grown.tree, question.home.position);
     out.home_volume = piece.volume;
     out.home_inside = piece.inside;
     out.home_outside = piece.outside;

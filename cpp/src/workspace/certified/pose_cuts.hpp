@@ -44,8 +44,8 @@ class PoseCuts {
     bool violated = false;  ///< one is violated in all of it
     std::vector<Cut> cuts;  ///< of the open ones
   };
-  /// Looks at the criteria that are `open`.
-  Found look(const PositionBox& box, std::size_t rotation, Criteria open) const;
+  /// Looks at the criteria that are `open`. The condition number is the dearest of all: `cheap_ones` leaves it open.
+  Found look(const PositionBox& box, std::size_t rotation, Criteria open, bool cheap_ones) const;
 
   /// A box that holds all positions where the limits of the legs are met; infinite where they do not bound it.
   PositionBox reached() const;

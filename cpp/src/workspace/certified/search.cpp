@@ -43,12 +43,17 @@ std::vector<PositionBox> halves_of(const PositionBox& box) {
   return out;
 }
 
-Grown grow(const PoseCuts& cuts, const PositionBox& box, bool some, const CertifySettings& settings,
-           const std::function<bool()>& time_is_over, const Control& control) {
+Grown seed(const PoseCuts& cuts, const PositionBox& box, bool some) {
   Grown out;
-  Tree& tree = out.tree;
-  tree.push_back({box, seen_of(cuts, box, everything(cuts), some)});
+  out.tree.push_back({box, seen_of(cuts, box, everything(cuts), some)});
   out.looked = 1;
+  return out;
+}
+
+void grow(Grown& out, const PoseCuts& cuts, bool some, const CertifySettings& settings,
+          const std::function<bool()>& time_is_over, const Control& control) {
+  Tree& tree = out.tree;
+  out.end = End::gap;
   std::priority_queue<Gap> open;
   const auto volume = [&](int n) { return plain_volume(tree[static_cast<std::size_t>(n)].box); };
   double low = 0.0, high = 0.0;
@@ -61,14 +66,17 @@ Grown grow(const PoseCuts& cuts, const PositionBox& box, bool some, const Certif
     const Seen& seen = tree[static_cast<std::size_t>(n)].seen;
     if (!seen.inner() && !seen.outer()) open.push({(seen.high - seen.low) * volume(n), n});
   };
-  count(0, 1.0);
-  put(0);
+  for (int n = 0; n < static_cast<int>(tree.size()); ++n)
+    if (tree[static_cast<std::size_t>(n)].leaf()) {
+      count(n, 1.0);
+      put(n);
+    }
   const auto over = [&] { return control.stop.stop_requested() || time_is_over(); };
   bool stuck = false;
   while (!open.empty() && high - low > settings.gap * high) {
     if (control.stop.stop_requested() || time_is_over() || out.looked >= settings.boxes) {
       out.end = control.stop.stop_requested() ? End::stopped : out.looked >= settings.boxes ? End::boxes : End::time;
-      return out;
+      return;
     }
     struct Item {
       int node;
@@ -112,7 +120,6 @@ Grown grow(const PoseCuts& cuts, const PositionBox& box, bool some, const Certif
     if (control.progress) control.progress(out.looked, 0, std::max(low, 0.0));
   }
   if (stuck && high - low > settings.gap * high) out.end = End::smallest;
-  return out;
 }
 
 CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks) {

@@ -14,9 +14,12 @@ struct Grown {
   long looked = 0;
 };
 
+/// The box as it is.
+Grown seed(const PoseCuts& cuts, const PositionBox& box, bool some);
+
 /// Halves boxes until the gap between the bounds of the volume is small enough.
-Grown grow(const PoseCuts& cuts, const PositionBox& box, bool some, const CertifySettings& settings,
-           const std::function<bool()>& time_is_over, const Control& control);
+void grow(Grown& grown, const PoseCuts& cuts, bool some, const CertifySettings& settings,
+          const std::function<bool()>& time_is_over, const Control& control);
 
 /// Whether a box holds allowed poses, as far as so many looks show.
 CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks);

@@ -44,6 +44,10 @@ double share_not_proved(const std::vector<Cut>& cuts) {
   return sum.hi;
 }
 
+bool proves_nothing(const Cut& cut) {
+  return !(cut.allowed < reach(cut.slope));
+}
+
 /// At most the share of the box where some cut proves that poses are not allowed.
 double share_forbidden(const std::vector<Cut>& cuts) {
   double out = 0.0;
@@ -56,8 +60,10 @@ double share_forbidden(const std::vector<Cut>& cuts) {
 Seen seen_of(const PoseCuts& cuts, const PositionBox& box, const std::vector<Seen::Left>& left, bool some) {
   Seen out{true, some ? 0.0 : 1.0, some ? 0.0 : 1.0, {}, {}};
   Interval sum;  // of shares that are allowed with some rotation
+  // Where every rotation is wanted and one proves nothing in all of the box, the others matter only where they forbid it.
+  bool nothing_proved = false;
   for (const Seen::Left& one : left) {
-    PoseCuts::Found found = cuts.look(box, one.rotation, one.open);
+    const PoseCuts::Found found = cuts.look(box, one.rotation, one.open, nothing_proved);
     if (found.violated) {
       if (some) continue;
       return {true, 0.0, 0.0, {}, {}};
@@ -67,6 +73,10 @@ Seen seen_of(const PoseCuts& cuts, const PositionBox& box, const std::vector<See
       return {true, 1.0, 1.0, {}, {}};
     }
     out.left.push_back({one.rotation, found.open});
+    if (!some && !nothing_proved && std::ranges::any_of(found.cuts, proves_nothing)) {
+      nothing_proved = true;
+      std::swap(out.left.front(), out.left.back());  // first in the halves too
+    }
     if (some) {
       out.low = std::max(out.low, (Interval(1.0) - share_not_proved(found.cuts)).lo);
       sum += (Interval(1.0) - share_forbidden(found.cuts)).hi;
