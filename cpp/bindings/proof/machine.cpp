@@ -13,15 +13,29 @@ namespace ninedof::python {
 namespace {
 
 constexpr std::size_t most_kept = 20'000;
+constexpr long boxes_by_rule = 2'000'000;  // a rule is fitted until limits are only just kept
 
-/// `region` is None or a mapping; the neutral configuration comes first in the stack, then the listed poses.
+/// Where O is in the region: scales of the six coordinates, powers and coefficients of each term.
+PointRule rule_from(const py::dict& d) {
+  PointRule out;
+  const auto scale = d["scale"].cast<std::array<double, 6>>();
+  out.scale = Vec6::Map(scale.data());
+  out.powers = d["powers"].cast<std::vector<std::array<int, 6>>>();
+  for (const auto& c : d["coefficients"].cast<std::vector<std::array<double, 3>>>())
+    out.coefficients.push_back(Vec3::Map(c.data()));
+  out.validate();
+  return out;
+}
+
+/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the stack, then the listed poses.
 PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
                       double characteristic_length, const py::object& region) {
   const ConfigurationStack all(position, rotation, internal_point);
-  PosedRobot out{g, all[0], characteristic_length, {}, {}};
+  PosedRobot out{g, all[0], characteristic_length, {}, {}, {}};
   if (!region.is_none()) {
     out.region.push_back(region_from(region.cast<py::dict>()));
     out.region.front().validate();
+    if (region.contains("rule")) out.rule.push_back(rule_from(region["rule"].cast<py::dict>()));
   }
   for (long k = 1; k < all.count(); ++k) out.poses.push_back(all[k]);
   return out;
@@ -67,7 +81,8 @@ void bind_machine(py::module_& m) {
                             const Array& internal_point, const py::object& region,
                             const std::vector<py::dict>& quantities, const py::dict& settings) {
     const PosedRobot robot = robot_from(g, position, rotation, internal_point, 1.0, region);
-    const ProofSettings how = settings_from(settings);
+    ProofSettings how = settings_from(settings);
+    if (!robot.rule.empty()) how.boxes = boxes_by_rule;
     std::vector<PoseQuantity> wanted;
     for (const py::dict& quantity : quantities) wanted.push_back(quantity_from(quantity));
     const auto found =

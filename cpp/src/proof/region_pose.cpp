@@ -46,7 +46,7 @@ double least_length(const Box& box, const Disc& disc) {
 
 }  // namespace
 
-Domain::Domain(const PosedRobot& machine) : machine_(machine) {
+Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rule.begin(), machine.rule.end()) {
   if (!machine.region.empty()) {
     const Region& region = machine.region.front();
     Box box;
@@ -87,7 +87,8 @@ FormPose Domain::pose(const Box& box) const {
   }
   if (region.in_zp) moved = neutral.position.z() * moved;
   FormPose out{fixed(neutral.position) + moved, fixed(neutral.internal_point), columns(neutral.rotation)};
-  if (region.shifted) out.s = out.s + moved;
+  if (!rule_.empty()) out.s = out.s + rule_.front().shift({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
+  else if (region.shifted) out.s = out.s + moved;
   if (region.yaw > 0.0) {
     const Form c = cos(x[5]), s = sin(x[5]);
     for (Vector& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};

@@ -11,6 +11,7 @@
 #include "ninedof/math/xyz.hpp"
 #include "ninedof/proof/machine.hpp"
 #include "proof/region_form.hpp"
+#include "proof/region_rule.hpp"
 
 namespace ninedof::over_region {
 
@@ -62,6 +63,7 @@ class Domain {
 
   const PosedRobot& machine_;
   std::vector<Box> roots_;
+  std::vector<RuleForms> rule_;  // none or one
   std::vector<Disc> discs_;
 };
 

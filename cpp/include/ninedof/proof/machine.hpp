@@ -10,6 +10,7 @@
 
 #include "ninedof/design/region.hpp"
 #include "ninedof/math/control.hpp"
+#include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
 
@@ -22,6 +23,7 @@ struct PosedRobot {
   double characteristic_length = 1.0;
   std::vector<Region> region;  ///< none or one
   std::vector<Configuration> poses;
+  std::vector<PointRule> rule;  ///< none or one: where s is in the region, in place of what the region says
 };
 
 /// A number of a pose.
