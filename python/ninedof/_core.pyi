@@ -285,6 +285,15 @@ def place_in_region(
     threads: int,
     /,
 ) -> tuple[_Floats, _Floats]: ...
+def placed_rows(
+    problem: Problem,
+    region: dict[str, Any],
+    variables: Sequence[float],
+    at: _Floats,
+    shift: _Floats,
+    threads: int,
+    /,
+) -> tuple[_Floats, _Floats, int]: ...
 def optimize_placed(
     problem: Problem,
     given: Sequence[tuple[Sequence[float], Sequence[Sequence[float]]]],

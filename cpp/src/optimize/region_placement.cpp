@@ -192,4 +192,26 @@ std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& reg
   return out;
 }
 
+std::vector<PlacedRows> placed_rows(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
+                                    const std::vector<Placed>& places, int threads, const Control& control) {
+  problem.validate();
+  region.validate();
+  require_full("variables", problem, variables);
+  const PlacementGoal nothing;
+  const auto count = static_cast<long>(places.size());
+  std::vector<PlacedRows> out(places.size());
+  parallel_for((count + samples_a_task - 1) / samples_a_task, 1, threads, [&](long task, long) {
+    if (control.stop.stop_requested()) return;
+    PlacedPose pose(problem, variables, nothing);
+    for (long k = task * samples_a_task; k < std::min(count, (task + 1) * samples_a_task); ++k) {
+      const Placed& placed = places[at_index(k)];
+      pose.set_pose(region.pose(placed.at));
+      const PlacedPose::Inner rows = pose.rows(placed.shift);
+      out[at_index(k)] = {rows.value, rows.by_shift, rows.of_index};
+    }
+  });
+  if (control.stop.stop_requested()) throw Stopped{};
+  return out;
+}
+
 }  // namespace ninedof

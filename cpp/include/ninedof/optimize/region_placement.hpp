@@ -61,6 +61,16 @@ std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& reg
                                        const PlacementGoal& goal, const std::vector<Vec3>& known,
                                        const std::vector<Vec6>& at, int threads = 0, const Control& control = {});
 
+/// The index (a row for each ratio it is the largest of, in logarithms) and all limits of single poses (as negative
+/// margins) with O at given places, and their derivatives with respect to the shift of O in zp.
+struct PlacedRows {
+  Eigen::VectorXd value;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> by_shift;
+  int of_index = 0;  ///< how many of the first rows are of the index
+};
+std::vector<PlacedRows> placed_rows(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
+                                    const std::vector<Placed>& places, int threads = 0, const Control& control = {});
+
 /// A design with O at each of some poses.
 struct PlacedDesign {
   Eigen::VectorXd variables;  ///< a full set of the problem without poses

@@ -223,6 +223,13 @@ double PlacedPose::place(Vec3& shift, double enough) {
   return worst;
 }
 
+PlacedPose::Inner PlacedPose::rows(const Vec3& shift) {
+  evaluate(shift);
+  select(-infinity);
+  differentiate();
+  return {values_, gradients_, p_.rows};
+}
+
 PlacedEnd PlacedPose::end(const Placed& placed) {
   PlacedEnd out{placed, evaluate(placed.shift), -infinity, infinity, ""};
   for (std::size_t k = 0; k < rows_.size(); ++k) {

@@ -21,6 +21,15 @@ class PlacedPose {
   /// Minimizes the largest row over the shift of s, from a start; ends early where it is at most `enough`. Returns it.
   double place(Vec3& shift, double enough);
 
+  using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  /// All rows at a shift and their derivatives with respect to it; the rows of the index come first.
+  struct Inner {
+    Eigen::VectorXd value;
+    Gradient by_shift;
+    int of_index;
+  };
+  Inner rows(const Vec3& shift);
+
   /// The rows at a shift: the excess and what it consists of.
   PlacedEnd end(const Placed& placed);
 
@@ -45,7 +54,6 @@ class PlacedPose {
     int item;   ///< of the index, of the margins; leg; axis
     int range;  ///< of the goal
   };
-  using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
   void list_rows(const Eigen::VectorXd& variables);
   double evaluate(const Vec3& shift);
