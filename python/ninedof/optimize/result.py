@@ -9,6 +9,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ninedof.design.internal_points import idle_words, rule_words
+from ninedof.design.region_placed import Placing
+from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.agreement import agreement_words
@@ -18,6 +20,7 @@ from ninedof.optimize.result_html import result_html
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.optimum import OptimumProof
+from ninedof.proof.placed import rule_of
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -229,8 +232,9 @@ class Result:
         **options
             condition_number : a bound of the condition number to be proved too. gap : relative width of the enclosure
             of the worst one, 0.05. time_limit : seconds for it, 300. tolerance : by which limits may be passed,
-            relative, 1e-6. threads : 0, one per processor. resume : an earlier certificate to go on with. progress :
-            called with boxes done, 0 and the worst condition number met.
+            relative, 1e-6. threads : 0, one per processor. rule : where O is, where the study places it anew at every
+            pose of a region; fitted to the best O if left out. resume : an earlier certificate to go on with.
+            progress : called with boxes done, 0 and the worst condition number met.
 
         Returns
         -------
@@ -240,14 +244,26 @@ class Result:
         Raises
         ------
         ValueError
-            Without a design; for a bad option; for a region where O is searched for at every pose.
+            Without a design; for a bad option.
 
         """
         best = self.best
         if best is None:
             raise ValueError(f"result: got one without a design, expected one to be proved: {self.reason}")
         configurations = best.configurations[: 1 + len(self.study.objective.poses)]
-        return certify(self.study, best.geometry, configurations, best.characteristic_length, **options)
+        design = best.geometry, configurations, best.characteristic_length
+        place = self._placing()
+        if options.get("rule") is None and options.get("resume") is None and place is not None:
+            options["rule"] = lambda: rule_of(place, *design, options.get("threads", 0))
+        return certify(self.study, *design, **options)
+
+    def _placing(self) -> Placing | None:
+        """Return how O is placed in the region, where the study places it anew at every pose."""
+        region, best = self.study.objective.region, self.best
+        if region is None or places_o(region) or best is None:
+            return None
+        ranges = () if self.region is None else self.region.leg_ranges
+        return Placing(self.study, best.configurations[0], best.variables, best.objective, ranges)
 
     def summary(self) -> str:
         """Return a few lines: status, objective, active limits and their prices, what the starts show."""

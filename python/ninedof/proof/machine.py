@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from hashlib import sha256
 from time import perf_counter
@@ -13,15 +13,19 @@ import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import label
+from ninedof.design.region import Region
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_limits import SPREADS, Extreme, Key, Plan
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, Met
+from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, whole
 
 Progress = Callable[[int, int, float | None], None]
+
+WIDE = 20.0  # a gap that is proved at once
 
 
 def certify(
@@ -35,6 +39,7 @@ def certify(
     time_limit: float = 300.0,
     tolerance: float = 1e-6,
     threads: int = 0,
+    rule: PointRule | Callable[[], PointRule] | None = None,
     resume: MachineCertificate | None = None,
     progress: Progress | None = None,
 ) -> MachineCertificate:
@@ -59,6 +64,9 @@ def certify(
         Relative: a limit that is passed by no more counts as kept. Designs of the optimizer lie on their limits.
     threads : int
         0: one per processor.
+    rule : PointRule or callable, optional
+        Where O is in the region; needed where the study places it anew at every pose, unless `resume` has it. A
+        function without arguments is called for it once all else is known to fit.
     resume : MachineCertificate, optional
         An earlier one of the same design, as it was written, whose boxes left are to be gone on with.
     progress : callable, optional
@@ -71,15 +79,10 @@ def certify(
     Raises
     ------
     ValueError
-        For a bad argument, and for a region where O is placed anew at every pose.
+        For a bad argument.
 
     """
     region = study.objective.region
-    if region is not None and not places_o(region):
-        raise ValueError(
-            'internal_point: got "best", expected "shifted" or "held": where O is placed anew at every pose, '
-            "nothing is proved yet"
-        )
     finite("gap", gap, 1e-9)
     seconds = finite("time_limit", time_limit, 0.0)
     finite("tolerance", tolerance, 0.0, 0.01)
@@ -97,30 +100,19 @@ def certify(
             "resume: got a certificate of another machine or one that was changed, expected one of this machine as it "
             "was written"
         )
+    begin = perf_counter()
+    followed = _rule(region, configurations[0], rule, resume)
+    alone = configurations[[0, 0]]
     start = perf_counter()
 
     neutral = configurations[0]
     stack = configurations[[0, 0]] if only_neutral else configurations
-    shape = None if region is None else region.for_core()
+    shape = None if region is None else region.for_core() | ({"rule": followed.for_core()} if followed else {})
     plan = Plan(study, geometry, neutral, tolerance)
-    found: dict[Key, Extreme] = {}
-    alone = configurations[[0, 0]]
-
-    def look(keys: Iterable[Key]) -> None:
-        for where, posed, of in (("poses", stack, shape), ("neutral", alone, None)):
-            here = [key for key in keys if key[0] == where]
-            wanted = [plan.requests[key] for key in here]
-            arrays = (posed.position, posed.rotation, posed.internal_point)
-            ends = _core.pose_extremes(geometry, *arrays, of, wanted, how) if here else []
-            at_neutral = only_neutral or where == "neutral"
-            found.update(
-                (k, Extreme(end[:2], _met(end, at_neutral), end[6])) for k, end in zip(here, ends, strict=True)
-            )
-
-    look(list(plan.requests))
+    found = _extremes(plan, list(plan.requests), geometry, configurations, shape, how)
     proofs = [row(found) for row in plan.rows]
     if any(proof.answer == UNDECIDED and proof.name.startswith(SPREADS) for proof in proofs):
-        look(plan.narrowed())
+        found |= _extremes(plan, plan.narrowed(), geometry, configurations, shape, how)
         proofs = [row(found) for row in plan.rows]
 
     arrays = (stack.position, stack.rotation, stack.internal_point)
@@ -161,10 +153,88 @@ def certify(
         left_count=runs.left_count,
         target=runs.target,
         tolerance=tolerance,
-        seconds=perf_counter() - start,
+        seconds=perf_counter() - begin,
         interrupted=runs.interrupted,
+        rule=followed,
     )
     return replace(made, seal=_seal(machine, made))
+
+
+def worst_by_rule(
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    rule: PointRule,
+    *,
+    seconds: float,
+    threads: int = 0,
+) -> tuple[list[LimitProof], float, list[Met]]:
+    """Return the limits as far as they are proved in a short time, the worst condition number met, and where.
+
+    The poses: where a number that a limit is about, or the condition number, is largest or least.
+    """
+    region = study.objective.region
+    assert region is not None
+    shape = region.for_core() | {"rule": rule.for_core()}
+    how = {"threads": threads, "seconds": seconds, "gap": WIDE, "condition": 0.0}
+    plan = Plan(study, geometry, configurations[0], 0.0)
+    found = _extremes(plan, list(plan.requests), geometry, configurations, shape, how)
+    arrays = (configurations.position, configurations.rotation, configurations.internal_point)
+    end = _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, [], None)[0]
+    met = [*(extreme.at for extreme in found.values()), _met(end, False)]
+    return [row(found) for row in plan.rows], end[0], [at for at in met if at is not None and at.listed is None]
+
+
+def _extremes(
+    plan: Plan,
+    keys: Sequence[Key],
+    geometry: Geometry,
+    configurations: Configuration,
+    shape: dict[str, Any] | None,
+    how: dict[str, Any],
+) -> dict[Key, Extreme]:
+    """Return the extreme values that a plan asks for."""
+    found: dict[Key, Extreme] = {}
+    alone = configurations[[0, 0]]
+    only_neutral = shape is None and len(configurations) == 1
+    for where, posed, of in (("poses", alone if only_neutral else configurations, shape), ("neutral", alone, None)):
+        here = [key for key in keys if key[0] == where]
+        wanted = [plan.requests[key] for key in here]
+        arrays = (posed.position, posed.rotation, posed.internal_point)
+        ends = _core.pose_extremes(geometry, *arrays, of, wanted, how) if here else []
+        at_neutral = only_neutral or where == "neutral"
+        found |= {k: Extreme(end[:2], _met(end, at_neutral), end[6]) for k, end in zip(here, ends, strict=True)}
+    return found
+
+
+def _rule(
+    region: Region | None,
+    neutral: Configuration,
+    given: PointRule | Callable[[], PointRule] | None,
+    resume: MachineCertificate | None,
+) -> PointRule | None:
+    """Return the rule that O follows, if it follows one."""
+    placed = region is not None and not places_o(region)
+    if not placed:
+        if given is not None:
+            raise ValueError(
+                'rule: got one, expected none: O follows a rule where internal_point is "best" in a region'
+            )
+        return None
+    earlier = None if resume is None else resume.rule
+    if resume is not None and earlier is None:
+        raise ValueError("resume: got a certificate without a rule for O, expected one with it")
+    if isinstance(given, PointRule) and earlier is not None and given != earlier:
+        raise ValueError("rule: got another one than that of the certificate to go on with, expected the same")
+    if given is None and earlier is None:
+        raise ValueError('rule: got none, expected one that says where O is: internal_point is "best" in the region')
+    rule = earlier or (given() if callable(given) and not isinstance(given, PointRule) else given)
+    if not isinstance(rule, PointRule):
+        raise ValueError(f"rule: got {rule!r}, expected a PointRule")
+    if not rule.about(neutral):
+        raise ValueError("rule: got one about another neutral pose, expected that of the design")
+    return rule
 
 
 class _Runs:
@@ -223,7 +293,8 @@ def _machine(study: Study, geometry: Geometry, configurations: Configuration, ch
 
 def _seal(machine: str, made: MachineCertificate) -> str:
     """Return a digest of a machine and of what a run that goes on takes from its certificate."""
-    taken = (machine, made.condition, made.target, made.left_count, made.left)
+    rule = None if made.rule is None else made.rule.digest
+    taken = (machine, rule, made.condition, made.target, made.left_count, made.left)
     return sha256(repr(taken).encode()).hexdigest()
 
 

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
+from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
@@ -107,6 +108,8 @@ class MachineCertificate:
     """Relative: limits count as kept up to this."""
     seconds: float
     interrupted: bool = False
+    rule: PointRule | None = None
+    """Where O is, if the study places it anew at every pose of a region: all of this is proved of O placed by it."""
     seal: str = ""
     """Of the machine, its poses, and what another run goes on with: only that of the same machine, unchanged, does."""
 
@@ -122,7 +125,14 @@ class MachineCertificate:
         index = ""
         if math.isfinite(self.condition[1]):
             index = f", and the condition number is at most {outward(self.condition[1], True)}"
-        out = [f"Proved: at every pose of {self.where}, {legs}{index}."]
+        by_rule = "" if self.rule is None else ", O placed by the rule"
+        out = [f"Proved: at every pose of {self.where}{by_rule}, {legs}{index}."]
+        if self.rule is not None:
+            out.insert(
+                0,
+                f"O follows the rule stored in the certificate: {self.rule.words} in the shift, the tilt and the yaw. "
+                "What is proved holds for this rule; the O of least condition number has no larger one at any pose.",
+            )
         kept = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if self.limits and self.limits[0].answer == PROVED:
             out.append(
@@ -145,14 +155,16 @@ class MachineCertificate:
             if limit.answer == VIOLATED:
                 poses = [met.worded(self.unit) for met in limit.at]
                 at = f" at {poses[0]}" if len(poses) == 1 else f" between {' and '.join(poses)}" if poses else ""
-                out.append(f"Violated: {name}: {size[limit.side == 'min']}{at}.")
+                by = "" if self.rule is None else " by the rule"
+                out.append(f"Violated{by}: {name}: {size[limit.side == 'min']}{at}.")
             elif limit.answer == UNDECIDED:
                 out.append(f"Undecided: {name}: the worst value is between {' and '.join(size)}.")
         return out
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values, for a file."""
-        return {"format": FORMAT, **asdict(self), "proved": self.proved}
+        out = {"format": FORMAT, **asdict(self), "proved": self.proved}
+        return out | {"rule": None if self.rule is None else self.rule.to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> MachineCertificate:
@@ -181,6 +193,7 @@ class MachineCertificate:
                     "condition_at": _met(known["condition_at"]),
                     "left": tuple(tuple(map(float, box)) for box in known["left"]),
                     "target": float(known["target"]),
+                    "rule": PointRule.from_dict(known["rule"]) if known.get("rule") else None,
                 }
             )
         except (KeyError, TypeError) as error:

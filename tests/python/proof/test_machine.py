@@ -11,6 +11,7 @@ from fractions import Fraction
 import numpy as np
 import numpy_model as model
 import pytest
+from region_poses import drawn
 from scipy.spatial.transform import Rotation
 from singular_robots import unit_rows
 from sizes import LONG, size
@@ -69,29 +70,10 @@ def proved(region, constraints=None, **options):
     return geometry, neutral, certify(asked, geometry, neutral, 150.0, **options)
 
 
-def disc(rng, count, dimensions):
-    """Points of a disc or ball, half of them on its boundary."""
-    v = rng.normal(size=(count, dimensions))
-    v /= np.linalg.norm(v, axis=1, keepdims=True)
-    return v * np.where(rng.random((count, 1)) < 0.5, 1.0, rng.random((count, 1)) ** (1.0 / dimensions))
-
-
 def sampled(region, geometry, neutral, rng, count):
     """Poses of a region, drawn from its definition; a good part on its boundary."""
-    edge = np.clip(1.5 * rng.uniform(-1.0, 1.0, (count, 3)), -1.0, 1.0)
-    if region.box is not None:
-        shift = np.array(region.box) * edge
-    elif region.ball is not None:
-        shift = region.ball * disc(rng, count, 3)
-    elif region.cylinder is not None:
-        shift = np.column_stack([region.cylinder[0] * disc(rng, count, 2), region.cylinder[1] * edge[:, 2]])
-    else:
-        corners = np.array(region.path)
-        part, t = rng.integers(len(corners) - 1, size=count), rng.random((count, 1))
-        shift = corners[part] + t * (corners[part + 1] - corners[part])
-    shift = shift * (VARIABLES["zp"] if region.unit == "zp" else 1.0)
-    tilt = np.column_stack([region.tilt * disc(rng, count, 2), np.zeros(count)])
-    yaw = np.column_stack([np.zeros((count, 2)), region.yaw * edge[:, 0]])
+    shift, tilt, yaw = drawn(region, VARIABLES["zp"], rng, count)
+    yaw = np.column_stack([np.zeros((count, 2)), yaw])
     turn = Rotation.from_rotvec(tilt) * Rotation.from_rotvec(yaw)
     q = (turn * Rotation.from_matrix(neutral.rotation[0])).as_matrix()
     s = neutral.internal_point + (0.0 if region.internal_point == "held" else shift)
@@ -282,11 +264,6 @@ def test_a_study_without_a_region_is_proved_at_its_poses():
 def test_what_the_record_holds_comes_back():
     *_, certificate = proved(REGIONS["path"], gap=0.5)
     assert MachineCertificate.from_dict(certificate.to_dict()) == certificate
-
-
-def test_a_region_in_which_o_is_searched_for_is_refused():
-    with pytest.raises(ValueError, match=r'^internal_point: got "best", expected "shifted" or "held"'):
-        proved(nd.Region(box=(10.0, 10.0, 10.0), internal_point="best"))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,175 @@
+"""A rule that says where O is at every pose of a region: what a controller follows and what is proved."""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ninedof.motion.rotations import from_vectors
+from ninedof.robot.configuration import Configuration
+from ninedof.support.arrays import Floats
+from ninedof.support.short import short_repr
+
+Six = tuple[float, ...]
+MOST_TERMS, HIGHEST = 1000, 6
+
+
+@short_repr
+@dataclass(frozen=True)
+class PointRule:
+    """s is its neutral position plus a polynomial in the shift of p, the tilt and the yaw.
+
+    With x the shift of p from its neutral position (lengths), the horizontal tilt vector and the yaw (radians), s is
+    `internal_point` plus the sum over all terms of its coefficients times the product of (x_k / scale_k) ** power_k.
+    """
+
+    position: tuple[float, float, float]
+    """Of the platform at the neutral pose."""
+    rotation: tuple[tuple[float, float, float], ...]
+    internal_point: tuple[float, float, float]
+    scale: Six
+    """Powers of two, so that quotients are exact."""
+    powers: tuple[tuple[int, ...], ...]
+    """Of the six coordinates, for each term."""
+    coefficients: tuple[tuple[float, float, float], ...]
+    """Lengths along the axes of the base, for each term."""
+
+    @classmethod
+    def of(
+        cls,
+        neutral: Configuration,
+        scale: Sequence[float],
+        powers: Sequence[Sequence[int]],
+        coefficients: Sequence[Sequence[float]],
+    ) -> PointRule:
+        """Make a rule about a neutral configuration."""
+        x, y, z = neutral.position.tolist()
+        a, b, c = neutral.internal_point.tolist()
+        return cls(
+            (x, y, z),
+            tuple(map(tuple, neutral.rotation.tolist())),
+            (a, b, c),
+            tuple(map(float, scale)),
+            tuple(tuple(map(int, row)) for row in powers),
+            tuple(_three(row) for row in coefficients),
+        )
+
+    def about(self, neutral: Configuration) -> bool:
+        """Whether the rule begins at a neutral configuration."""
+        return (
+            np.array_equal(neutral.position, self.position)
+            and np.array_equal(neutral.rotation, self.rotation)
+            and np.array_equal(neutral.internal_point, self.internal_point)
+        )
+
+    @property
+    def degree(self) -> int:
+        """The highest sum of the powers of a term."""
+        return max(map(sum, self.powers))
+
+    @property
+    def words(self) -> str:
+        """The rule in a few words."""
+        return f"a polynomial of degree {self.degree} with {len(self.powers)} terms"
+
+    def at(self, coordinates: ArrayLike) -> Floats:
+        """Return s of coordinates (shift of p, tilt about x and y, yaw), shape (..., 6)."""
+        x = np.asarray(coordinates, dtype=float) / np.array(self.scale)
+        powers = np.stack([x**n for n in range(max(map(max, self.powers)) + 1)])
+        out = np.broadcast_to(np.array(self.internal_point), (*x.shape[:-1], 3)).copy()
+        for term, coefficient in zip(self.powers, self.coefficients, strict=True):
+            product = np.ones(x.shape[:-1])
+            for k, n in enumerate(term):
+                if n:
+                    product = product * powers[n][..., k]
+            out += product[..., None] * np.array(coefficient)
+        return out
+
+    def __call__(self, position: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
+        """Return s at poses of the platform: positions, shape (..., 3), and rotation matrices, shape (..., 3, 3)."""
+        p = np.asarray(position, dtype=float)
+        q = np.asarray(self.rotation if rotation is None else rotation, dtype=float)
+        if p.shape[-1:] != (3,):
+            raise ValueError(f"position: got shape {p.shape}, expected (..., 3)")
+        if q.shape[-2:] != (3, 3):
+            raise ValueError(f"rotation: got shape {q.shape}, expected (..., 3, 3)")
+        tilt, yaw = tilt_and_yaw(q @ np.array(self.rotation).T)
+        shape = np.broadcast_shapes(p.shape[:-1], yaw.shape)
+        parts = (p - np.array(self.position), tilt, yaw[..., None])
+        return self.at(np.concatenate([np.broadcast_to(x, (*shape, x.shape[-1])) for x in parts], axis=-1))
+
+    def for_core(self) -> dict[str, Any]:
+        """Return the rule as the core takes it."""
+        return {"scale": self.scale, "powers": list(self.powers), "coefficients": list(self.coefficients)}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values."""
+        return {**self.__dict__, "digest": self.digest}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> PointRule:
+        """Return the rule of a mapping as `to_dict` makes it.
+
+        Raises
+        ------
+        ValueError
+            If it is not whole, or has been changed: what was proved does not hold for another rule.
+
+        """
+        try:
+            out = cls(
+                _three(data["position"]),
+                tuple(_three(row) for row in data["rotation"]),
+                _three(data["internal_point"]),
+                tuple(float(x) for x in data["scale"]),
+                tuple(tuple(int(n) for n in row) for row in data["powers"]),
+                tuple(_three(row) for row in data["coefficients"]),
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"rule: got one without {error}, expected a whole one") from None
+        if not out._whole():
+            raise ValueError("rule: got terms that do not fit each other, expected a whole one")
+        if out.digest != data.get("digest"):
+            raise ValueError("rule: got one that was changed since it was proved, expected that of the certificate")
+        return out
+
+    @property
+    def digest(self) -> str:
+        """What tells this rule from every other."""
+        numbers = [*self.position, *sum(self.rotation, ()), *self.internal_point, *self.scale]
+        numbers += [float(n) for row in self.powers for n in row] + [x for row in self.coefficients for x in row]
+        return hashlib.sha256(struct.pack(f"<{len(numbers)}d", *numbers)).hexdigest()
+
+    def _whole(self) -> bool:
+        terms = len(self.powers)
+        return (
+            len(self.rotation) == 3
+            and len(self.scale) == 6
+            and 0 < terms == len(set(self.powers)) <= MOST_TERMS
+            and terms == len(self.coefficients)
+            and all(len(row) == 6 and min(row) >= 0 and sum(row) <= HIGHEST for row in self.powers)
+            and all(0.0 < x < np.inf for x in self.scale)
+            and bool(np.isfinite(self.coefficients).all())
+        )
+
+
+def tilt_and_yaw(turn: Floats) -> tuple[Floats, Floats]:
+    """Return the tilt vectors (x, y) and the yaws of turns exp(tilt) Rz(yaw), shape (..., 3, 3)."""
+    x, y, z = np.moveaxis(turn[..., :, 2], -1, 0)
+    across = np.hypot(x, y)
+    angle = np.arctan2(across, z)
+    size = np.where(across > 0.0, angle / np.where(across > 0.0, across, 1.0), 1.0)
+    tilt = np.stack([-size * y, size * x, np.zeros_like(x)], axis=-1)
+    about_z = np.swapaxes(from_vectors(tilt.reshape(-1, 3)).reshape(turn.shape), -1, -2) @ turn
+    return tilt[..., :2], np.arctan2(about_z[..., 1, 0], about_z[..., 0, 0])
+
+
+def _three(row: Any) -> tuple[float, float, float]:
+    x, y, z = row
+    return float(x), float(y), float(z)

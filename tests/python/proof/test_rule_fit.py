@@ -1,0 +1,109 @@
+"""Rules for O that are fitted: nearly as good as O placed anew at every pose, and within the limits.
+
+Oracle: poses drawn from the definition of the region, and the numpy model; the best O by a search of `redundancy`.
+"""
+
+import math
+
+import numpy as np
+import numpy_model as model
+import pytest
+from region_poses import drawn
+from scipy.spatial.transform import Rotation
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.design.region_placed import Placing
+from ninedof.proof.placed import rule_of
+
+VARIABLES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0, "theta_z": 0.6}
+GEOMETRY = nd.Geometry.hexagonal(1.0, 0.8, 0.5, 0.6)
+NEUTRAL = nd.Configuration.neutral([2.0], [1.0], [0.6])
+BEST = {"internal_point": "best"}
+REGIONS = {
+    "box": nd.Region(box=(0.15, 0.15, 0.1), tilt=0.15, **BEST),
+    "shift": nd.Region(box=(0.2, 0.2, 0.0), **BEST),
+    "path": nd.Region(path=((0.0, 0.0, 0.0), (0.1, 0.1, 0.0), (0.1, -0.05, 0.0)), unit="zp", **BEST),
+    "turns": nd.Region(tilt=0.2, yaw=0.1, **BEST),
+}
+
+
+def robots(region, place_o, count=3000):
+    """The robot at poses of a region, with O where a function puts it."""
+    shift, tilt, yaw = drawn(region, 2.0, np.random.default_rng(7), count)
+    about_z = np.column_stack([np.zeros((count, 2)), yaw])
+    q = (Rotation.from_rotvec(tilt) * Rotation.from_rotvec(about_z)).as_matrix() @ NEUTRAL.rotation[0]
+    p = NEUTRAL.position + shift
+    return model.robot(GEOMETRY, nd.Configuration(p, q, place_o(p, q)))
+
+
+def shifted(p, _):
+    return NEUTRAL.internal_point + p - NEUTRAL.position
+
+
+def best(p, q):
+    return nd.best_internal_map(GEOMETRY, p, q, seed_every=1).configuration.internal_point
+
+
+def strokes(m):
+    lengths = model.lengths(m)
+    return (lengths.max(axis=0) / lengths.min(axis=0))[3:].max()
+
+
+def fitted(region, constraints, objective):
+    study = nd.Study(constraints=constraints, objective=nd.Objective(region=region))
+    place = Placing(study, NEUTRAL[0], VARIABLES, objective, ())
+    return rule_of(place, GEOMETRY, NEUTRAL, 1.0)
+
+
+@pytest.mark.parametrize("shape", REGIONS)
+def test_a_rule_is_nearly_as_good_as_the_best_o(shape):
+    region = REGIONS[shape]
+    least = model.condition_number(robots(region, best, 300)).max()
+    rule = fitted(region, {}, least)
+    worst = model.condition_number(robots(region, rule)).max()
+    assert worst <= 1.02 * least
+    assert worst < model.condition_number(robots(region, shifted)).max()
+
+
+def test_a_rule_keeps_to_strokes_that_bind():
+    """Also where the index that it is to reach is out of reach."""
+    region = REGIONS["shift"]
+    free = robots(region, fitted(region, {}, 20.3))
+    limit = 1.14
+    assert limit < min(strokes(free), strokes(robots(region, shifted)))
+    for objective in (20.3, 10.0):
+        kept = robots(region, fitted(region, {"stroke_ratio": (None, limit)}, objective))
+        assert strokes(kept) <= limit
+        worse, better = (model.condition_number(m).max() for m in (robots(region, shifted), free))
+        assert better < model.condition_number(kept).max() < worse
+
+
+@pytest.mark.slow
+def test_a_study_with_o_placed_is_certified_by_a_rule(tmp_path, capsys):
+    study = nd.Study(
+        constraints={"radius_ratio": (None, 2.0), "stroke_ratio": (None, 1.6)},
+        objective={"region": {"box": [0.05, 0.05, 0.0], "unit": "zp", **BEST}},
+        starts=2,
+    )
+    result = nd.optimize(study)
+    nd.save(result, tmp_path / "run")
+    with pytest.raises(SystemExit) as end:
+        main(["certify", str(tmp_path / "run"), "--gap", "0.02"])
+    assert end.value.code == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "O follows the rule stored in the certificate" in said
+    certificate = nd.load_certificate(tmp_path / "run")
+    assert certificate.proved
+    assert certificate.rule is not None
+    # The optimum is the worst of the best O: no rule is better, and this one is nearly as good.
+    assert result.condition_number * (1.0 - 1e-5) <= certificate.condition[1]
+    assert certificate.condition[0] <= result.condition_number * 1.02
+    assert "O follows the rule" in nd.report(tmp_path / "run", tmp_path / "page.html").read_text()
+    with pytest.raises(SystemExit) as end:
+        main(["certify", str(tmp_path / "run"), "--resume", "--time", "1"])
+    assert end.value.code == 0
+    again = nd.load_certificate(tmp_path / "run")
+    assert again.rule == certificate.rule
+    assert again.condition[1] <= certificate.condition[1]
+    assert math.isfinite(again.condition[1])
