@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.motion import Followed
-from ninedof.motion.followed import LEGS
+from ninedof.robot.leg_names import LEGS
 from ninedof.runs.folder import Record, write_drawn
 from ninedof.sheet.path_limits import PathLimits
 from ninedof.sheet.pose_limits import CONES
