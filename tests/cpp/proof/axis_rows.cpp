@@ -1,6 +1,6 @@
 /// axis_pieces.hpp, axis_rows.hpp: against the closed form of the values, its dual numbers, and samples of boxes.
 
-#include "proof/axis_rows.hpp"
+#include "proof/optimum/axis_rows.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
-#include "proof/box_bound.hpp"
+#include "proof/optimum/box_bound.hpp"
 
 using namespace ninedof;
 using namespace ninedof::proof;

@@ -11,8 +11,8 @@
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/proof/closed_form_bounds.hpp"
-#include "proof/exact_dot.hpp"
-#include "proof/verified_singular_values.hpp"
+#include "proof/numbers/exact_dot.hpp"
+#include "proof/numbers/verified_singular_values.hpp"
 
 using namespace ninedof;
 

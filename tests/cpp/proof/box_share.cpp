@@ -1,7 +1,7 @@
 /// box_share.hpp: shares of a box beyond planes, and hulls that hold what is beyond them. Oracle: the share integrated
 /// over two coordinates in long double, exactly along the third; directions that would show a point outside a hull.
 
-#include "proof/box_share.hpp"
+#include "proof/region/box_share.hpp"
 
 #include <doctest/doctest.h>
 

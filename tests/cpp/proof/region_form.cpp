@@ -1,12 +1,12 @@
 /// region_form.hpp: every value of a formula at a point of the box lies within what its form allows. Oracle: the same
 /// formula in long double at random points.
 
-#include "proof/region_form.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
+
+#include "proof/region/form.hpp"
 
 using namespace ninedof::over_region;
 

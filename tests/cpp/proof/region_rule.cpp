@@ -1,8 +1,6 @@
 /// region_rule.hpp: the polynomial at a point of a box lies within what its forms allow. Oracle: long double, term by
 /// term, at random points.
 
-#include "proof/region_rule.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "ninedof/math/error.hpp"
+#include "proof/region/rule.hpp"
 
 using namespace ninedof::over_region;
 using ninedof::PointRule;

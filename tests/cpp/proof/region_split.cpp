@@ -8,7 +8,7 @@
 #include <random>
 
 #include "ninedof/conditioning/conditioning.hpp"
-#include "proof/region_gram.hpp"
+#include "proof/region/gram.hpp"
 
 using namespace ninedof;
 using namespace ninedof::over_region;

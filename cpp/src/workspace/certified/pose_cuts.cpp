@@ -76,7 +76,7 @@ bool finite_form(const Form& f) {
 
 PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                    const WorkspaceCriteria& criteria, const Configuration& home)
-    : robot_{g, home, criteria.characteristic_length, {}, {}},
+    : robot_{g, home, criteria.characteristic_length, {}, {}, {}},
       criteria_(criteria),
       rule_(rule),
       some_(domain.archetype == Archetype::reachable) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "ninedof/workspace/certified.hpp"
-#include "proof/region_gram.hpp"
+#include "proof/region/gram.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof::certified {

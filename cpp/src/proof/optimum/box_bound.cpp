@@ -1,0 +1,70 @@
+#include "proof/optimum/box_bound.hpp"
+
+namespace ninedof::proof {
+
+double middle_of(const Box& box, std::size_t k) {
+  return std::clamp(std::sqrt(box[k].lo) * std::sqrt(box[k].hi), box[k].lo, box[k].hi);
+}
+
+namespace {
+
+bool legs_too_different(const AxisPieces<Interval>& p, double log_leg_ratio) {
+  if (log_leg_ratio == infinity) return false;
+  const double most = std::max({p.external2.lo, p.upper2.lo, p.lower2.lo});
+  const double least = std::min({p.external2.hi, p.upper2.hi, p.lower2.hi});
+  return (0.5 * log(Interval(most) / least)).lo > log_leg_ratio;
+}
+
+}  // namespace
+
+Box middle_of(const Box& box) {
+  Box point = box;
+  for (std::size_t k = 0; k < coordinates; ++k) point[k] = middle_of(box, k);
+  return point;
+}
+
+BoxBound bound_box(const Box& box, std::size_t dimension, double target, double log_leg_ratio) {
+  BoxBound out;
+  const AxisPieces<Interval> pieces = axis_pieces(box);
+  out.condition_number = legs_too_different(pieces, log_leg_ratio) ? infinity : natural_bound(pieces);
+  if (out.condition_number >= target) return out;
+
+  const Box point = middle_of(box);
+  Radii radius{};
+  for (std::size_t k = 0; k < coordinates; ++k) {
+    const double m = point[k].lo;
+    radius[k] = std::max(log(Interval(box[k].hi) / m).hi, log(m / Interval(box[k].lo)).hi);
+  }
+  const Values at_middle = axis_values(axis_pieces(point));
+  const double greatest = std::max(at_middle[axial_max].hi, at_middle[transverse_max].hi);
+  const double least = std::min(at_middle[axial_min].lo, at_middle[transverse_min].lo);
+  out.at_middle = exp(Interval(greatest) - least).hi;
+  const std::array<Slopes, rows> slopes = axis_slopes(box, pieces, dimension);
+
+  // The coordinate whose change matters most to the singular values. Slopes are fractions: a larger one comes from a
+  // denominator that is not known yet, and says nothing.
+  constexpr double sensible = 4.0;
+  double most = -1.0;
+  bool finite = true;
+  for (std::size_t k = 0; k < dimension; ++k) {
+    double slope = 0.0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      finite = finite && std::isfinite(slopes[i][k].lo) && std::isfinite(slopes[i][k].hi);
+      if (i < external_leg || log_leg_ratio < infinity) slope = std::max(slope, magnitude(slopes[i][k]));
+    }
+    const double change = std::min(slope, sensible) * radius[k];
+    if (change > most) most = change, out.cut = k;
+  }
+  if (!finite) return out;
+
+  const Combination best = best_combination(at_middle, slopes, radius, dimension, log_leg_ratio);
+  const double bound = exp(combined(best, at_middle, slopes, radius, dimension, log_leg_ratio)).lo;
+  if (bound > out.condition_number) {
+    out.condition_number = bound;
+    out.reason = Reason::combination;
+    out.combination = best;
+  }
+  return out;
+}
+
+}  // namespace ninedof::proof

@@ -1,0 +1,28 @@
+#pragma once
+/// What can be proved of all designs in one box, and where to cut it.
+
+#include "math/numbers.hpp"
+#include "proof/optimum/combination.hpp"
+
+namespace ninedof::proof {
+
+enum class Reason : unsigned char { domain, ranges, combination };
+
+struct BoxBound {
+  double condition_number = 1.0;  ///< no design in the box is below
+  Reason reason = Reason::ranges;
+  Combination combination;
+  double at_middle = infinity;  ///< the condition number of the design in the middle is no greater
+  std::size_t cut = 0;  ///< the coordinate along which the rows change most
+};
+
+/// Stops at the first reason that reaches `target`.
+BoxBound bound_box(const Box& box, std::size_t dimension, double target, double log_leg_ratio);
+
+/// The design in the middle of a box.
+Box middle_of(const Box& box);
+
+/// Where a box is cut: the geometric mean of the ends.
+double middle_of(const Box& box, std::size_t k);
+
+}  // namespace ninedof::proof

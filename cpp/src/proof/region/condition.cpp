@@ -1,0 +1,210 @@
+/// The worst condition number over all poses: a pose where it is attained, and a bound proved box after box.
+/// Declared in ninedof/proof/machine.hpp.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "math/splitmix.hpp"
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/parallel.hpp"
+#include "proof/region/gram.hpp"
+
+namespace ninedof {
+namespace over_region {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_boxes = 8'000'000;  // open at a time: a gigabyte
+
+struct Met {
+  double value = 0.0;
+  Box at;
+};
+
+double condition_at(const Domain& domain, const Box& point) {
+  Slopes unused;
+  return condition_attained(gram(domain.machine(), domain.pose(point), unused));
+}
+
+/// Moves one coordinate after another while the condition number grows.
+Met climbed(const Domain& domain, const Box& root, Met met) {
+  for (double step = 0.25; step > 1e-6; step *= 0.5) {
+    bool better = true;
+    while (better) {
+      better = false;
+      for (std::size_t k = 0; k < form_size; ++k)
+        for (const double way : {-step, step}) {
+          Box next = met.at;
+          const double x = std::clamp(next.low[k] + way * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
+          if (x == next.low[k]) continue;
+          next.low[k] = next.high[k] = x;
+          next = domain.nearest(next);
+          const double value = condition_at(domain, next);
+          if (value > met.value * (1.0 + 1e-9)) {
+            met = {value, next};
+            better = true;
+          }
+        }
+    }
+  }
+  return met;
+}
+
+/// A pose where the condition number is large.
+Met searched(const Domain& domain, int threads) {
+  constexpr std::uint64_t samples = 64;
+  const std::vector<Box>& roots = domain.roots();
+  std::vector<Met> best(roots.size());
+  parallel_for(static_cast<long>(roots.size()), 1, threads, [&](long n, long) {
+    const Box& root = roots[static_cast<std::size_t>(n)];
+    Met& met = best[static_cast<std::size_t>(n)];
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+      Box at = root;
+      for (std::size_t k = 0; k < form_size; ++k) {
+        const double part =
+            std::clamp(1.5 * uniform_from(stream(static_cast<std::uint64_t>(n), sample * form_size + k)) - 0.25, 0.0,
+                       1.0);  // a good part on the boundary
+        at.low[k] = at.high[k] =
+            std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
+      }
+      at = domain.nearest(at);
+      const double value = condition_at(domain, at);
+      if (sample == 0 || value > met.value) met = {value, at};
+    }
+  });
+  std::vector<std::size_t> order(roots.size());
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return best[a].value > best[b].value; });
+  Met out;
+  for (std::size_t n = 0; n < std::min<std::size_t>(order.size(), 8); ++n) {
+    const Met met = climbed(domain, roots[order[n]], best[order[n]]);
+    if (n == 0 || met.value > out.value) out = met;
+  }
+  return out;
+}
+
+struct Looked {
+  bool looked = false, proved = false;
+  double met = 0.0;
+  int divide = -1;
+};
+
+/// Throws unless the box is a part of the domain: boxes may come from a file.
+void require_part(const Domain& domain, const Box& box) {
+  const bool part = std::ranges::any_of(domain.roots(), [&](const Box& root) {
+    if (root.piece != box.piece) return false;
+    for (std::size_t k = 0; k < form_size; ++k)
+      if (!(root.low[k] <= box.low[k] && box.low[k] <= box.high[k] && box.high[k] <= root.high[k])) return false;
+    return true;
+  });
+  if (!part) throw InvalidArgument("boxes", "a box of other poses", "boxes that a run of the same machine has left");
+}
+
+Looked look(const Domain& domain, const Box& box, double condition) {
+  Looked out{true, false, 0.0, -1};
+  if (domain.outside(box)) {
+    out.proved = true;
+    return out;
+  }
+  Slopes moves;
+  out.proved = bounded(split_gram(domain.machine(), domain.pose(box), moves), condition);
+  if (out.proved) return out;
+  out.divide = divided_coordinate(box, moves.moves);
+  out.met = condition_at(domain, domain.nearest(middle_of(box)));
+  return out;
+}
+
+}  // namespace
+}  // namespace over_region
+
+WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& settings, const PoseBoxes& from,
+                               const Control& control) {
+  using namespace over_region;
+  const Clock::time_point start = Clock::now();
+  const auto stopped = [&] {
+    return control.stop.stop_requested() ||
+           std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
+  };
+  const Domain domain(machine);
+  std::vector<Box> boxes = domain.roots();
+  if (!from.empty()) {
+    boxes.clear();
+    for (const auto& row : from) {
+      Box box;
+      box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
+      std::copy_n(row.begin() + 1, form_size, box.low.begin());
+      std::copy_n(row.begin() + 7, form_size, box.high.begin());
+      require_part(domain, box);
+      boxes.push_back(box);
+    }
+  }
+  Met met = searched(domain, settings.threads);
+  WorstCondition out;
+  double proved = infinity;
+  long count = 0;
+  // One bound after another: what is proved for one begins the next, and there always is a bound to return.
+  std::vector<double> gaps{1.0, 0.3, 0.1};
+  if (machine.region.empty()) gaps = {1.0, settings.gap, 1e-6, 1e-9};  // points need no division
+  else std::erase_if(gaps, [&](double gap) { return gap <= settings.gap; });
+  if (!from.empty()) gaps.clear();
+  if (gaps.empty() || gaps.back() > settings.gap) gaps.push_back(settings.gap);
+  for (const double gap : gaps) {
+    bool given = gap == gaps.back() && settings.condition > met.value;
+    double target = given ? settings.condition : met.value * (1.0 + gap);
+    std::vector<Box> ahead = std::move(boxes), leaves, stuck;
+    boxes.clear();
+    while (!ahead.empty() && !stopped() && ahead.size() < most_boxes) {
+      std::vector<Looked> looked(ahead.size());
+      parallel_for(static_cast<long>(ahead.size()), 16, settings.threads, [&](long first, long last) {
+        if (stopped()) return;
+        for (long n = first; n < last; ++n)
+          looked[static_cast<std::size_t>(n)] = look(domain, ahead[static_cast<std::size_t>(n)], target);
+      });
+      std::vector<Box> next;
+      Met best;
+      for (std::size_t n = 0; n < ahead.size(); ++n) {
+        const Looked& seen = looked[n];
+        if (!seen.looked) {
+          next.push_back(ahead[n]);
+          continue;
+        }
+        ++count;
+        if (seen.met > best.value) best = {seen.met, domain.nearest(middle_of(ahead[n]))};
+        if (seen.proved) leaves.push_back(ahead[n]);
+        else if (seen.divide < 0) stuck.push_back(ahead[n]);
+        else
+          for (const Box& half : halves(ahead[n], seen.divide)) next.push_back(half);
+      }
+      if (best.value > met.value) {
+        met = best;
+        given = given && met.value < target;
+        if (!given) target = std::max(target, met.value * (1.0 + gap));
+      }
+      ahead = std::move(next);
+      if (control.progress) control.progress(count, 0, met.value);
+    }
+    ahead.insert(ahead.end(), stuck.begin(), stuck.end());
+    out.tried = target;
+    if (!ahead.empty()) {
+      boxes = std::move(ahead);
+      break;
+    }
+    proved = target;
+    if (gap != gaps.back()) boxes = std::move(leaves);
+  }
+  out.extreme = {met.value, proved, domain.met(met.at), count};
+  out.interrupted = control.stop.stop_requested();
+  for (const Box& box : boxes) {
+    std::array<double, 13> row{static_cast<double>(box.piece)};
+    std::copy(box.low.begin(), box.low.end(), row.begin() + 1);
+    std::copy(box.high.begin(), box.high.end(), row.begin() + 7);
+    out.left.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace ninedof

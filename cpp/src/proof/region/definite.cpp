@@ -1,0 +1,248 @@
+/// Whether the condition number is at most K, or is not, where in a box. Declared in proof/region/gram.hpp.
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "math/linear/jacobi_svd.hpp"
+#include "proof/region/gram.hpp"
+
+namespace ninedof::over_region {
+namespace {
+
+constexpr std::size_t packed(std::size_t n) {
+  return n * (n + 1) / 2;
+}
+
+/// Whether the symmetric matrix is positive definite, proved: its Cholesky decomposition runs to the end although more
+/// than its rounding errors was taken from the diagonal (Rump, BIT 2006). `room`: what is taken, entry by entry.
+template <std::size_t N>
+bool positive_definite(const std::array<double, packed(N)>& a, const std::array<double, N>& room) {
+  std::array<double, packed(N)> l;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[entry(i, j)];
+      if (i == j) sum -= room[i];
+      for (std::size_t k = 0; k < j; ++k) sum -= l[entry(i, k)] * l[entry(j, k)];
+      if (i > j) l[entry(i, j)] = sum * l[entry(j, j)];
+      else if (!(sum > 0.0)) return false;
+      else l[entry(i, i)] = 1.0 / std::sqrt(sum);
+    }
+  return true;
+}
+
+/// t - above and K^2 M^T M - t for one number t that is linear in the box, the second as a matrix of nine rows: where
+/// both are positive definite, the condition number is at most K. Both are linear in the box up to an error, so that
+/// what holds at points holds in their hull.
+class LinearTest {
+ public:
+  LinearTest(const SplitGram& g, double condition)
+      : g_(g), condition_(condition * (1.0 - 0x1p-51)), squared_(condition_ * condition_ * (1.0 - 0x1p-51)) {
+    if (!g.known) return;
+    double largest = 0.0;
+    const auto seen = [&](const Form& x) {
+      largest = std::max(largest, std::abs(x.c) + spread(x));
+      return x.r;
+    };
+    std::array<double, 6> above{};  // row sums of what the forms leave open
+    std::array<double, 9> below{};
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) above[i] += seen(g.above[entry(i, j)]);
+    for (std::size_t i = 0; i < 6; ++i) below[i] = squared_ * above[i];
+    for (std::size_t b = 0; b < 3; ++b) {
+      // 2 |x w| is at most share x^2 + w^2 / share: the rows of w have more to spare.
+      constexpr double share = 0.25;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double error = condition_ * seen(g.across[b][i]);
+        below[i] += share * error;
+        below[6 + b] += error / share;
+      }
+      for (std::size_t c = 0; c < 3; ++c) below[6 + b] += seen(g.sum[entry(b, c)]);
+    }
+    double open = 0.0;
+    for (const double error : below) open += error;
+    if (!(largest < 1e100 && open < 1e100)) return;
+    const RightSvd<6> eigen = jacobi_right_svd(middle_of(g.above));
+    const double most = eigen.sigma[0], least = eigen.sigma[5];
+    known_ = true;
+    holds_in_the_middle_ = most < squared_ * least;
+    high_ = eigen.v.col(0);
+    low_ = eigen.v.col(5);
+    // t goes with the eigenvalues: t (box) = t + sum t_k t_k, between the greatest eigenvalue and K^2 times the least.
+    const double share = 1.0 / (1.0 + condition);
+    t_ = (1.0 - share) * most + share * squared_ * least;
+    double slopes = 0.0;
+    for (std::size_t k = 0; k < form_size; ++k) {
+      Mat6 part;
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+          part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = g.above[entry(i, j)].a[k];
+      bool moves = !part.isZero(0.0);
+      for (std::size_t b = 0; b < 3; ++b) {
+        for (const Form& x : g.across[b]) moves = moves || x.a[k] != 0.0;
+        for (const Form& x : g.sum) moves = moves || x.a[k] != 0.0;
+      }
+      if (!moves) continue;
+      slope_[count_] = (1.0 - share) * high_.dot(part * high_) + share * squared_ * low_.dot(part * low_);
+      slopes += std::abs(slope_[count_]);
+      active_[count_++] = k;
+    }
+    // Rounding of the points and of the decomposition, far below what a box leaves open.
+    const double rounding = 0x1p-43 * ((1.0 + squared_) * largest + std::abs(t_) + slopes);
+    for (std::size_t i = 0; i < 6; ++i) room_above_[i] = above[i] * (1.0 + 0x1p-48) + rounding;
+    for (std::size_t i = 0; i < 9; ++i) room_below_[i] = below[i] * (1.0 + 0x1p-48) + rounding;
+  }
+
+  bool known() const { return known_; }
+  bool holds_in_the_middle() const { return known_ && holds_in_the_middle_; }
+  /// Eigenvectors of the middle.
+  const Vec6& high() const { return high_; }
+  const Vec6& low() const { return low_; }
+
+  bool holds_at(const std::array<double, form_size>& at) const {
+    const auto value = [&](const Form& f) {
+      double out = f.c;
+      for (std::size_t k = 0; k < count_; ++k) out += at[active_[k]] * f.a[active_[k]];
+      return out;
+    };
+    double shift = t_;
+    for (std::size_t k = 0; k < count_; ++k) shift += at[active_[k]] * slope_[k];
+    std::array<double, packed(6)> above;
+    std::array<double, packed(9)> below;
+    for (std::size_t n = 0; n < above.size(); ++n) {
+      const double x = value(g_.above[n]);
+      above[n] = -x;
+      below[n] = squared_ * x;
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      above[entry(i, i)] += shift;
+      below[entry(i, i)] -= shift;
+    }
+    if (!positive_definite<6>(above, room_above_)) return false;
+    for (std::size_t b = 0; b < 3; ++b) {
+      for (std::size_t i = 0; i < 6; ++i) below[entry(6 + b, i)] = condition_ * value(g_.across[b][i]);
+      for (std::size_t c = 0; c <= b; ++c) below[entry(6 + b, 6 + c)] = value(g_.sum[entry(b, c)]);
+    }
+    return positive_definite<9>(below, room_below_);
+  }
+
+  bool holds_everywhere() const {
+    for (std::size_t corner = 0; corner < (std::size_t{1} << count_); ++corner) {
+      std::array<double, form_size> at{};
+      for (std::size_t k = 0; k < count_; ++k) at[active_[k]] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
+      if (!holds_at(at)) return false;
+    }
+    return true;
+  }
+
+ private:
+  const SplitGram& g_;
+  double condition_, squared_, t_ = 0.0;
+  bool known_ = false, holds_in_the_middle_ = false;
+  Vec6 high_, low_;
+  std::array<std::size_t, form_size> active_{};
+  std::array<double, form_size> slope_{};
+  std::size_t count_ = 0;
+  std::array<double, 6> room_above_{};
+  std::array<double, 9> room_below_{};
+};
+
+/// v^T G v.
+Form quadratic(const Symmetric6& g, const Vec6& v) {
+  Form out;
+  for (std::size_t i = 0; i < 6; ++i) {
+    Form row;
+    for (std::size_t j = 0; j < 6; ++j) row = row + v[static_cast<Eigen::Index>(j)] * g[entry(i, j)];
+    out = out + v[static_cast<Eigen::Index>(i)] * row;
+  }
+  return out;
+}
+Interval squared_length(const Vec6& v) {
+  Interval out;
+  for (const double x : v) out += square(Interval(x));
+  return out;
+}
+
+/// A number below the least eigenvalue of the matrix in all of the box; 0 where none is found.
+double least_eigenvalue(const Symmetric3& s) {
+  Mat3 middle;
+  std::array<double, packed(3)> entries;
+  std::array<double, 3> room{};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Form& x = s[entry(i, j)];
+      middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = x.c;
+      entries[entry(i, j)] = x.c;
+      room[i] += radius(x);
+      largest = std::max(largest, std::abs(x.c));
+    }
+  if (!(largest < 1e100)) return 0.0;
+  const double found = 0.99 * (Eigen::SelfAdjointEigenSolver<Mat3>(middle, Eigen::EigenvaluesOnly).eigenvalues()[0] -
+                               *std::ranges::max_element(room)) -
+                       0x1p-40 * largest;
+  if (!(found > 0.0)) return 0.0;
+  for (double& x : room) x += found + 0x1p-43 * largest;
+  return positive_definite<3>(entries, room) ? found : 0.0;
+}
+
+/// A number below v^T M^T M v: what the minimum over w takes from `above`, or the part of the external legs.
+Form quadratic_from_below(const SplitGram& g, const Vec6& v) {
+  const double least = least_eigenvalue(g.sum);
+  if (!(least > 0.0)) return quadratic(g.external, v);
+  Form taken;
+  for (const std::array<Form, 6>& row : g.across) {
+    Form x;
+    for (std::size_t i = 0; i < 6; ++i) x = x + v[static_cast<Eigen::Index>(i)] * row[i];
+    taken = taken + x * x;
+  }
+  return quadratic(g.above, v) - Form::of(Interval(1.0) / Interval(least)) * taken;
+}
+
+}  // namespace
+
+bool bounded(const SplitGram& g, double condition) {
+  const LinearTest test(g, condition);
+  return test.holds_in_the_middle() && test.holds_everywhere();
+}
+
+ConditionSplit split_by_condition(const SplitGram& g, double condition) {
+  constexpr double wider = 1.6;
+  constexpr int tries = 9;
+  ConditionSplit out;
+  out.level = std::numeric_limits<double>::infinity();
+  out.excess = detail::unknown();
+  const LinearTest test(g, condition);
+  if (!test.known()) return out;
+  const Interval squared = square(Interval(condition));
+  out.excess = Form::of(squared_length(test.low())) * quadratic_from_below(g, test.high()) -
+               Form::of(squared * squared_length(test.high())) * quadratic(g.above, test.low());
+  if (!std::isfinite(radius(out.excess))) return out;
+  for (std::size_t k = 0; k < 3; ++k) out.slope[k] = -out.excess.a[k];
+  const double most = reach(out.slope);
+  if (!(most > 0.0)) {
+    out.everywhere = test.holds_in_the_middle() && test.holds_everywhere();
+    return out;
+  }
+  if (-out.excess.c > most && test.holds_everywhere()) {
+    out.everywhere = true;
+    return out;
+  }
+  // A plane behind that where the excess vanishes, moved away from it until the test holds at all points of its hull.
+  double step = 0.5 * out.excess.r + 1e-9 * most, level = out.excess.c + step;
+  if (level < -most) {
+    step = 0.1 * most;
+    level = step - most;
+  }
+  for (int n = 0; n < tries && level < most; ++n, step *= wider, level += step) {
+    const std::vector<Slope3> points = hull_above(out.slope, level);
+    const bool all =
+        std::ranges::all_of(points, [&](const Slope3& t) { return test.holds_at({t[0], t[1], t[2], 0.0, 0.0, 0.0}); });
+    if (!all) continue;
+    if (!points.empty()) out.level = level;
+    break;
+  }
+  return out;
+}
+
+}  // namespace ninedof::over_region
