@@ -99,7 +99,8 @@ def cpp_violations(files: Mapping[str, str]) -> list[str]:
             out.append(f"{name}: no header of its name; its first comment must say `Declared in <header>.`")
     for stem, apart in CPP_INDEPENDENT.items():
         for name in files:
-            if tree_of(name) not in (PUBLIC, PRIVATE) or PurePosixPath(name).stem != stem:
+            path = PurePosixPath(name)
+            if tree_of(name) not in (PUBLIC, PRIVATE) or stem not in (path.stem, path.parent.name):
                 continue
             direct = {found_at(header, name, files) or "" for header in included_headers(files[name])}
             everything = direct.union(*(reachable(header, headers) for header in direct))

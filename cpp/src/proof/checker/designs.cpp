@@ -1,0 +1,157 @@
+#include "proof/checker/designs.hpp"
+
+namespace ninedof::checker {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A little more than rounding can do to an angle of a few radians.
+Range blurred(double a, double b) {
+  return {a - 1e-14, b + 1e-14};
+}
+
+/// Radius of a hexagon with sides s1 and s2, and the angle of its first joint below the x axis.
+Range radius(Range s1, Range s2) {
+  return root((square(s1) + s1 * s2 + square(s2)) / 3.0);
+}
+Range below_x(Range s1, Range s2) {
+  const auto angle = [](double a, double b) { return std::atan2(std::sqrt(3.0) * (a + 2.0 * b), 3.0 * a); };
+  return blurred(s1.b > 0.0 ? angle(s1.b, s2.a) : pi / 2.0, s2.b > 0.0 ? angle(s1.a, s2.b) : pi / 6.0);
+}
+
+/// tan(theta/2) of an angle that may be turned back, doubled over and counted from either side.
+Range half_tangent(Range theta) {
+  if (!(theta.b - theta.a < 2.0 * pi)) return {0.0, inf};
+  double low = inf, high = 0.0;
+  for (int turn = -40; turn <= 40; ++turn) {
+    const double a = theta.a - 2.0 * pi * turn, b = theta.b - 2.0 * pi * turn;
+    if (b < -pi - 1e-9 || a > pi + 1e-9) continue;
+    const bool through_zero = a <= 0.0 && b >= 0.0, through_pi = b >= pi - 1e-12 || a <= -pi + 1e-12;
+    const double near = through_zero ? 0.0 : std::min(std::abs(a), std::abs(b));
+    const double far = through_pi ? pi : std::max(std::abs(a), std::abs(b));
+    low = std::min(low, std::tan(std::max(near - 1e-13, 0.0) / 2.0));
+    high = far > pi - 1e-9 ? inf : std::max(high, std::tan((far + 1e-13) / 2.0));
+    if (high == inf) break;
+  }
+  if (low == inf) return {0.0, inf};  // an angle of more than forty turns
+  return {std::max(low * (1.0 - 1e-14), 0.0), high * (1.0 + 1e-14)};
+}
+
+Range variable(const Certificate& c, std::size_t k, const char* name) {
+  if (k >= c.variables.size() || c.variables[k].first != name) refuse(std::string("variable ") + name + " is missing");
+  return c.variables[k].second;
+}
+
+Range positive(Range x, const char* name) {
+  if (!(x.a > 0.0) || !(x.b < inf)) refuse(std::string("the bounds of ") + name + " are not positive and finite");
+  return x;
+}
+
+bool disjoint(Range x, Range y) {
+  return x.b < y.a || y.b < x.a;
+}
+
+}  // namespace
+
+Domain domain_of(const Certificate& c) {
+  if (!(c.target > 1.0) || !(c.target < inf)) refuse("the target is not a finite number above 1");
+  if (!(c.length > 0.0) || !(c.length < inf)) refuse("the characteristic length is not positive and finite");
+  Domain d;
+  d.target = c.target;
+  Range angle;
+  const auto size_of = [&](Range x) { return meet(x / c.length, {0.0, inf}); };
+  if (c.family == "hexagonal") {
+    const Range a1 = variable(c, 0, "a1"), a2 = variable(c, 1, "a2"), b1 = variable(c, 2, "b1"),
+                b2 = variable(c, 3, "b2");
+    for (const Range side : {a1, a2, b1, b2})
+      if (!(side.a >= 0.0) || !(side.b < inf)) refuse("the bounds of a side are negative or infinite");
+    d.R = d.R_internal = size_of(radius(a1, a2));
+    d.U = d.U_internal = size_of(radius(b1, b2));
+    d.zp = variable(c, 4, "zp");
+    d.zs = variable(c, 5, "zs");
+    angle = variable(c, 6, "theta_z") + below_x(a1, a2) - below_x(b1, b2);
+  } else if (c.family == "symmetric") {
+    d.dimension = 7;
+    d.R = size_of(positive(variable(c, 0, "base_external_radius"), "base_external_radius"));
+    d.R_internal = size_of(positive(variable(c, 1, "base_internal_radius"), "base_internal_radius"));
+    d.U = size_of(positive(variable(c, 3, "platform_external_radius"), "platform_external_radius"));
+    d.U_internal = size_of(positive(variable(c, 5, "platform_internal_radius"), "platform_internal_radius"));
+    angle = variable(c, 4, "platform_external_angle");
+    d.zp = variable(c, 7, "zp");
+    d.zs = variable(c, 8, "zs");
+  } else {
+    refuse("the family is neither hexagonal nor symmetric");
+  }
+  d.zp = size_of(positive(d.zp, "zp"));
+  if (!(d.zs.a >= 0.0)) refuse("the bounds of zs are negative");
+  d.zs = size_of(d.zs);
+  for (const auto& [name, range] : c.limits) {
+    if (name == "zs_fraction") d.fraction = meet(d.fraction, range);
+    else if (name == "radius_ratio") d.radius_ratio = meet(d.radius_ratio, range);
+    else if (name == "leg_ratio") d.leg_ratio = range.b;
+    else refuse("the proof knows no limit " + name);
+  }
+
+  // Below the target: R U sin(theta) >= zp / target, and 1/q and y/t at most target * sqrt(N).
+  const bool hexagonal = d.dimension == 5;
+  const Range area = Range(d.zp.a) / d.target;
+  Range& U = d.box[0];
+  U = meet(d.U, {(area / d.R.b).a, inf});
+  const Range R = meet(d.R, {(area / U.b).a, inf});
+  d.box[6] = hexagonal ? Range(1.0) : d.U_internal / U;
+  d.box[1] = R / U;
+  if (d.radius_ratio.b < inf) d.box[1].b = std::min(d.box[1].b, (d.radius_ratio * std::max(1.0, d.box[6].b)).b);
+  if (hexagonal) d.box[1].a = std::max(d.box[1].a, d.radius_ratio.a);
+  d.box[5] = hexagonal ? d.box[1] : d.R_internal / U;
+  d.box[2] = d.zp / U;
+  const double sine = (area / (Range(R.b) * U.b)).a;
+  d.box[4] = meet(half_tangent(angle), {0.5 * sine, (2.0 / Range(sine)).b});
+  const Range room = Range(d.target) * root(square(1.0 + Range(d.box[1].b)) + square(d.box[2].b));
+  Range t = meet(d.fraction, d.zs / d.zp);
+  t = meet(t, {(d.box[5].a / room).a, (1.0 - d.box[6].a / room).b});
+  d.box[3] = {(Range(t.a) / (1.0 - Range(t.a))).a, (Range(t.b) / (1.0 - Range(t.b))).b};
+  return d;
+}
+
+bool empty(const Box& box) {
+  for (const Range& r : box)
+    if (r.a > r.b) return true;
+  return false;
+}
+
+bool outside(const Domain& d, const Box& b) {
+  const Range height = b[0] * b[2], t = 1.0 / (1.0 + 1.0 / b[3]);
+  if (disjoint(b[0] * b[1], d.R) || disjoint(height, d.zp) || disjoint(height * t, d.zs) || disjoint(t, d.fraction))
+    return true;
+  if (d.dimension == 5) return false;
+  if (disjoint(b[0] * b[5], d.R_internal) || disjoint(b[0] * b[6], d.U_internal)) return true;
+  const Range base{std::max(b[1].a, b[5].a), std::max(b[1].b, b[5].b)};
+  return disjoint(base / Range(std::max(1.0, b[6].a), std::max(1.0, b[6].b)), d.radius_ratio);
+}
+
+Box narrowed(const Domain& d, Box b) {
+  const bool seven = d.dimension == 7;
+  for (int turn = 0; turn < 2; ++turn) {
+    Range& U = b[0];
+    const auto product = [&](Range& x, Range bounds) {  // U x is within the bounds
+      x = meet(x, bounds / U);
+      if (x.sound()) U = meet(U, bounds / x);
+      return x.sound() && U.sound();
+    };
+    if (!product(b[1], d.R) || !product(b[2], d.zp)) return b;
+    if (seven && (!product(b[5], d.R_internal) || !product(b[6], d.U_internal))) return b;
+    const Range t = meet(meet(1.0 / (1.0 + 1.0 / b[3]), d.fraction), d.zs / (U * b[2]));
+    if (!t.sound()) {
+      U = {1.0, 0.0};
+      return b;
+    }
+    if (!product(b[2], d.zs / t)) return b;
+    const double most = t.b < 1.0 ? (Range(t.b) / (1.0 - Range(t.b))).b : inf;
+    b[3] = meet(b[3], {(Range(std::max(t.a, 0.0)) / (1.0 - Range(t.a))).a, most});
+    if (!b[3].sound()) return b;
+  }
+  if (!seven) b[5] = b[1];
+  return b;
+}
+
+}  // namespace ninedof::checker

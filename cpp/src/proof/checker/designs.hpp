@@ -1,0 +1,31 @@
+#pragma once
+/// The designs that the study of a certificate allows, in the reduced coordinates.
+
+#include <array>
+
+#include "proof/checker/certificate_file.hpp"
+
+namespace ninedof::checker {
+
+/// Coordinates: U, x = R/U, eta = zp/U, o = zs/(zp - zs), tan(theta/2), y, z.
+using Box = std::array<Range, coordinates>;
+
+struct Domain {
+  int dimension = 5;
+  Box box;
+  Range R, R_internal, U, U_internal, zp, zs, fraction{0.0, 1.0}, radius_ratio{0.0, inf};
+  double target = 0.0, leg_ratio = inf;
+};
+
+Domain domain_of(const Certificate& c);
+
+bool empty(const Box& box);
+
+/// Whether no design of the box keeps the bounds.
+bool outside(const Domain& d, const Box& b);
+
+/// The part of a box outside of which no design keeps the bounds; empty if none does. Boxes that touch the bounds at a
+/// corner, up to rounding, shrink to that corner.
+Box narrowed(const Domain& d, Box b);
+
+}  // namespace ninedof::checker
