@@ -40,7 +40,7 @@ struct Case {
   Configuration home;
   double half;
 
-  explicit Case(Sampler& draw, double size) : robot{geometry(draw), {}, 1.0, {}, {}}, half(size) {
+  explicit Case(Sampler& draw, double size) : robot{geometry(draw), {}, 1.0, {}, {}, {}}, half(size) {
     home.position = Vec3(0.3 * draw(), 0.3 * draw(), 4.5 + 0.5 * draw());
     home.internal_point = Vec3(0.2 * draw(), 0.2 * draw(), 2.3 + 0.3 * draw());
   }
