@@ -8,24 +8,6 @@
 namespace ninedof::over_region {
 namespace {
 
-/// Rotation matrices that come as doubles are within this of an exact rotation, entry by entry.
-constexpr double rotation_rounding = 0x1p-49;
-
-Form near(double x) {
-  Form out(x);
-  out.r = rotation_rounding;
-  return out;
-}
-
-std::array<Vector, 3> columns(const Mat3& q) {
-  std::array<Vector, 3> out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto col = static_cast<Eigen::Index>(k);
-    out[k] = {near(q(0, col)), near(q(1, col)), near(q(2, col))};
-  }
-  return out;
-}
-
 /// Rows of exp of the rotation vector (x, y, 0).
 std::array<Vector, 3> tilted(const Form& x, const Form& y) {
   const Form xx = x * x, yy = y * y, u = xx + yy;
@@ -45,6 +27,24 @@ double least_length(const Box& box, const Disc& disc) {
 }
 
 }  // namespace
+
+std::array<Vector, 3> rotation_columns(const Mat3& q) {
+  // A matrix with the singular values x is within max |x - 1| <= max |x^2 - 1| of its rotation, and that is at most
+  // three times the greatest entry of Q^T Q - 1, itself rounded by less than 2^-50.
+  const double defect = (q.transpose() * q - Mat3::Identity()).cwiseAbs().maxCoeff();
+  const double error = 0x1p-49 + 3.0 * (1.0 + 0x1p-40) * defect;
+  const auto entry = [&](Eigen::Index i, Eigen::Index j) {
+    Form out(q(i, j));
+    out.r = error;
+    return out;
+  };
+  std::array<Vector, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto col = static_cast<Eigen::Index>(k);
+    out[k] = {entry(0, col), entry(1, col), entry(2, col)};
+  }
+  return out;
+}
 
 Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rule.begin(), machine.rule.end()) {
   if (!machine.region.empty()) {
@@ -73,7 +73,7 @@ Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rul
 FormPose Domain::pose(const Box& box) const {
   if (box.piece < 0) {
     const Configuration& c = machine_.poses[static_cast<std::size_t>(-1 - box.piece)];
-    return {fixed(c.position), fixed(c.internal_point), columns(c.rotation)};
+    return {fixed(c.position), fixed(c.internal_point), rotation_columns(c.rotation)};
   }
   std::array<Form, form_size> x;
   for (std::size_t k = 0; k < form_size; ++k) x[k] = Form::coordinate(box.low[k], box.high[k], k);
@@ -86,7 +86,7 @@ FormPose Domain::pose(const Box& box) const {
     moved = from + x[0] * (to - from);
   }
   if (region.in_zp) moved = neutral.position.z() * moved;
-  FormPose out{fixed(neutral.position) + moved, fixed(neutral.internal_point), columns(neutral.rotation)};
+  FormPose out{fixed(neutral.position) + moved, fixed(neutral.internal_point), rotation_columns(neutral.rotation)};
   if (!rule_.empty()) out.s = out.s + rule_.front().shift({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
   else if (region.shifted) out.s = out.s + moved;
   if (region.yaw > 0.0) {

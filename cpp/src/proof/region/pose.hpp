@@ -35,6 +35,10 @@ inline Vector fixed(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+/// The columns of a rotation matrix of doubles, and of the rotation next to it: matrices may come from elsewhere, with
+/// fewer digits.
+std::array<Vector, 3> rotation_columns(const Mat3& q);
+
 /// Coordinates whose vector has at most a given length.
 struct Disc {
   std::size_t first, count;

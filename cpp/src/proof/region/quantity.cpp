@@ -67,21 +67,17 @@ class ConeCosine : public Smooth {
   ConeCosine(const PosedRobot& m, int k, bool platform, const Vec3& axis, bool greatest)
       : Smooth(!greatest), g_(m.geometry), k_(leg_at(platform, k)), platform_(platform), sense_(sense_at(platform, k)) {
     if (axis.isZero(0.0)) {
-      // The rounding of the neutral pose turns the axis by far less than what is added below.
-      const Vec3 along = sense_ * leg_vector(m);
-      axis_ = unit(fixed(platform ? Vec3(m.neutral.rotation.transpose() * along) : along));
+      const FormPose neutral{fixed(m.neutral.position), fixed(m.neutral.internal_point),
+                             rotation_columns(m.neutral.rotation)};
+      const Vector along = sense_ * leg(g_, neutral, k_);
+      axis_ =
+          unit(platform ? Vector{dot(neutral.q[0], along), dot(neutral.q[1], along), dot(neutral.q[2], along)} : along);
     } else {
       axis_ = unit(fixed(axis));
     }
-    for (Form* x : {&axis_.x, &axis_.y, &axis_.z}) x->r += 0x1p-44;
   }
 
  private:
-  Vec3 leg_vector(const PosedRobot& m) const {
-    const LegEnds e = leg_ends(k_);
-    const Points at = points(m.geometry, m.neutral);
-    return at[at_index(e.to)] - at[at_index(e.from)];
-  }
   Form form(const FormPose& pose, Slopes& slopes) const override {
     const Vector v = leg(g_, pose, k_), along = unit(v);
     slopes.add(v);

@@ -13,6 +13,7 @@ namespace {
 
 using over_region::Ends;
 using over_region::ends_of;
+using over_region::rotation_columns;
 
 // Places of the criteria among the bits.
 constexpr int legs_first = 0, base_first = 9, platform_first = 15, pairs_first = 21, signs_first = 42,
@@ -24,20 +25,6 @@ constexpr Criteria bit(int k) {
 }
 constexpr Criteria bits(int first, int count) {
   return (bit(count) - 1) << first;
-}
-
-/// Within which a rotation matrix of doubles is a rotation, entry by entry.
-constexpr double rotation_error = 0x1p-49;
-
-std::array<Vector, 3> columns_of(const Mat3& q) {
-  const auto entry = [&](Eigen::Index i, Eigen::Index j) {
-    Form out(q(i, j));
-    out.r = rotation_error;
-    return out;
-  };
-  std::array<Vector, 3> out;
-  for (Eigen::Index j = 0; j < 3; ++j) out[at_index(j)] = {entry(0, j), entry(1, j), entry(2, j)};
-  return out;
 }
 
 Vector centroid_of(const Triple& t) {
@@ -80,9 +67,9 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
       criteria_(criteria),
       rule_(rule),
       some_(domain.archetype == Archetype::reachable) {
-  for (const Mat3& q : domain.rotations) rotations_.push_back(columns_of(q));
+  for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
   const FormPose at_home{over_region::fixed(home.position), over_region::fixed(home.internal_point),
-                         columns_of(home.rotation)};
+                         rotation_columns(home.rotation)};
   if (criteria.legs)
     for (int k = 0; k < 9; ++k)
       if (criteria.legs->low[k] > 0.0 || std::isfinite(criteria.legs->high[k])) all_ |= bit(legs_first + k);
