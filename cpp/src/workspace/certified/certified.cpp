@@ -17,6 +17,7 @@ namespace certified {
 namespace {
 
 constexpr long looks_beyond = 20'000;
+constexpr double part_beyond = 0.5;   // of the time, at most
 constexpr double least_gap = 1e-3;  // of all poses, relative to that asked for, where home's piece needs it
 
 void require_certified(const WorkspaceDomain& domain, const InternalPointRule& rule, const WorkspaceCriteria& criteria,
@@ -64,13 +65,14 @@ std::vector<PositionBox> rest_of(PositionBox all, const PositionBox& box) {
   return out;
 }
 
-CertifiedWorkspace::Beyond beyond(const PoseCuts& cuts, const PositionBox& reached, const PositionBox& box, bool some) {
+CertifiedWorkspace::Beyond beyond(const PoseCuts& cuts, const PositionBox& reached, const PositionBox& box, bool some,
+                                  const std::function<bool()>& over) {
   using Beyond = CertifiedWorkspace::Beyond;
   if ((reached.low.array() > reached.high.array()).any()) return Beyond::nothing;  // no leg lengths fit anywhere
   if (!(reached.low.allFinite() && reached.high.allFinite())) return Beyond::unknown;
   Beyond out = Beyond::nothing;
   for (const PositionBox& slab : rest_of(reached, box)) {
-    const Beyond one = anything_in(cuts, slab, some, looks_beyond);
+    const Beyond one = anything_in(cuts, slab, some, looks_beyond, over);
     if (one == Beyond::something) return one;
     if (one == Beyond::unknown) out = one;
   }
@@ -119,17 +121,20 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
   const PositionBox given{question.domain.low, question.domain.high}, reached = cuts.reached();
   const PositionBox box{given.low.cwiseMax(reached.low), given.high.cwiseMin(reached.high)};
 
-  CertifiedWorkspace out;
   const bool nothing_there = (box.low.array() >= box.high.array()).any();
+  if (!nothing_there && !std::isfinite(volume_of(box).hi))
+    throw InvalidArgument("box", "one whose volume is no double beside the size of the joints", "a smaller one");
+
+  CertifiedWorkspace out;
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  // Before the search, which may take all the time there is. With many rotations each look takes long.
+  out.beyond = beyond(cuts, reached, given, some,
+                      [&] { return control.stop.stop_requested() || seconds() > part_beyond * settings.seconds; });
   if (nothing_there) {
-    out.low = given.low;
-    out.high = given.high;
     out.home_outside = true;
     out.first_cut.push_back(0);
   } else {
-    const auto time_is_over = [&] {
-      return std::chrono::duration<double>(Clock::now() - start).count() > settings.seconds;
-    };
+    const auto time_is_over = [&] { return seconds() > settings.seconds; };
     Grown grown = seed(cuts, box, some);
     CertifySettings now = settings;
     grow(grown, cuts, some, now, time_is_over, control);
@@ -151,8 +156,11 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
     out.home_inside = piece.inside;
     out.home_outside = piece.outside;
   }
-  out.beyond = beyond(cuts, reached, given, some);
   scale_back(out, exponent);
+  if (nothing_there) {
+    out.low = domain.low;
+    out.high = domain.high;
+  }
   return out;
 }
 

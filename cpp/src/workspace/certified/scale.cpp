@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/math/interval.hpp"
 
 namespace ninedof::certified {
@@ -13,6 +15,36 @@ Vec3 times(const Vec3& v, int exponent) {
 }
 Triple times(const Triple& t, int exponent) {
   return {times(t[0], exponent), times(t[1], exponent), times(t[2], exponent)};
+}
+
+/// Throws for a number that a double does not hold beside the size of the joints: the question would be another one.
+void require_held(const char* name, double x, int exponent) {
+  if (std::ldexp(std::ldexp(x, exponent), -exponent) != x)
+    throw InvalidArgument(name, format_number(x), "0, or a number less far from the size of the joints");
+}
+void require_held(const char* name, const Vec3& v, int exponent) {
+  for (const double x : v) require_held(name, x, exponent);
+}
+void require_held(const char* name, const Triple& t, int exponent) {
+  for (const Vec3& v : t) require_held(name, v, exponent);
+}
+
+void require_held(const Question& q, int exponent) {
+  require_held("base_external", q.geometry.base_external(), exponent);
+  require_held("base_internal", q.geometry.base_internal(), exponent);
+  require_held("platform_external", q.geometry.platform_external(), exponent);
+  require_held("platform_internal", q.geometry.platform_internal(), exponent);
+  for (const Vec3* end : {&q.domain.low, &q.domain.high})
+    for (const double x : *end)
+      if (std::isfinite(std::ldexp(x, exponent))) require_held("box", x, exponent);  // limits of legs may bound it
+  require_held("internal_point", q.rule.point, exponent);
+  if (q.criteria.legs)
+    for (const Vec9* ends : {&q.criteria.legs->low, &q.criteria.legs->high})
+      for (const double x : *ends) require_held("leg_limits", x, exponent);
+  if (q.criteria.leg_clearance) require_held("leg_clearance", *q.criteria.leg_clearance, exponent);
+  require_held("characteristic_length", q.criteria.characteristic_length, exponent);
+  require_held("home", q.home.position, exponent);
+  require_held("home", q.home.internal_point, exponent);
 }
 
 }  // namespace
@@ -26,6 +58,7 @@ int exponent_of(const Question& q) {
 }
 
 Question scaled(const Question& q, int exponent) {
+  require_held(q, exponent);
   const Geometry& g = q.geometry;
   Question out{{times(g.base_external(), exponent), times(g.base_internal(), exponent),
                 times(g.platform_external(), exponent), times(g.platform_internal(), exponent)},

@@ -73,7 +73,8 @@ void grow(Grown& out, const PoseCuts& cuts, bool some, const CertifySettings& se
     }
   const auto over = [&] { return control.stop.stop_requested() || time_is_over(); };
   bool stuck = false;
-  while (!open.empty() && high - low > settings.gap * high) {
+  // Of sums that are no doubles nothing is known, and the gap is not reached.
+  while (!open.empty() && !(high - low <= settings.gap * high)) {
     if (control.stop.stop_requested() || time_is_over() || out.looked >= settings.boxes) {
       out.end = control.stop.stop_requested() ? End::stopped : out.looked >= settings.boxes ? End::boxes : End::time;
       return;
@@ -119,10 +120,11 @@ void grow(Grown& out, const PoseCuts& cuts, bool some, const CertifySettings& se
     }
     if (control.progress) control.progress(out.looked, 0, std::max(low, 0.0));
   }
-  if (stuck && high - low > settings.gap * high) out.end = End::smallest;
+  if (stuck && !(high - low <= settings.gap * high)) out.end = End::smallest;
 }
 
-CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks) {
+CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks,
+                                       const std::function<bool()>& over) {
   using Beyond = CertifiedWorkspace::Beyond;
   struct Part {
     PositionBox box;
@@ -130,7 +132,7 @@ CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& 
   };
   std::queue<Part> ahead;  // the largest first
   ahead.push({box, everything(cuts)});
-  for (; !ahead.empty() && looks > 0; --looks) {
+  for (; !ahead.empty() && looks > 0 && !over(); --looks) {
     const Part part = std::move(ahead.front());
     ahead.pop();
     const Seen seen = seen_of(cuts, part.box, part.left, some);

@@ -21,8 +21,9 @@ Grown seed(const PoseCuts& cuts, const PositionBox& box, bool some);
 void grow(Grown& grown, const PoseCuts& cuts, bool some, const CertifySettings& settings,
           const std::function<bool()>& time_is_over, const Control& control);
 
-/// Whether a box holds allowed poses, as far as so many looks show.
-CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks);
+/// Whether a box holds allowed poses, as far as so many looks show before `over`.
+CertifiedWorkspace::Beyond anything_in(const PoseCuts& cuts, const PositionBox& box, bool some, long looks,
+                                       const std::function<bool()>& over);
 
 /// The two halves, across the longest side; none if a double cannot divide it.
 std::vector<PositionBox> halves_of(const PositionBox& box);
