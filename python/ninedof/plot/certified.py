@@ -86,8 +86,8 @@ def _draw(axes: Any, panel: CertifiedPanel, unit: str) -> None:
     extent = (s.horizontal[0] - dx, s.horizontal[-1] + dx, s.vertical[0] - dy, s.vertical[-1] + dy)
     colours = ListedColormap(["white", OPEN, ALLOWED])
     axes.imshow(s.state, cmap=colours, vmin=-1, vmax=1, origin="lower", extent=extent, interpolation="nearest")
-    x0, y0, x1, y1 = s.inner.T
-    corners = [np.column_stack(pair) for pair in ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))]
+    a0, b0, a1, b1 = s.inner.T
+    corners = [np.column_stack(pair) for pair in ((a0, b0), (a1, b0), (a1, b1), (a0, b1), (a0, b0))]
     axes.add_collection(LineCollection(list(np.stack(corners, axis=1)), colors=EDGE, linewidths=0.25))
     ends = np.argwhere(s.state == 1 if (s.state == 1).any() else s.state >= 0)
     if panel.estimate is not None:
@@ -103,7 +103,9 @@ def _draw(axes: Any, panel: CertifiedPanel, unit: str) -> None:
         low, high = ends.min(axis=0), ends.max(axis=0)
         x, y = s.horizontal[[low[1], high[1]]], s.vertical[[low[0], high[0]]]
         room = 0.06 * float(max(np.ptp(x), np.ptp(y))) + max(dx, dy)
-        axes.set(xlim=(x[0] - room, x[1] + room), ylim=(y[0] - room, y[1] + room))
+        # Not past the section: of what lies there it says nothing, and white is proved to be outside.
+        x0, x1, y0, y1 = extent
+        axes.set(xlim=(max(x[0] - room, x0), min(x[1] + room, x1)), ylim=(max(y[0] - room, y0), min(y[1] + room, y1)))
     axes.grid(visible=False)
     axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
     axes.set_title(f"{s.plane[0]} = {amount(style.signed(float(s.plane[1])), unit)}")

@@ -152,6 +152,8 @@ def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepR
                 return SweepResult.load(folder / ARRAYS[record.kind])
             found = WorkspaceMap.load(folder / ARRAYS[record.kind])
             certified = CertifiedWorkspace.load(folder / CERTIFIED) if CERTIFIED in record.files else None
+            if certified is not None and certified.estimate not in (None, (found.volume, found.error)):
+                raise ValueError(f"{folder / CERTIFIED}: got what is proved of another map, expected that of this run")
             return replace(found, certified=certified)
         if record.kind == "front":
             return front_from(record.study, record.results["front"])

@@ -28,6 +28,10 @@ ENDS = {
     "stopped": "interrupted",
 }
 
+OF_ALL = "the gap asked for is reached by all allowed poses together"
+BEYOND = ("nothing", "something", "unknown")
+HOMES = ("allowed", "forbidden", "unknown")
+
 States = NDArray[np.int8]
 
 
@@ -59,7 +63,7 @@ class CertifiedWorkspace(Saved):
     volume: tuple[float, float]
     """Of all allowed positions in the box: at least and at most, proved."""
     home_volume: tuple[float, float]
-    """Of those connected with home."""
+    """Of those connected with home by allowed positions in the box."""
     home: str
     """"allowed" or "forbidden", proved, or "unknown"; "forbidden" also outside the box."""
     beyond: str
@@ -104,6 +108,8 @@ class CertifiedWorkspace(Saved):
     def gap(self) -> float:
         """How far the bounds are apart, relative to the upper one."""
         low, high = self.bounds
+        if math.isinf(high):  # larger than any double
+            return 1.0
         return (high - low) / high if high > 0.0 else 0.0
 
     @property
@@ -194,17 +200,20 @@ class CertifiedWorkspace(Saved):
     def sentences(self) -> Iterator[str]:
         """Yield what is proved, in words."""
         cubed = f"{self.unit}³" if self.unit else ""
-        what = "the part of the workspace that is connected with home" if self.connected else "the workspace"
         where = "" if self.beyond == "nothing" else " within the box searched"
+        what, of = "the workspace", where
+        if self.connected:
+            what, of = f"the part of the workspace that is connected with home{where}", ""
+        outside = "" if self.beyond == "nothing" else " or lies outside the box searched"
         if self.volume[1] == 0.0:
             yield f"Proved: no pose{' of the box searched' * (self.beyond != 'nothing')} is allowed."
         elif self.connected and self.home == "forbidden":
-            yield "Proved: the home pose is not allowed, so that nothing is connected with it."
+            yield f"Proved: the home pose is not allowed{outside}, so that nothing is connected with it{where}."
         else:
-            yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{where} (gap {100.0 * self.gap:.2g} %)."
+            yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{of} (gap {100.0 * self.gap:.2g} %)."
             size = _between(self.volume, cubed)
             if self.connected and size != _between(self.bounds, cubed):
-                yield f"Proved: all allowed poses on home's side of every singularity have a volume {size}."
+                yield f"Proved: all allowed poses on home's side of every singularity have a volume {size}{where}."
             if self.connected and self.home == "unknown":
                 yield "The home pose is not proved to be allowed: the lower bound is zero."
         if self.volume[1] > 0.0:
@@ -219,7 +228,8 @@ class CertifiedWorkspace(Saved):
             said = "lies between the bounds" if low <= volume <= high else "lies outside the bounds"
             yield f"The estimate, {volume:.6g} ± {error:.2g}, {said}."
         boxes = f"{len(self.inner_low)} inner boxes, {len(self.open_low)} open ones, {self.looked} looked at"
-        yield f"{boxes} in {self.seconds:.3g} s; {ENDS[self.end]}."
+        reached = self.end == "gap" and self.connected  # by all poses; home's piece may need more
+        yield f"{boxes} in {self.seconds:.3g} s; {OF_ALL if reached else ENDS[self.end]}."
 
     def __str__(self) -> str:
         """Return the sentences."""
@@ -248,7 +258,42 @@ class CertifiedWorkspace(Saved):
             raise ValueError
         for name in ("volume", "home_volume", "estimate"):
             words[name] = None if words[name] is None else tuple(words[name])
-        return cls(**words, **data)
+        found = cls(**words, **data)
+        if not found._is_whole():
+            raise ValueError
+        return found
+
+    def _is_whole(self) -> bool:
+        """Whether the parts of a file belong together: an index or a box that is wrong would prove anything."""
+        shapes = {name: (3,) for name in ("low", "high", "box_low", "box_high")}
+        shapes |= {name: (len(self.inner_low), 3) for name in ("inner_low", "inner_high")}
+        shapes |= {name: (len(self.open_low), 3) for name in ("open_low", "open_high")}
+        shapes |= {"open_volume": (len(self.open_low), 2), "first_cut": (len(self.open_low) + 1,)}
+        shapes |= {"cuts": (len(self.cuts), 5)}
+        numbers = {name: getattr(self, name) for name in shapes}
+        if any(numbers[name].shape != shape for name, shape in shapes.items()):
+            return False
+        if any(a.dtype != (np.int64 if name == "first_cut" else np.float64) for name, a in numbers.items()):
+            return False
+        if any(not np.isfinite(a).all() for name, a in numbers.items() if name not in ("cuts", "open_volume")):
+            return False
+        boxes = (
+            (self.box_low, self.box_high, self.low, self.high),
+            (self.low, self.high, self.inner_low, self.inner_high),
+            (self.low, self.high, self.open_low, self.open_high),
+        )
+        bounds = (self.volume, self.home_volume, *self.open_volume.tolist())
+        return bool(
+            all((a <= low).all() and (low <= high).all() and (high <= b).all() for a, b, low, high in boxes)
+            and all(len(pair) == 2 and 0.0 <= pair[0] <= pair[1] for pair in bounds)
+            and np.isfinite(self.cuts[:, :3]).all()
+            and not np.isnan(self.cuts).any()
+            and self.first_cut[0] == 0
+            and self.first_cut[-1] == len(self.cuts)
+            and (np.diff(self.first_cut) >= 0).all()
+            and (self.end in ENDS and self.home in HOMES and self.beyond in BEYOND)
+            and (self.estimate is None or len(self.estimate) == 2)
+        )
 
 
 ARRAYS = tuple(

@@ -372,3 +372,109 @@ def test_bad_arguments_are_named(published, changes, message):
     with pytest.raises(ValueError, match=message) as raised:
         nd.certified_workspace(published, **asked)
     assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"box": ([0.0, 0.0, 4.8], [5e-324, 0.1, 4.9])}, "box: got 5e-324"),  # of some size: not proved to be empty
+        ({"characteristic_length": 5e-324}, "characteristic_length: got 5e-324"),
+        ({"criteria": {"leg_limits": (5e-324, 6.5)}}, "leg_limits: got 5e-324"),
+        ({"box": ([-1e160] * 3, [1e160] * 3), "criteria": {"condition_number": 5.0}}, "box: got one whose volume"),
+    ],
+)
+def test_numbers_that_doubles_do_not_hold_beside_the_joints_are_refused(published, changes, message):
+    with pytest.raises(ValueError, match=message):
+        nd.certified_workspace(published, **({"box": BOX, "criteria": LEGS, "time_limit": 1.0} | changes))
+
+
+def test_a_volume_beyond_the_doubles(published):
+    triples = ("base_external", "base_internal", "platform_external", "platform_internal")
+    huge = nd.Geometry(*(2.0**400 * getattr(published, name) for name in triples))
+    limits = {"leg_limits": (2.5 * 2.0**400, 6.5 * 2.0**400)}
+    proved = nd.certified_workspace(huge, tuple(np.multiply(BOX, 2.0**400)), criteria=limits, gap=0.3)
+    assert proved.volume[1] == np.inf
+    assert proved.gap == 1.0
+    assert "nan" not in str(proved)
+
+
+@pytest.mark.parametrize("defect", [4e-10, -4e-10])
+def test_a_rotation_of_few_digits_stands_for_the_rotation_next_to_it(published, defect):
+    """Where the leg is at its limit by the matrix given or by that rotation, and in or out by the other."""
+    exact = Rotation.from_rotvec([0.3, -0.2, 0.1]).as_matrix()
+    given = (1.0 + defect) * exact
+    legs = np.zeros(9), FREE.copy()
+    legs[1][0] = 3.0
+    arm, joint = exact @ published.platform_external[0], published.base_external[0]
+    along = arm / np.linalg.norm(arm)
+    between = joint - arm + (3.0 - 0.5 * defect * np.linalg.norm(arm)) * along
+    box = (between - 1e-8, between + 1e-8)
+    proved = nd.certified_workspace(
+        published, box, criteria={"leg_limits": legs}, rotation=given, gap=1e-3, most_boxes=2_000
+    )
+    assert proved.state(between[None]) == [0]
+    far = 1e-8 * np.array([[-0.9], [0.9]]) * along
+    assert (proved.state(between + far) == [1, -1]).all()
+
+
+def test_what_is_said_holds_where_home_lies_outside_the_box(published):
+    criteria = {"leg_limits": (1.5, 7.0), "singularity_free": True}
+    aside = nd.certified_workspace(published, ([-1, -1, 5.5], [1, 1, 6.0]), criteria=criteria, home=HOME)
+    assert nd.certified_workspace(published, BOX, criteria=criteria, home=HOME).home == "allowed"
+    assert aside.home == "forbidden"
+    assert "not allowed or lies outside the box searched" in str(aside)
+
+
+def test_what_is_connected_outside_the_box_is_not_counted_nor_said_to_be(published):
+    """A shell, and a beam across it: its two ends are connected with each other outside the beam alone."""
+    low = np.zeros(9)
+    low[0], high = 4.0, np.concatenate([[4.2], FREE[1:]])
+    centre = published.base_external[0] - published.platform_external[0]
+    criteria = {"leg_limits": (low, high), "singularity_free": True}
+    at = centre + np.array([np.sqrt(4.1**2 - 2.0**2), 0.0, 2.0])
+    beam = (centre + np.array([-5.0, -0.1, 1.9]), centre + np.array([5.0, 0.1, 2.1]))
+    home = nd.Configuration(at, np.eye(3), 0.5 * at)
+    proved = nd.certified_workspace(published, beam, criteria=criteria, home=home)
+    assert proved.home_volume[1] < 0.6 * proved.volume[0]
+    said = str(proved).splitlines()
+    assert "connected with home within the box searched has a volume" in said[0]
+    assert said[1].endswith("within the box searched.")
+
+
+def test_what_lies_beyond_takes_no_time_that_there_is_not(published):
+    asked = {"criteria": LEGS | {"condition_number": 5.0}, "archetype": "reachable", "orientations": 20}
+    proved = nd.certified_workspace(published, BOX, time_limit=0.0, **asked)
+    assert (proved.end, proved.beyond) == ("time", "unknown")
+
+
+DAMAGED = {
+    "an index past the planes": lambda d: d.update(first_cut=d["first_cut"] + 1),
+    "indices that fall": lambda d: d["first_cut"].__setitem__(1, len(d["cuts"]) + 5),
+    "a box that is no number": lambda d: d["open_low"].__setitem__((0, 0), np.nan),
+    "a box inside out": lambda d: d.update(inner_low=d["inner_high"], inner_high=d["inner_low"]),
+    "a box outside": lambda d: d["inner_high"].__setitem__((0, 0), 1e3),
+    "a box too few": lambda d: d.update(open_high=d["open_high"][1:]),
+    "planes of four numbers": lambda d: d.update(cuts=d["cuts"][:, :4]),
+    "planes that are no numbers": lambda d: d["cuts"].__setitem__((0, 3), np.nan),
+    "bounds in the wrong order": lambda d: d.update(
+        words=np.array(
+            str(d["words"]).replace('"volume":[', '"volume":[1e9,').replace('"volume": [', '"volume": [1e9,')
+        )
+    ),
+    "an end of another kind": lambda d: d.update(words=np.array(str(d["words"]).replace('"gap"', '"done"'))),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGED)
+def test_files_whose_parts_do_not_belong_together_are_refused(published, tmp_path, damage):
+    proved = nd.certified_workspace(published, BOX, criteria=LEGS, gap=0.05)
+    path = proved.save(tmp_path / "proved")
+    with np.load(path) as found:
+        contents = dict(found)
+    assert nd.CertifiedWorkspace.load(path).volume == proved.volume
+    before = {name: value.copy() for name, value in contents.items()}
+    DAMAGED[damage](contents)
+    assert any(not np.array_equal(before[n], contents[n], equal_nan=n != "words") for n in before)
+    np.savez(path, **contents)
+    with pytest.raises(ValueError, match="expected a whole one"):
+        nd.CertifiedWorkspace.load(path)

@@ -41,6 +41,9 @@ def test_the_proof_is_said_and_kept(tmp_path, capsys):
     copied = nd.load(nd.save(found, tmp_path / "copy").parent)
     assert np.array_equal(copied.certified.cuts, proved.cuts)
     assert nd.load(folder).to_dict()["certified"] == found.to_dict()["certified"]
+    proved.with_estimate(1.001 * found.volume, found.error).save(folder / "certified.npz")
+    with pytest.raises(ValueError, match=r"certified\.npz: got what is proved of another map"):
+        nd.load(folder)
 
 
 def test_a_map_alone_has_no_proof(tmp_path, capsys):
@@ -65,6 +68,10 @@ def test_sections_show_every_state(published):
         assert (section.state[covered] == 1).all()
     figure = nd.plot.certified_workspace([nd.plot.CertifiedPanel(section, home=(0.0, 0.0))], "mm")
     assert figure.axes[0].get_xlabel() == "x (mm)"
+    beside = nd.certified_workspace(published, ([-1, -1, 4], [1, 1, 5]), criteria={"leg_limits": (2.5, 6.5)})
+    axes = nd.plot.certified_workspace([nd.plot.CertifiedPanel(beside.section("z", 4.5, 40))]).axes[0]
+    assert beside.beyond == "something"
+    assert np.abs([*axes.get_xlim(), *axes.get_ylim()]).max() <= 1.0 + 1e-12  # white past the box would say too much
     with pytest.raises(ValueError, match=r"panels: got 0, expected 1 to 3"):
         nd.plot.certified_workspace([])
     with pytest.raises(ValueError, match="axis: got 'w'"):
