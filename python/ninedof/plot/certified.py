@@ -42,7 +42,8 @@ class CertifiedPanel:
 def certified_workspace(panels: Sequence[CertifiedPanel], unit: str = "") -> Figure:
     """Return a figure of a certified workspace: where poses are proved to be allowed, and where nothing is proved.
 
-    The rest is proved to be outside. Edges of inner boxes are drawn where they are not too many.
+    The rest is proved to be outside. Each pixel is judged at its middle: what is thinner may be missed. Edges
+    of inner boxes are drawn where they are not too many.
 
     Parameters
     ----------
@@ -65,9 +66,9 @@ def certified_workspace(panels: Sequence[CertifiedPanel], unit: str = "") -> Fig
         for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
             _draw(axes, panel, unit)
         entries = [
-            style.key(ALLOWED, ls="", marker="s", ms=6, label="every pose proved to be allowed"),
+            style.key(ALLOWED, ls="", marker="s", ms=6, label="proved to be allowed"),
             style.key(OPEN, ls="", marker="s", ms=6, label="not decided"),
-            style.key(style.INK, lw=0.0, marker="s", ms=6, mfc="white", mew=0.6, label="no pose allowed, proved"),
+            style.key(style.INK, lw=0.0, marker="s", ms=6, mfc="white", mew=0.6, label="proved not to be allowed"),
         ]
         if any(panel.estimate is not None for panel in panels):
             entries.append(style.key(style.INK, lw=0.9, label="boundary of the estimate"))

@@ -18,7 +18,7 @@ CAPTIONS = {
     "front": "The least objective for each value of the limit, and designs from above.",
     "workspace": "Sections of the workspace, what limits it, the spread of the condition number, and how the volume "
     "became known.",
-    "certified_workspace": "What is proved of the workspace, with the boundary of the estimate on top.",
+    "certified_workspace": "What is proved of the workspace, each pixel at its middle, and the estimate on top.",
     "motion": "Leg lengths, condition number and margins along the path.",
     **{stem: f"{name}." for stem, name in FIGURES.items()},
 }

@@ -30,6 +30,7 @@ ENDS = {
 
 OF_ALL = "the gap asked for is reached by all allowed poses together"
 BEYOND = ("nothing", "something", "unknown")
+SETS = ("reachable", "inclusive", "dexterous")
 HOMES = ("allowed", "forbidden", "unknown")
 
 States = NDArray[np.int8]
@@ -210,7 +211,8 @@ class CertifiedWorkspace(Saved):
         elif self.connected and self.home == "forbidden":
             yield f"Proved: the home pose is not allowed{outside}, so that nothing is connected with it{where}."
         else:
-            yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{of} (gap {100.0 * self.gap:.2g} %)."
+            gap = outward(100.0 * self.gap, True, 2)
+            yield f"Proved: {what} has a volume {_between(self.bounds, cubed)}{of} (gap {gap} %)."
             size = _between(self.volume, cubed)
             if self.connected and size != _between(self.bounds, cubed):
                 yield f"Proved: all allowed poses on home's side of every singularity have a volume {size}{where}."
@@ -222,6 +224,8 @@ class CertifiedWorkspace(Saved):
                 "something": "Proved: the workspace goes on beyond the box searched.",
                 "unknown": "Beyond the box searched nothing is known.",
             }[self.beyond]
+        if self.archetype in SETS:
+            yield "All of this is of the rotations of the set, not of others between them."
         if self.estimate is not None and self.volume[1] > 0.0:
             volume, error = self.estimate
             low, high = self.bounds
@@ -265,7 +269,7 @@ class CertifiedWorkspace(Saved):
 
     def _is_whole(self) -> bool:
         """Whether the parts of a file belong together: an index or a box that is wrong would prove anything."""
-        shapes = {name: (3,) for name in ("low", "high", "box_low", "box_high")}
+        shapes: dict[str, tuple[int, ...]] = {name: (3,) for name in ("low", "high", "box_low", "box_high")}
         shapes |= {name: (len(self.inner_low), 3) for name in ("inner_low", "inner_high")}
         shapes |= {name: (len(self.open_low), 3) for name in ("open_low", "open_high")}
         shapes |= {"open_volume": (len(self.open_low), 2), "first_cut": (len(self.open_low) + 1,)}

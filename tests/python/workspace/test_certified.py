@@ -288,6 +288,7 @@ def test_sets_of_rotations(published, archetype):
         ]
     )
     allowed = least.min(axis=0) if archetype == "inclusive" else least.max(axis=0)
+    assert "of the rotations of the set, not of others" in str(proved)
     state = proved.state(p)
     assert (allowed[state == 1] > -1e-9).all()
     assert (allowed[state == -1] < 1e-9).all()
@@ -341,6 +342,8 @@ def test_saved_and_loaded(published, tmp_path):
     again = nd.CertifiedWorkspace.load(proved.save(tmp_path / "proved"))
     assert str(again) == str(proved)
     assert again.to_dict() == proved.to_dict()
+    said = float(str(proved).split("(gap ")[1].split(" %")[0])
+    assert 100.0 * proved.gap <= said <= 105.0 * proved.gap
     assert np.array_equal(again.cuts, proved.cuts)
     assert "mm³" in str(again)
     with pytest.raises(ValueError, match="expected a whole one"):
