@@ -254,7 +254,7 @@ def worst_condition(
     region: dict[str, Any] | None,
     settings: dict[str, Any],
     boxes: Sequence[Sequence[float]],
-    progress: Callable[[int, int, float | None], None] | None,
+    progress: _Progress | None,
     /,
 ) -> tuple[tuple[float, float, _Triple, _Triple, float, int, int], list[list[float]], int, float, bool]: ...
 def region_pose(region: dict[str, Any], at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...

@@ -13,9 +13,11 @@ from rich.progress import (
     MofNCompleteColumn,
     Progress,
     ProgressColumn,
+    Task,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+from rich.text import Text
 
 from ninedof.optimize.result import Result, Status
 from ninedof.support.json import encode
@@ -82,8 +84,8 @@ class Screen:
 
     def boxes(self, title: str) -> AbstractContextManager[Bar]:
         """Show a bar of boxes of poses, of which nobody knows how many there will be."""
-        columns = ("{task.completed:,.0f} boxes of poses", TimeElapsedColumn())
-        return self._bar(title, columns, lambda _: "", at_once=True)
+        columns = (_Boxes(), TimeElapsedColumn())
+        return self._bar(title, columns, lambda _: "")
 
     @contextmanager
     def _bar(
@@ -102,6 +104,13 @@ class Screen:
         finally:
             if shown.live.is_started:
                 shown.stop()
+
+
+class _Boxes(ProgressColumn):
+    """How many boxes of poses were looked at; nothing before the first."""
+
+    def render(self, task: Task) -> Text:
+        return Text(f"{task.completed:,.0f} boxes of poses" if task.completed else "")
 
 
 def best_words(best: float | None) -> str:
@@ -126,4 +135,5 @@ class Bar:
 
     def phase(self, words: str) -> None:
         """Say behind the title which part of the work is done."""
+        self._shown.start()
         self._shown.update(self._task, description=f"{self._title}: {words}")

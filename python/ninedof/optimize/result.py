@@ -234,7 +234,8 @@ class Result:
             of the worst one, 0.05. time_limit : seconds for it, 300. tolerance : by which limits may be passed,
             relative, 1e-6. threads : 0, one per processor. rule : where O is, where the study places it anew at every
             pose of a region; fitted to the best O if left out. resume : an earlier certificate to go on with.
-            progress : called with boxes done, 0 and the worst condition number met.
+            progress : called with boxes done, 0 and the worst condition number met; one with a method `phase` is told
+            what begins.
 
         Returns
         -------
@@ -254,7 +255,8 @@ class Result:
         design = best.geometry, configurations, best.characteristic_length
         place = self._placing()
         if options.get("rule") is None and options.get("resume") is None and place is not None:
-            options["rule"] = lambda: rule_of(place, *design, options.get("threads", 0))
+            how = options.get("threads", 0), options.get("progress")
+            options["rule"] = lambda: rule_of(place, *design, *how)
         return certify(self.study, *design, **options)
 
     def _placing(self) -> Placing | None:

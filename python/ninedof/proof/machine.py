@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from hashlib import sha256
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
@@ -16,16 +14,14 @@ from ninedof.design.limits import label
 from ninedof.design.region import Region
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
-from ninedof.proof.machine_limits import SPREADS, Extreme, Key, Plan
-from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate, Met
+from ninedof.proof.machine_limits import SPREADS, Plan
+from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
+from ninedof.proof.machine_search import ConditionSearch, extremes, met_at
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, whole
-
-Progress = Callable[[int, int, float | None], None]
-
-WIDE = 20.0  # a gap that is proved at once
+from ninedof.support.progress import Progress, phase
 
 
 def certify(
@@ -70,7 +66,7 @@ def certify(
     resume : MachineCertificate, optional
         An earlier one of the same design, as it was written, whose boxes left are to be gone on with.
     progress : callable, optional
-        Called with boxes done, 0, and the worst condition number met.
+        Called with boxes done, 0, and the worst condition number met; one with a method `phase` is told what begins.
 
     Returns
     -------
@@ -102,21 +98,21 @@ def certify(
         )
     begin = perf_counter()
     followed = _rule(region, configurations[0], rule, resume)
+    start = perf_counter()  # finding a rule does not count for the time limit
+    phase(progress, "proving the limits")
     alone = configurations[[0, 0]]
-    start = perf_counter()
-
-    neutral = configurations[0]
-    stack = configurations[[0, 0]] if only_neutral else configurations
+    stack = alone if only_neutral else configurations
     shape = None if region is None else region.for_core() | ({"rule": followed.for_core()} if followed else {})
-    plan = Plan(study, geometry, neutral, tolerance)
-    found = _extremes(plan, list(plan.requests), geometry, configurations, shape, how)
+    plan = Plan(study, geometry, configurations[0], tolerance)
+    found = extremes(plan, list(plan.requests), geometry, configurations, shape, how)
     proofs = [row(found) for row in plan.rows]
     if any(proof.answer == UNDECIDED and proof.name.startswith(SPREADS) for proof in proofs):
-        found |= _extremes(plan, plan.narrowed(), geometry, configurations, shape, how)
+        found |= extremes(plan, plan.narrowed(), geometry, configurations, shape, how)
         proofs = [row(found) for row in plan.rows]
 
+    phase(progress, "proving the condition number")
     arrays = (stack.position, stack.rotation, stack.internal_point)
-    runs = _Runs(
+    runs = ConditionSearch(
         lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
         how,
         start + seconds,
@@ -133,7 +129,7 @@ def certify(
         proofs.append(_condition_proof(name, bound, runs, tolerance, only_neutral))
     if objective.neutral_condition_limit is not None:
         there = (alone.position, alone.rotation, alone.internal_point)
-        of_neutral = _Runs(
+        of_neutral = ConditionSearch(
             lambda how, boxes: _core.worst_condition(geometry, *there, characteristic_length, None, how, boxes, None),
             how,
             start + seconds,
@@ -147,7 +143,7 @@ def certify(
         limits=tuple(proofs),
         lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
         condition=(runs.low, runs.high),
-        condition_at=_met(runs.end, only_neutral),
+        condition_at=met_at(runs.end, only_neutral),
         condition_boxes=runs.boxes,
         left=tuple(map(tuple, runs.left)),
         left_count=runs.left_count,
@@ -158,54 +154,6 @@ def certify(
         rule=followed,
     )
     return replace(made, seal=_seal(machine, made))
-
-
-def worst_by_rule(
-    study: Study,
-    geometry: Geometry,
-    configurations: Configuration,
-    characteristic_length: float,
-    rule: PointRule,
-    *,
-    seconds: float,
-    threads: int = 0,
-) -> tuple[list[LimitProof], float, list[Met]]:
-    """Return the limits as far as they are proved in a short time, the worst condition number met, and where.
-
-    The poses: where a number that a limit is about, or the condition number, is largest or least.
-    """
-    region = study.objective.region
-    assert region is not None
-    shape = region.for_core() | {"rule": rule.for_core()}
-    how = {"threads": threads, "seconds": seconds, "gap": WIDE, "condition": 0.0}
-    plan = Plan(study, geometry, configurations[0], 0.0)
-    found = _extremes(plan, list(plan.requests), geometry, configurations, shape, how)
-    arrays = (configurations.position, configurations.rotation, configurations.internal_point)
-    end = _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, [], None)[0]
-    met = [*(extreme.at for extreme in found.values()), _met(end, False)]
-    return [row(found) for row in plan.rows], end[0], [at for at in met if at is not None and at.listed is None]
-
-
-def _extremes(
-    plan: Plan,
-    keys: Sequence[Key],
-    geometry: Geometry,
-    configurations: Configuration,
-    shape: dict[str, Any] | None,
-    how: dict[str, Any],
-) -> dict[Key, Extreme]:
-    """Return the extreme values that a plan asks for."""
-    found: dict[Key, Extreme] = {}
-    alone = configurations[[0, 0]]
-    only_neutral = shape is None and len(configurations) == 1
-    for where, posed, of in (("poses", alone if only_neutral else configurations, shape), ("neutral", alone, None)):
-        here = [key for key in keys if key[0] == where]
-        wanted = [plan.requests[key] for key in here]
-        arrays = (posed.position, posed.rotation, posed.internal_point)
-        ends = _core.pose_extremes(geometry, *arrays, of, wanted, how) if here else []
-        at_neutral = only_neutral or where == "neutral"
-        found |= {k: Extreme(end[:2], _met(end, at_neutral), end[6]) for k, end in zip(here, ends, strict=True)}
-    return found
 
 
 def _rule(
@@ -237,50 +185,6 @@ def _rule(
     return rule
 
 
-class _Runs:
-    """Searches for the worst condition number, one after another."""
-
-    def __init__(self, search: Callable[[dict[str, Any], Any], Any], how: dict[str, Any], end: float) -> None:
-        self._search, self._how, self._end = search, how, end
-        self.low, self.high, self.target, self.boxes = 0.0, math.inf, math.inf, 0
-        self.left: list[tuple[float, ...]] = []
-        self.end: Any = None
-        self.interrupted, self.left_count = False, 0
-
-    def enclose(self, wanted: Sequence[float], tolerance: float) -> None:
-        """Enclose it; then prove bounds that lie inside, or what still counts as keeping them."""
-        self._run([], 0.0)
-        self._prove(wanted, tolerance)
-
-    def _prove(self, wanted: Sequence[float], tolerance: float) -> None:
-        for bound in sorted(wanted, reverse=True):
-            goal = bound if self.low < bound else bound * (1.0 + tolerance)
-            if not self.left_count and not self.interrupted and self.low < goal < self.high:
-                self._run([], goal)
-
-    def go_on(self, earlier: MachineCertificate, wanted: Sequence[float], tolerance: float) -> None:
-        """Go on with the boxes of an earlier certificate; from the beginning where it has none, keeping its bound."""
-        self.high, self.boxes = earlier.condition[1], earlier.condition_boxes
-        if earlier.left:
-            self._run(list(earlier.left), earlier.target)
-            self._prove(wanted, tolerance)
-        else:
-            self.enclose(wanted, tolerance)
-
-    def _run(self, boxes: list[tuple[float, ...]], target: float) -> None:
-        seconds = max(self._end - perf_counter(), 0.1)
-        # A bound within the gap is tried at once, another after wider ones.
-        gap = min(self._how["gap"], target / self.low - 1.0) if target and self.low else self._how["gap"]
-        end, left, count, tried, stopped = self._search(
-            self._how | {"seconds": seconds, "condition": target, "gap": gap}, boxes
-        )
-        if self.end is None or end[0] > self.low:
-            self.low, self.end = end[0], end
-        self.high = min(self.high, end[1])
-        self.boxes += end[6]
-        self.left, self.left_count, self.target, self.interrupted = left, count, tried, stopped
-
-
 def _machine(study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float) -> str:
     """Return a digest of every number on which a proof of the condition number depends."""
     region = study.objective.region
@@ -298,18 +202,12 @@ def _seal(machine: str, made: MachineCertificate) -> str:
     return sha256(repr(taken).encode()).hexdigest()
 
 
-def _condition_proof(name: str, limit: float, runs: _Runs, tolerance: float, neutral: bool) -> LimitProof:
+def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: float, neutral: bool) -> LimitProof:
     low, high = runs.low, runs.high
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
-    at = (_met(runs.end, neutral),)
+    at = (met_at(runs.end, neutral),)
     return LimitProof(name, "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", at, runs.boxes)
-
-
-def _met(end: Any, neutral: bool) -> Met:
-    """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
-    _, _, shift, tilt, yaw, listed, _ = end
-    return Met(shift, tilt, yaw, None if listed < 0 else 0 if neutral else listed + 1)
 
 
 def _where(study: Study, only_neutral: bool) -> str:

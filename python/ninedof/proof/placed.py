@@ -4,37 +4,49 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.design.region import Region
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import configurations_at
-from ninedof.proof.machine import worst_by_rule
-from ninedof.proof.machine_record import PROVED, Met
+from ninedof.design.study import Study
+from ninedof.proof.machine_limits import Plan
+from ninedof.proof.machine_record import PROVED, LimitProof, Met
+from ninedof.proof.machine_search import extremes, met_at
 from ninedof.proof.point_rule import PointRule
 from ninedof.proof.rule_fit import Checked, fit_rule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.progress import Progress, phase
 
 SECONDS = 4.0  # of a check: where bounds are met counts, not what is proved
+WIDE = 20.0  # a gap that is proved at once
 PARTS = 4001  # of a path
 
 
 def rule_of(
-    place: Placing, geometry: Geometry, configurations: Configuration, characteristic_length: float, threads: int = 0
+    place: Placing,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    threads: int = 0,
+    progress: Progress | None = None,
 ) -> PointRule:
-    """Fit a rule for O, and mend it where proofs of its limits fail."""
+    """Fit a rule for O, and mend it where proofs of its limits fail.
+
+    A progress with a method `phase` is told what begins. Ctrl-C raises: half a rule is none.
+    """
     study = place.study
     region = study.objective.region
     assert region is not None
     of_condition = study.objective.index == "condition_number"
 
     def check(rule: PointRule) -> Checked:
-        limits, condition, met = worst_by_rule(
-            study, geometry, configurations, characteristic_length, rule, seconds=SECONDS, threads=threads
-        )
+        limits, condition, met = _worst_by_rule(study, geometry, configurations, characteristic_length, rule, threads)
         passed = -math.inf
         for limit in limits:
             if limit.at and limit.answer != PROVED:
@@ -45,7 +57,33 @@ def rule_of(
         index = math.log(condition / place.objective) if of_condition else -math.inf
         return Checked(index, passed, _coordinates(region, place.neutral, met))
 
-    return fit_rule(place, geometry, check, threads)
+    return fit_rule(place, geometry, check, threads, partial(phase, progress))
+
+
+def _worst_by_rule(
+    study: Study,
+    geometry: Geometry,
+    configurations: Configuration,
+    characteristic_length: float,
+    rule: PointRule,
+    threads: int,
+) -> tuple[list[LimitProof], float, list[Met]]:
+    """Return the limits as far as they are proved in a short time, the worst condition number met, and where.
+
+    The poses: where a number that a limit is about, or the condition number, is largest or least.
+    """
+    region = study.objective.region
+    assert region is not None
+    shape = region.for_core() | {"rule": rule.for_core()}
+    how = {"threads": threads, "seconds": SECONDS, "gap": WIDE, "condition": 0.0}
+    plan = Plan(study, geometry, configurations[0], 0.0)
+    found = extremes(plan, list(plan.requests), geometry, configurations, shape, how)
+    arrays = (configurations.position, configurations.rotation, configurations.internal_point)
+    end, *_, interrupted = _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, [], None)
+    if interrupted:  # what a proof would keep is of no use to a fit
+        raise KeyboardInterrupt
+    met = [*(extreme.at for extreme in found.values()), met_at(end, False)]
+    return [row(found) for row in plan.rows], end[0], [at for at in met if at is not None and at.listed is None]
 
 
 def _coordinates(region: Region, neutral: Configuration, met: Sequence[Met]) -> Floats:

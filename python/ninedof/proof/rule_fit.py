@@ -54,16 +54,21 @@ class Checked:
 
 
 def fit_rule(
-    place: Placing, geometry: Geometry, check: Callable[[PointRule], Checked] | None = None, threads: int = 0
+    place: Placing,
+    geometry: Geometry,
+    check: Callable[[PointRule], Checked] | None = None,
+    threads: int = 0,
+    say: Callable[[str], object] = str,
 ) -> PointRule:
     """Return a rule for O over the region of a study, of the lowest degree that is good.
 
-    `check` looks for poses where the rule is worse than it is at the sampled ones.
+    `check` looks for poses where the rule is worse than it is at the sampled ones. `say` is told what begins.
     """
-    fit = _fitted(Rows(place, geometry, threads))
+    fit = _fitted(Rows(place, geometry, threads), say)
     best: tuple[tuple[bool, float], PointRule] | None = None
     for turn in range(ROUNDS if check else 0):
         rule = fit.rule()
+        say(f"checking the rule for O, round {turn + 1} of at most {ROUNDS}")
         found = check(rule)  # type: ignore[misc]
         rank = found.passed > 0.0, found.excess  # limits come first
         if best is None or rank < best[0]:
@@ -72,6 +77,7 @@ def fit_rule(
             break
         if found.passed > 0.0 and found.index > GOOD:  # a goal out of reach would count for more than limits
             fit.rows.goal = math.log(place.objective) + found.index
+        say(f"mending the rule for O, round {turn + 1} of at most {ROUNDS}")
         fit.rows.margin += CAUTION * max(found.passed, 0.0)
         fit.join(np.concatenate([found.poses, fit.passed()]))
         for smoothing in SMOOTHINGS:
@@ -79,14 +85,17 @@ def fit_rule(
     return fit.rule() if best is None else best[1]
 
 
-def _fitted(rows: Rows) -> _Fit:
+def _fitted(rows: Rows, say: Callable[[str], object]) -> _Fit:
     """Return the fit of the lowest degree that is good at the sampled poses."""
-    near, shifts = rows.best(first_samples(rows.region))
+    first = first_samples(rows.region)
+    say(f"placing O at {len(first)} poses")
+    near, shifts = rows.best(first)
     best: _Fit | None = None
     for degree in DEGREES:
         powers = _powers(rows.coordinates(near), degree)
         if best is not None and (len(powers) > MOST_TERMS or len(powers) == best.terms):
             break
+        say(f"fitting a rule for O of degree {degree}")
         fit = _Fit(rows, powers, near, shifts)
         for smoothing in FIRST_SMOOTHINGS:
             fit.lower(smoothing)

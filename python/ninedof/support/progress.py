@@ -12,7 +12,7 @@ Progress = Callable[[int, int, float | None], object]
 or the volume so far; None where there is no such figure."""
 
 
-def phase(progress: Progress, words: str) -> None:
+def phase(progress: Progress | None, words: str) -> None:
     """Tell a progress that has a method `phase` which part of the work begins."""
     say = getattr(progress, "phase", None)
     if callable(say):

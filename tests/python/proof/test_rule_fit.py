@@ -4,6 +4,7 @@ Oracle: poses drawn from the definition of the region, and the numpy model; the 
 """
 
 import math
+import signal
 
 import numpy as np
 import numpy_model as model
@@ -14,6 +15,7 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.design.region_placed import Placing
+from ninedof.proof import placed
 from ninedof.proof.placed import rule_of
 
 VARIABLES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0, "theta_z": 0.6}
@@ -50,10 +52,10 @@ def strokes(m):
     return (lengths.max(axis=0) / lengths.min(axis=0))[3:].max()
 
 
-def fitted(region, constraints, objective):
+def fitted(region, constraints, objective, progress=None):
     study = nd.Study(constraints=constraints, objective=nd.Objective(region=region))
     place = Placing(study, NEUTRAL[0], VARIABLES, objective, ())
-    return rule_of(place, GEOMETRY, NEUTRAL, 1.0)
+    return rule_of(place, GEOMETRY, NEUTRAL, 1.0, progress=progress)
 
 
 @pytest.mark.parametrize("shape", REGIONS)
@@ -77,6 +79,52 @@ def test_a_rule_keeps_to_strokes_that_bind():
         assert strokes(kept) <= limit
         worse, better = (model.condition_number(m).max() for m in (robots(region, shifted), free))
         assert better < model.condition_number(kept).max() < worse
+
+
+class Told:
+    """A progress that keeps what it is told, and presses Ctrl-C at words of a kind."""
+
+    def __init__(self, at="never"):
+        self.words, self.at = [], at
+
+    def __call__(self, *_):
+        raise AssertionError("nothing is counted while a rule is fitted")
+
+    def phase(self, words):
+        self.words.append(words)
+        if words.startswith(self.at):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_a_fit_says_what_it_does():
+    told = Told()
+    fitted(REGIONS["shift"], {}, 20.3, told)
+    first = [words.split()[0] for words in told.words]
+    assert first[:2] == ["placing", "fitting"]
+    assert "checking" in first
+
+
+@pytest.mark.parametrize("at", ["placing", "fitting", "checking"])
+def test_an_interrupted_fit_raises(at):
+    told = Told(at)
+    with pytest.raises(KeyboardInterrupt):
+        fitted(REGIONS["shift"], {}, 20.3, told)
+    assert told.words[-1].startswith(at)
+
+
+def test_a_fit_is_interrupted_in_the_proof_of_its_condition_number(monkeypatch):
+    """The core returns then what it has: a certificate keeps that, a fit has no use for it."""
+    search = placed._core.worst_condition
+    calls = []
+
+    def interrupted(*given):
+        calls.append(given)
+        return (*search(*given)[:-1], True)
+
+    monkeypatch.setattr(placed._core, "worst_condition", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        fitted(REGIONS["shift"], {}, 20.3)
+    assert len(calls) == 1
 
 
 @pytest.mark.slow

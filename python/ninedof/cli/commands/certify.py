@@ -6,7 +6,7 @@ import math
 from typing import Annotated
 
 import typer
-from rich.table import Table
+from rich.table import Column, Table
 
 from ninedof.cli.options import Json, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
@@ -15,6 +15,8 @@ from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.robot.leg_names import LEGS
 from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
 from ninedof.runs.objects import load
+from ninedof.support.arguments import finite
+from ninedof.support.units import with_unit
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -38,22 +40,29 @@ def certify(
 ) -> None:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
     screen = Screen(json)
+    finite("--time", time, 0.0)
+    if condition is not None:
+        finite("--condition", condition, 1.0)
     found = load(run)
     if not isinstance(found, Result):
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     earlier = load_certificate(run) if resume else None
-    with screen.boxes("proving") as bar:
-        certificate = found.certify(
-            condition_number=condition,
-            gap=gap,
-            time_limit=time,
-            tolerance=tolerance,
-            threads=threads or 0,
-            resume=earlier,
-            progress=lambda done, total, _: bar.show(done, total, None),
-        )
+    try:
+        with screen.boxes("certify") as bar:
+            certificate = found.certify(
+                condition_number=condition,
+                gap=gap,
+                time_limit=time,
+                tolerance=tolerance,
+                threads=threads or 0,
+                resume=earlier,
+                progress=bar,
+            )
+    except KeyboardInterrupt:
+        screen.print("[bold]interrupted[/bold] before the limits were proved: the run folder is as it was")
+        raise typer.Exit(INTERRUPTED) from None
     file = save_certificate(certificate, certificate_file(run))
     screen.print(_table(certificate))
     for sentence in certificate.sentences():
@@ -66,23 +75,19 @@ def certify(
 
 
 def _table(certificate: MachineCertificate) -> Table:
-    table = Table("at every pose", "limit", "proved", "margin", "")
+    table = Table("at every pose", "limit", Column("proved", no_wrap=True), Column("margin", no_wrap=True), "")
     unit = certificate.unit
     for leg, (low, high) in zip(LEGS, certificate.lengths, strict=True):
-        table.add_row(leg, "", f"{outward(low, False)} to {outward(high, True)} {unit}".rstrip(), "", "")
+        table.add_row(with_unit(leg, unit), "", f"{outward(low, False)} to {outward(high, True)}", "", "")
     for one in certificate.limits:
         word = "at most" if one.side == "max" else "at least"
-        limit = f"{word} {one.shown(one.limit):.6g} {one.unit(unit)}".rstrip()
-        if one.limit == 0.0:
-            limit = "no change of sign"
-        proved = f"{word} {one.worded()} {one.unit(unit)}".rstrip()
+        limit = "above 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
         on_limit = abs(one.margin) <= certificate.tolerance
-        if on_limit:
-            proved = f"{word} {one.worded(9)} {one.unit(unit)}".rstrip()
+        proved = f"{word} {one.worded(9 if on_limit else 6)}"
         margin = (
             "" if one.limit == 0.0 else f"within {certificate.tolerance:g}" if on_limit else f"{100 * one.margin:.3g} %"
         )
-        table.add_row(one.name.replace("_", " "), limit, proved, margin, one.answer)
+        table.add_row(with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer)
     low, high = certificate.condition
     if not any(one.name == "condition_number" for one in certificate.limits):
         proved = f"at most {outward(high, True)}" if math.isfinite(high) else "nothing"

@@ -214,7 +214,7 @@ def workspace(
                 **proof,
                 home=home,
                 threads=threads,
-                progress=lambda done, total, _: bar.show(done, total, None),
+                progress=bar,
             )
         if found.method != "sample" and not found.interrupted:
             proved = proved.with_estimate(found.volume, found.error)
