@@ -131,7 +131,8 @@ class MachineCertificate:
             out.insert(
                 0,
                 f"O follows the rule stored in the certificate: {self.rule.words} in the shift, the tilt and the yaw. "
-                "What is proved holds for this rule; the O of least condition number has no larger one at any pose.",
+                "What is proved holds for this rule. With O placed for the least condition number, that is at no "
+                "pose larger.",
             )
         kept = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if self.limits and self.limits[0].answer == PROVED:
@@ -139,15 +140,20 @@ class MachineCertificate:
                 "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
             )
         if kept:
-            out.append(f"Proved, up to {self.tolerance:g} of each: the limits {', '.join(kept)}.")
+            limits = "the limit" if len(kept) == 1 else "the limits"
+            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(kept)}.")
         if self.condition[0] > 0.0:
             out.append(
-                f"The worst met is {outward(self.condition[0], False)}, at {self.condition_at.worded(self.unit)}."
+                f"The worst condition number met is {outward(self.condition[0], False)}, at "
+                f"{self.condition_at.worded(self.unit)}."
             )
         if not math.isfinite(self.condition[1]):
             out.append(f"No bound of the condition number is proved; {self.left_count} boxes of poses are left.")
         elif self.left_count:
-            out.append(f"A bound of {self.target:.6g} is not decided: {self.left_count} boxes of poses are left.")
+            out.append(
+                f"Not decided: whether the condition number is at most {self.target:.6g}; {self.left_count} boxes of "
+                "poses are left."
+            )
         for limit in self.limits:
             name = ", ".join(filter(None, [limit.name.replace("_", " "), limit.which]))
             ends = [limit.outward(x, up, 9) for x, up in zip(limit.value, (False, True), strict=True)]

@@ -28,7 +28,7 @@ def require_certifiable(archetype: str, internal_point: Any) -> None:
     if archetype == "orientation":
         raise ValueError("archetype: got 'orientation', expected positions: of orientations nothing is certified")
     if rule_of(internal_point)[0] == "best":
-        expected = "expected a rule: where O is searched for, nothing is certified"
+        expected = "expected carried, shifted, held or a fraction: no proof where O is searched for"
         raise ValueError(f"internal_point: got {shown(internal_point)}, {expected}")
 
 

@@ -85,7 +85,7 @@ def test_sections_show_every_state(published):
     [
         (["--gap", "0.1"], "--gap: got 0.1 without --certify"),
         (["--time", "5"], "--time: got 5 without --certify"),
-        (["--certify", "--internal-point", "best"], "--internal-point: got 'best', expected a rule"),
+        (["--certify", "--internal-point", "best"], "--internal-point: got 'best', expected carried, shifted, held"),
         (["--certify", "--archetype", "orientation", "--angle-deg", "20"], "archetype: got 'orientation'"),
         (["--certify", "--gap", "2"], "--gap: got 2"),
     ],
