@@ -32,12 +32,13 @@ py::dict proved(const Problem& study, double target, int threads, long box_limit
   return out;
 }
 
-py::tuple checked(const std::string& certificate) {
-  checker::Verdict found;
-  {
-    const py::gil_scoped_release nogil;
-    found = checker::check(certificate);
-  }
+py::tuple checked(const std::string& certificate, const py::object& progress) {
+  const checker::Verdict found = interruptible(progress, [&](const Control& control) {
+    return checker::check(certificate, [&](std::size_t done, std::size_t total) {
+      if (control.stop.stop_requested()) throw Stopped{};
+      control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
+    });
+  });
   return py::make_tuple(found.proved, found.words, found.leaves, found.recut);
 }
 

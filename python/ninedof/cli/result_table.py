@@ -49,11 +49,14 @@ def proof_words(result: Result) -> str:
     proof, best = result.proof, result.condition_number
     assert proof is not None
     assert best is not None
-    said = f"[bold]{proof.words}[/bold]\nThe best design is within {proof.gap(best):.1e} of that, relatively"
+    gap = proof.gap(best)
+    near = f"{100.0 * gap:.2g} % of that" if gap >= 1e-4 else f"{gap:.1e} of that, relatively"
+    said = f"[bold]{proof.words}[/bold]\nThe best design is within {near}"
+    ended = "was interrupted" if proof.interrupted else "ended"
     rest = (
         ""
         if proof.complete
-        else f"; the search ended before {proof.target:.6g} was proved, {proof.open} boxes are left"
+        else f"; the search {ended} before {proof.target:.6g} was proved, {proof.open} boxes are left"
     )
     return f"{said}; {proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}."
 

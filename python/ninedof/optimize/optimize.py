@@ -109,13 +109,16 @@ def optimize(
 def proved(result: Result, threads: int | None = None, progress: Progress | None = None) -> Result:
     """Return a result with a proof of how much better a design of its study can be at most.
 
-    Where the proof leaves limits out, the optimum of the study without them is what it can come up to.
+    Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
+    result is `interrupted`.
     """
     study, known = result.study, float(result.condition_number)  # type: ignore[arg-type]
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         kept = {name: limit for name, limit in study.constraints.items() if name not in left_out}
         relaxed = optimize(replace(study, constraints=kept), threads=threads, progress=progress, warm=result)
+        if relaxed.interrupted:
+            return replace(result, interrupted=True)
         known = min(known, relaxed.condition_number or known)
     if progress is not None:
         phase(progress, "proving that no design is better")
@@ -126,7 +129,7 @@ def proved(result: Result, threads: int | None = None, progress: Progress | None
         if known * (1.0 - gap) <= 1.0:
             break  # what was proved so far is all that can be aimed at
         proof = prove_optimum(study, known, gap=gap, time_limit=LONGEST, threads=threads, progress=progress)
-    return replace(result, proof=proof)
+    return replace(result, proof=proof, interrupted=proof.interrupted)
 
 
 @short_repr

@@ -21,7 +21,7 @@ FILE = "optimum.certificate"
 GAPS = {"hexagonal": 1e-12, "symmetric": 1e-6}
 """What is aimed at: of hexagons five numbers matter, of other symmetric designs seven."""
 MOST_BOXES = 100_000_000  # a gigabyte of tree, some five minutes
-PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better")
+PLAIN = ("lower_bound", "target", "complete", "boxes", "open", "seconds", "better", "interrupted")
 
 
 @short_repr
@@ -45,6 +45,8 @@ class OptimumProof:
     within their ranges, and leaves limits out."""
     left_out: tuple[str, ...] = ()
     """Limits of the study that the proof does without: the bound holds for more designs than the study allows."""
+    interrupted: bool = False
+    """Whether Ctrl-C ended the search."""
     certificate: bytes = field(default=b"", repr=False, compare=False)
     """A file that `ninedof check` and the program ninedof_check read; empty if the search did not come to its end."""
 
@@ -82,7 +84,7 @@ class OptimumProof:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:
         """Return the proof of a mapping as `to_dict` makes it, without its certificate."""
-        return cls(**{name: data[name] for name in PLAIN}, left_out=tuple(data["left_out"]))
+        return cls(**{name: data[name] for name in PLAIN if name in data}, left_out=tuple(data["left_out"]))
 
 
 def prove_optimum(
@@ -171,7 +173,9 @@ def _proved(
     problem: _core.Problem, target: float, threads: int, boxes: int, limit: float, progress: Progress | None
 ) -> OptimumProof:
     found = _core.prove_optimum(problem, target, threads, boxes, limit, True, progress)
-    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), **found)
+    at_limit = found["boxes"] >= boxes or 0.0 < limit <= found["seconds"]
+    interrupted = not found["complete"] and found["better"] is None and not at_limit
+    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), interrupted=interrupted, **found)
 
 
 @short_repr
@@ -187,7 +191,7 @@ class Checked:
     """Boxes that were cut further than by the search."""
 
 
-def check_certificate(path: str | os.PathLike[str]) -> Checked:
+def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> Checked:
     """Check a certificate of an optimum, without trusting the search that wrote it.
 
     By the code of the program ninedof_check, which shares none with the search: interval numbers, formulas and the
@@ -197,6 +201,8 @@ def check_certificate(path: str | os.PathLike[str]) -> Checked:
     ----------
     path : path
         As `OptimumProof.save` writes it.
+    progress : callable, optional
+        Called as progress(bytes read, all bytes, None).
 
     Returns
     -------
@@ -213,4 +219,4 @@ def check_certificate(path: str | os.PathLike[str]) -> Checked:
         data = Path(path).read_bytes()
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
-    return Checked(*_core.check_certificate(data))
+    return Checked(*_core.check_certificate(data, progress_argument(progress)))

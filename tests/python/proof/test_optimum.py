@@ -3,8 +3,10 @@
 import dataclasses
 import json
 import math
+import signal
 import zlib
 from fractions import Fraction
+from importlib import import_module
 
 import certificate_in_balls as balls
 import numpy as np
@@ -190,6 +192,59 @@ def test_a_small_certificate_is_checked(tmp_path, capsys):
     assert "  radius_ratio from 0 to 2\n" in said
     head, body = path.read_bytes().split(b"\n", 2)[:2], path.read_bytes().split(b"\n", 2)[2]
     assert head[1] == f"checksum {zlib.crc32(body):x}".encode()
+
+
+def interrupt(*_):
+    signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupted_proof_says_so():
+    proof = nd.prove_optimum(PAPER, BEST, progress=interrupt)
+    assert proof.interrupted
+    assert not proof.complete
+    assert 1.0 < proof.lower_bound < BEST
+    assert OptimumProof.from_dict(proof.to_dict()) == proof
+    assert not nd.prove_optimum(PAPER, BEST, time_limit=1e-3).interrupted
+    assert not nd.prove_optimum(PAPER, BEST, gap=0.3, progress=lambda *_: None).interrupted
+
+
+def test_an_interrupted_proof_ends_the_command_as_one(tmp_path, monkeypatch, capsys):
+    """The design found stays, with what is proved of it."""
+    cut_short = nd.prove_optimum(PAPER, BEST, progress=interrupt)
+    monkeypatch.setattr(import_module("ninedof.optimize.optimize"), "prove_optimum", lambda *_, **__: cut_short)
+    study = tmp_path / "study.toml"
+    study.write_text("[constraints]\nradius_ratio = { max = 2.0 }\n[solver]\nstarts = 2\n")
+    with pytest.raises(SystemExit) as ended:
+        main(["optimize", str(study), "--certify", "--no-figures", "--out", str(tmp_path / "run")])
+    assert ended.value.code == 130
+    assert "the search was interrupted before" in " ".join(capsys.readouterr().out.split())
+    assert nd.load(tmp_path / "run").proof.interrupted
+    assert not (tmp_path / "run" / FILE).exists()
+
+
+def test_reading_a_certificate_is_reported_and_can_be_interrupted(tmp_path):
+    path = nd.prove_optimum(PAPER, BEST, gap=0.3).save(tmp_path / "some")
+    read = []
+    assert nd.check_certificate(path, progress=lambda *report: read.append(report)).proved
+    assert read
+    assert sorted(read) == read
+    assert all(0 < done <= total < path.stat().st_size for done, total, _ in read)
+    with pytest.raises(KeyboardInterrupt):
+        nd.check_certificate(path, progress=interrupt)
+    with pytest.raises(ValueError, match="progress: got 3"):
+        nd.check_certificate(path, progress=3)
+
+
+def test_what_is_no_certificate_is_said_in_a_line(tmp_path, capsys):
+    (tmp_path / "run").mkdir()
+    for name, code, words in (("run", 2, f"run: got no {FILE}, expected a run"), ("note", 1, "Refused: this is not")):
+        (tmp_path / "note").write_text("nothing")
+        with pytest.raises(SystemExit) as ended:
+            main(["check", str(tmp_path / name)])
+        assert ended.value.code == code
+        said = capsys.readouterr()
+        assert words in " ".join((said.out + said.err).split())
+        assert "0 boxes" not in said.out
 
 
 @pytest.mark.skipif(not LONG, reason="ten seconds: NINEDOF_LONG=1")

@@ -2,6 +2,8 @@
 /// Checks a certificate of the optimum. Shares no source with the search that wrote it: its own intervals, its own
 /// formulas, from docs/certificate.md alone.
 
+#include <cstddef>
+#include <functional>
 #include <string>
 
 namespace ninedof::checker {
@@ -13,7 +15,11 @@ struct Verdict {
   long recut = 0;     ///< of these, boxes that were cut further to see it
 };
 
+/// Called now and then with the bytes of the tree that are read, and all of them. What it throws ends the check, unless
+/// it is a std::exception: then the certificate counts as refused.
+using Reading = std::function<void(std::size_t done, std::size_t total)>;
+
 /// `certificate`: the bytes of the file.
-Verdict check(const std::string& certificate);
+Verdict check(const std::string& certificate, const Reading& reading = {});
 
 }  // namespace ninedof::checker

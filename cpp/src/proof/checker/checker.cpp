@@ -22,7 +22,8 @@ std::pair<Box, Box> halves(const Box& box, std::size_t k, int dimension) {
 
 class Walk {
  public:
-  Walk(const Domain& domain, const std::string& tree, Verdict& verdict) : d_(domain), tree_(tree), verdict_(verdict) {}
+  Walk(const Domain& domain, const std::string& tree, Verdict& verdict, const Reading& reading)
+      : d_(domain), tree_(tree), verdict_(verdict), reading_(reading) {}
 
   void run() {
     std::vector<Box> ahead{d_.box};
@@ -64,6 +65,8 @@ class Walk {
     } else if (code != 16 && code != 17) {
       refuse("byte " + std::to_string(code) + " of the tree means nothing");
     }
+    constexpr long between_reports = 256;
+    if (reading_ && verdict_.leaves % between_reports == 0) reading_(at_, tree_.size());
     ++verdict_.leaves;
     if (!closed(box, by, 0)) refuse("a box is not proved to hold no design below the target");
   }
@@ -98,6 +101,7 @@ class Walk {
   const Domain& d_;
   const std::string& tree_;
   Verdict& verdict_;
+  const Reading& reading_;
   std::size_t at_ = 0;
 };
 
@@ -115,7 +119,7 @@ std::string rounded_down(double x) {
 
 }  // namespace
 
-Verdict check(const std::string& certificate) {
+Verdict check(const std::string& certificate, const Reading& reading) {
   Verdict out;
   try {
     volatile double least = std::numeric_limits<double>::min(), half = 0.5;
@@ -129,7 +133,7 @@ Verdict check(const std::string& certificate) {
     } else {
       for (const Range& r : d.box)
         if (!r.sound() || !(r.a > 0.0) || !(r.b < inf)) refuse("the domain has no bounds");
-      Walk(d, c.tree, out).run();
+      Walk(d, c.tree, out, reading).run();
     }
     out.words = "no design of this study has a condition number below " + rounded_down(c.target);
     out.proved = true;

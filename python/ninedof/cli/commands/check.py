@@ -28,12 +28,16 @@ def check(
     """Check a certificate: that no design of its study has a condition number below the bound it states."""
     screen = Screen(json)
     path = certificate / FILE if certificate.is_dir() else certificate
-    found = check_certificate(path)
+    if not path.exists() and path != certificate:
+        raise ValueError(f"{certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
+    with screen.points("reading the certificate") as bar:
+        found = check_certificate(path, progress=bar)
     if found.proved:
         for line in _study_of(path.read_bytes()):
             screen.print(escape(line))
     screen.print(f"[bold]{'Proved' if found.proved else 'Refused'}[/bold]: {escape(found.words)}")
-    screen.print(f"{found.boxes} boxes of the certificate, {found.recut} cut further by the checker")
+    if found.proved:
+        screen.print(f"{found.boxes} boxes of designs read, {found.recut} cut further by the checker")
     screen.data({"proved": found.proved, "words": found.words, "boxes": found.boxes})
     raise typer.Exit(0 if found.proved else 1)
 
