@@ -27,8 +27,8 @@ CPP_ROOMS = (
 SUPPORT = "support"  # what bindings, tests or benchmarks share among themselves
 CPP_OUTSIDE = {"cpp/bindings/module.cpp"}  # lists the rooms
 
-# The closed form and the general path are each other's oracle, and so are a proof and its checker: files of these names,
-# and in folders of these names, may not meet those, not even through a third file.
+# The closed form and the general path are each other's oracle, and so are a proof and its checker: files of these
+# names, and in folders of these names, may not meet those, not even through a third file.
 CPP_INDEPENDENT = {
     "symmetric": {"velocity", "legs", "conditioning"},
     "checker": {"interval", "dual", "symmetric", "axis_pieces", "axis_rows", "combination", "box_bound", "axis_domain"},
