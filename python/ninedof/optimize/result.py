@@ -19,12 +19,14 @@ from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result_html import result_html
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate
+from ninedof.proof.machine_seal import belongs, machine_digest
 from ninedof.proof.optimum import OptimumProof
 from ninedof.proof.placed import rule_of
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
 
 if TYPE_CHECKING:
@@ -248,16 +250,23 @@ class Result:
             Without a design; for a bad option.
 
         """
-        best = self.best
-        if best is None:
-            raise ValueError(f"result: got one without a design, expected one to be proved: {self.reason}")
-        configurations = best.configurations[: 1 + len(self.study.objective.poses)]
-        design = best.geometry, configurations, best.characteristic_length
+        design = self._machine()
+        progress_argument(options.get("progress"))
         place = self._placing()
         if options.get("rule") is None and options.get("resume") is None and place is not None:
             how = options.get("threads", 0), options.get("progress")
             options["rule"] = lambda: rule_of(place, *design, *how)
         return certify(self.study, *design, **options)
+
+    def is_certified_by(self, certificate: MachineCertificate) -> bool:
+        """Whether a certificate is one of this design at these poses, as `certify` returned it."""
+        return self.best is not None and belongs(certificate, machine_digest(self.study, *self._machine()))
+
+    def _machine(self) -> tuple[Geometry, Configuration, float]:
+        best = self.best
+        if best is None:
+            raise ValueError(f"result: got one without a design, expected one to be proved: {self.reason}")
+        return best.geometry, best.configurations[: 1 + len(self.study.objective.poses)], best.characteristic_length
 
     def _placing(self) -> Placing | None:
         """Return how O is placed in the region, where the study places it anew at every pose."""

@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from hashlib import sha256
 from time import perf_counter
-
-import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import label
@@ -16,6 +12,7 @@ from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_limits import SPREADS, Plan
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
+from ninedof.proof.machine_seal import belongs, machine_digest, sealed
 from ninedof.proof.machine_search import ConditionSearch, extremes, met_at
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
@@ -90,8 +87,8 @@ def certify(
         raise ValueError(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
         )
-    machine = _machine(study, geometry, configurations, characteristic_length)
-    if resume is not None and resume.seal != _seal(machine, resume):
+    machine = machine_digest(study, geometry, configurations, characteristic_length)
+    if resume is not None and not belongs(resume, machine):
         raise ValueError(
             "resume: got a certificate of another machine or one that was changed, expected one of this machine as it "
             "was written"
@@ -153,7 +150,7 @@ def certify(
         interrupted=runs.interrupted,
         rule=followed,
     )
-    return replace(made, seal=_seal(machine, made))
+    return sealed(made, machine)
 
 
 def _rule(
@@ -183,23 +180,6 @@ def _rule(
     if not rule.about(neutral):
         raise ValueError("rule: got one about another neutral pose, expected that of the design")
     return rule
-
-
-def _machine(study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float) -> str:
-    """Return a digest of every number on which a proof of the condition number depends."""
-    region = study.objective.region
-    digest = sha256(repr((float(characteristic_length), region and region.for_core())).encode())
-    joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
-    for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
-        digest.update(repr(np.asarray(array, float).tolist()).encode())
-    return digest.hexdigest()
-
-
-def _seal(machine: str, made: MachineCertificate) -> str:
-    """Return a digest of a machine and of what a run that goes on takes from its certificate."""
-    rule = None if made.rule is None else made.rule.digest
-    taken = (machine, rule, made.condition, made.target, made.left_count, made.left)
-    return sha256(repr(taken).encode()).hexdigest()
 
 
 def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: float, neutral: bool) -> LimitProof:

@@ -80,7 +80,10 @@ class PointRule:
 
     def at(self, coordinates: ArrayLike) -> Floats:
         """Return s of coordinates (shift of p, tilt about x and y, yaw), shape (..., 6)."""
-        x = np.asarray(coordinates, dtype=float) / np.array(self.scale)
+        given = np.asarray(coordinates, dtype=float)
+        if given.shape[-1:] != (6,):
+            raise ValueError(f"coordinates: got shape {given.shape}, expected (..., 6)")
+        x = given / np.array(self.scale)
         powers = np.stack([x**n for n in range(max(map(max, self.powers)) + 1)])
         out = np.broadcast_to(np.array(self.internal_point), (*x.shape[:-1], 3)).copy()
         for term, coefficient in zip(self.powers, self.coefficients, strict=True):

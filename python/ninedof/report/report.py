@@ -83,9 +83,23 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     found = None if record.kind == PAPER and not point else load(run)
     whole = load(place) if point else None
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    certificate = load_certificate(run) if certificate_file(run).is_file() else None
+    certificate = _certificate_of(found, run) if isinstance(found, Result) else None
     made = _page_of(found, record, name, point, whole, certificate)
     return _written(made, record, file, None if point else folder, name)
+
+
+def _certificate_of(found: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
+    """Return what `ninedof certify` proved of a run, if it did."""
+    file = certificate_file(run)
+    if not file.is_file():
+        return None
+    certificate = load_certificate(run)
+    if not found.is_certified_by(certificate):
+        raise ValueError(
+            f"{file}: got a certificate of another machine or one that was changed, expected that of the run: `ninedof "
+            f"certify {os.fspath(run)}` writes it anew"
+        )
+    return certificate
 
 
 def _page_of(

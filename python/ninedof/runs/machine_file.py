@@ -42,6 +42,8 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
 
     """
     file = Path(run)
+    if not file.name.startswith("certify") and not split(os.fspath(run))[0].exists():
+        raise ValueError(f"{os.fspath(run)}: cannot be read (No such file or directory)")
     if not file.name.startswith("certify"):
         file = certificate_file(run)
     try:

@@ -94,3 +94,33 @@ def test_an_interrupted_fit_of_a_rule_leaves_nothing(run, tmp_path, monkeypatch,
     said = capsys.readouterr()
     assert "interrupted before the limits were proved: the run folder is as it was" in said.out
     assert "Traceback" not in said.err
+
+
+def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run, tmp_path):
+    found = nd.load(run)
+    ours, other = tmp_path / "ours", tmp_path / "other"
+    nd.save(found, ours)
+    nd.save(nd.optimize(nd.Study(constraints={"radius_ratio": (None, 1.5)}), starts=2), other)
+    assert status(ours) == 0
+    assert found.is_certified_by(nd.load_certificate(ours))
+    assert "condition number is at most 3.76266." in nd.report(ours).read_text()
+    shutil.copy(ours / "certify.json", other)
+    assert not nd.load(other).is_certified_by(nd.load_certificate(other))
+    with pytest.raises(ValueError, match=r"certify\.json: got a certificate of another machine"):
+        nd.report(other)
+    text = (ours / "certify.json").read_text()
+    (ours / "certify.json").write_text(text.replace('"which": "det N"', '"which": "det B"'))
+    with pytest.raises(
+        ValueError, match=r"certify\.json: got a certificate of another machine or one that was changed"
+    ):
+        nd.report(ours)
+
+
+def test_a_place_that_is_none_is_named(tmp_path):
+    with pytest.raises(ValueError, match="nowhere: cannot be read"):
+        nd.load_certificate(tmp_path / "nowhere")
+
+
+def test_a_progress_that_cannot_be_called_is_named(run):
+    with pytest.raises(ValueError, match="progress: got 3, expected a callable"):
+        nd.load(run).certify(progress=3)

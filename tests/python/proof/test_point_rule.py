@@ -163,6 +163,8 @@ def test_a_proof_goes_on_with_its_own_rule_alone():
 
 
 def test_a_rule_that_does_not_fit_is_named():
+    with pytest.raises(ValueError, match=r"^coordinates: got shape \(3,\), expected"):
+        random_rule(REGIONS["box"], np.random.default_rng(1), 1).at((1.0, 2.0, 3.0))
     region = REGIONS["box"]
     rule = random_rule(region, np.random.default_rng(5), 1)
     with pytest.raises(ValueError, match=r"^rule: got none, expected one that says where O is"):
