@@ -354,7 +354,7 @@ BAD = [
     ({"box": None}, "box: got nothing"),
     ({"box": ([0, 0, 0], [1, 1, 0])}, "box"),
     ({"archetype": "orientation"}, "archetype: got 'orientation', expected positions"),
-    ({"internal_point": "best"}, "internal_point: got 'best', expected a rule"),
+    ({"internal_point": "best"}, "internal_point: got 'best', expected carried, shifted, held or a fraction"),
     ({"criteria": {}}, "criteria: got none, expected at least one"),
     ({"criteria": {"condition_number": 0.5}}, "condition_number: got 0.5, expected at least 1"),
     ({"gap": 0.0}, "gap: got 0"),
