@@ -1,4 +1,4 @@
-"""The command line: registers the commands, turns errors into messages and exit codes."""
+"""The command line: registers the commands and runs the one that was asked for."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from ninedof.cli import commands
+from ninedof.cli.ending import ended
 from ninedof.cli.interruption import interruptible
 from ninedof.support.command import running
 
@@ -23,7 +24,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Optimum design of the nine-degree-of-freedom parallel manipulator of Zanganeh and Angeles.",
-    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem.",
+    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem. Exit status: 0 done, 1 refused "
+    "by the system (a file, the disk), 2 bad input, 3 no acceptable result, 4 a failure of memory, a library or a "
+    "cluster, 130 interrupted.",
 )
 
 
@@ -56,31 +59,10 @@ _register()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line; bad input prints one line on standard error, and the exit status is 2."""
+    """Run the command line and end with its exit status; an error is one line on standard error."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     own_option = bool(given) and given[0] in ("-h", "--help", "--version")
     if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")
-    try:
-        with interruptible(), running(PROGRAM, given):
-            app(given, prog_name=PROGRAM)
-    except ValueError as error:
-        typer.echo(f"ninedof: {as_typed(str(error), given)}", err=True)
-        raise SystemExit(2) from None
-    except BrokenPipeError:  # the reader closed the pipe, as `head` does
-        sys.stderr.close()
-        raise SystemExit(0) from None
-    except OSError as error:
-        typer.echo(f"ninedof: {error}", err=True)
-        raise SystemExit(1) from None
-    except KeyboardInterrupt:
-        typer.echo("ninedof: interrupted", err=True)
-        raise SystemExit(130) from None
-
-
-def as_typed(message: str, given: Sequence[str]) -> str:
-    """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
-    name, _, rest = message.partition(": ")
-    option = f"--{name.replace('_', '-')}"
-    typed = any(word == option or word.startswith(f"{option}=") for word in given)
-    return f"{option}: {rest}" if typed else message
+    with interruptible(), running(PROGRAM, given):
+        raise SystemExit(ended(lambda: app(given, prog_name=PROGRAM, standalone_mode=False), given))

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from rich.markup import escape
-
 from ninedof.cli.screen import Screen
 from ninedof.report.report import FILE, report
+from ninedof.support.printable import one_line
 
 Draw = Callable[[Path], Sequence[Path]]
 
 
-def with_report(draw: Draw | None, wanted: bool, screen: Screen) -> Draw:
-    """Return a function that draws the figures of a run, if there are any, and then writes its report, if wanted.
+def with_report(draw: Draw | None, wanted: bool, screen: Screen, words: Callable[[], object] = lambda: None) -> Draw:
+    """Return what follows the record of a run: words on it, figures, if there are any, and its report, if wanted.
 
     A report that fails does not fail the job: the screen says why in one line. The report of an interrupted run that
     was continued is removed at first: it would not agree with the record.
@@ -22,11 +21,12 @@ def with_report(draw: Draw | None, wanted: bool, screen: Screen) -> Draw:
 
     def drawn(folder: Path) -> list[Path]:
         (folder / FILE).unlink(missing_ok=True)
+        words()
         try:
             files = [] if draw is None else list(draw(folder))
             return files + written(folder) if wanted else files
         except KeyboardInterrupt:
-            screen.print(escape(f"interrupted while drawing; run folder {folder} has the record"))
+            screen.print(f"interrupted while drawing; run folder {folder} has the record")
             raise
 
     def written(folder: Path) -> list[Path]:
@@ -35,7 +35,7 @@ def with_report(draw: Draw | None, wanted: bool, screen: Screen) -> Draw:
             return [report(folder)]
         except Exception as error:  # whatever it is: the run is solved and kept, its report can be written again
             words = str(error) if isinstance(error, OSError | ValueError) else repr(error)
-            screen.print(escape(f"the report could not be written: {' '.join(words.split())}"))
+            screen.print(one_line(f"the report could not be written: {' '.join(words.split())}"))
         return []
 
     return drawn

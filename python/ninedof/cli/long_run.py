@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
@@ -9,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ninedof.cli.job_report import report_words, with_report
-from ninedof.cli.screen import Screen
+from ninedof.cli.screen import Screen, bold
 from ninedof.runs.directory import run_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.extras import MissingExtra
@@ -45,8 +46,11 @@ def compute(
             return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
     except KeyboardInterrupt:
         screen.print(
-            f"[bold]interrupted[/bold]: finished chunks are kept in {directory}; the same command with "
-            f"--out {directory} --resume continues the run"
+            bold(
+                "interrupted",
+                f": finished chunks are kept in {directory}; the same command with "
+                f"--out {shlex.quote(str(directory))} --resume continues the run",
+            )
         )
         screen.data({"interrupted": True, "run": str(directory)})
         return None
@@ -59,9 +63,10 @@ def write(
     draw: Callable[[], Iterable[tuple[str, Figure]]] | None,
     screen: Screen,
     data: Any,
+    words: Callable[[], object],
     report: bool = True,
 ) -> None:
-    """Write the result, its record, its figures, each with its name, and its report; print the names."""
+    """Write the result and its record, say the words, then write figures, each with its name, and the report."""
     names: list[str] = []
 
     def drawn(folder: Path) -> list[Path]:
@@ -74,7 +79,7 @@ def write(
             files += plot.save(figure, folder, name)
         return files
 
-    drawing = with_report(drawn if draw else None, report and draw is not None, screen)
+    drawing = with_report(drawn if draw else None, report and draw is not None, screen, words)
     record = write_run(result, directory, drawing, results=data)
     made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
     screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}{report_words(directory)}")

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 from rich.table import Table
+from rich.text import Text
 
-from ninedof.cli.screen import Screen
+from ninedof.cli.screen import Screen, bold
 from ninedof.motion import Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.sheet.path_limits import LENGTHS, PathLimits, row_words
@@ -59,7 +60,7 @@ def limits_table(of_study: PathLimits, unit: str) -> Table:
     return table
 
 
-def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:
+def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str | Text]:
     """Yield remarks on the table, one sentence each."""
     about = found.to_dict()
     kappa, near = about["condition_number"], about["nearest_singularity"]
@@ -77,21 +78,21 @@ def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str]:
     breaks = sorted((*found.breaks, *(of_study.breaks if of_study else ())), key=lambda b: (b.begin, b.limit))
     for broken in breaks[:SHOWN]:
         if broken.limit.startswith("det"):
-            yield f"[bold]singularity[/bold]: {broken.limit} changes sign at t = {broken.begin:.6g}"
+            yield bold("singularity", f": {broken.limit} changes sign at t = {broken.begin:.6g}")
         else:
             when = f"from t = {broken.begin:.6g} to {broken.end:.6g}"
             cone = broken.limit.startswith(tuple(CONES))
             worst = f"{math.degrees(broken.worst):.5g}°" if cone else f"{broken.worst:.5g}"
             if broken in found.breaks or (broken.limit.startswith(LENGTHS) and not broken.limit.startswith("stroke_")):
                 worst = amount(worst, found.unit)
-            yield f"[bold]limit breaks[/bold]: {broken.limit}, {when}, at worst {worst} at {broken.at:.6g}"
+            yield bold("limit breaks", f": {broken.limit}, {when}, at worst {worst} at {broken.at:.6g}")
     if len(breaks) > SHOWN:
         yield f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {found.tracking_error:.1e}"
     if found.tracked:
         yield f"tracked back from the leg lengths, every step proved: {error}"
     else:
-        yield f"[bold]not tracked back[/bold] beyond t = {found.tracked_until:.6g}: {error}"
+        yield bold("not tracked back", f" beyond t = {found.tracked_until:.6g}: {error}")
 
 
 def draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from rich.table import Table
+from rich.text import Text
 
+from ninedof.cli.screen import bold
 from ninedof.design.study import LENGTH
 from ninedof.optimize.prices import price_words
 from ninedof.optimize.result import Candidate, Result
@@ -44,21 +46,21 @@ def result_table(result: Result) -> Table:
     return table
 
 
-def proof_words(result: Result) -> str:
+def proof_words(result: Result) -> Text:
     """Return what is proved of all designs of the study, and how near the best one is to it."""
     proof, best = result.proof, result.condition_number
     assert proof is not None
     assert best is not None
     gap = proof.gap(best)
     near = f"{100.0 * gap:.2g} % of that" if gap >= 1e-4 else f"{gap:.1e} of that, relatively"
-    said = f"[bold]{proof.words}[/bold]\nThe best design is within {near}"
+    said = f"\nThe best design is within {near}"
     ended = "was interrupted" if proof.interrupted else "ended"
     rest = (
         ""
         if proof.complete
         else f"; the search {ended} before {proof.target:.6g} was proved, {proof.open} boxes are left"
     )
-    return f"{said}; {proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}."
+    return bold(proof.words, f"{said}; {proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}.")
 
 
 def price_text(result: Result) -> list[str]:

@@ -1,4 +1,7 @@
-"""Output of the commands: text, progress bars, JSON, and the exit status."""
+"""Output of the commands: text, progress bars, JSON, and the exit status.
+
+No string is markup here, whoever wrote it, and characters that would move the cursor are shown as escapes.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,7 @@ from rich.progress import (
     Progress,
     ProgressColumn,
     Task,
+    TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
@@ -21,8 +25,19 @@ from rich.text import Text
 
 from ninedof.optimize.result import Result, Status
 from ninedof.support.json import encode
+from ninedof.support.printable import escaped, one_line
 
-DONE, NO_RESULT, INTERRUPTED = 0, 3, 130  # 2, for bad input, is set by `app`
+DONE = 0
+REFUSED = 1  # by the system: a file, the disk; of `ninedof check`, a certificate
+BAD_INPUT = 2
+NO_RESULT = 3  # the work is done, and nothing acceptable was found
+FAILED = 4  # not by the user: memory, an error of a library, a cluster
+INTERRUPTED = 130  # by Ctrl-C; 128 + the number of another signal
+
+
+def status_of(code: object) -> int:
+    """Return the exit status for what a command, or a SystemExit, leaves behind."""
+    return code if isinstance(code, int) else DONE if code is None else FAILED
 
 
 def exit_status(result: Result) -> int:
@@ -32,14 +47,29 @@ def exit_status(result: Result) -> int:
     return DONE if result.status == Status.OPTIMAL else NO_RESULT
 
 
+class _Plain(Console):
+    """A console to which all strings are text."""
+
+    def __init__(self, stderr: bool = False) -> None:
+        super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False)
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        return super().render_str(escaped(text), **options)
+
+
+def bold(words: str, rest: str = "") -> Text:
+    """Return text that begins with bold words."""
+    return Text.assemble((escaped(words), "bold"), escaped(rest))
+
+
 class Screen:
     """Text goes to standard output, or to standard error if standard output is for JSON."""
 
     def __init__(self, json: bool) -> None:
         """Choose the consoles."""
         self.json = json
-        self.progress_console = Console(stderr=True)
-        self.words = Console(stderr=True) if json else Console(highlight=False)
+        self.progress_console = _Plain(stderr=True)
+        self.words = _Plain(stderr=True) if json else _Plain()
 
     def print(self, *parts: Any) -> None:
         """Print text or a table."""
@@ -52,7 +82,7 @@ class Screen:
 
     def say(self, doing: str) -> None:
         """Print the current step, such as drawing."""
-        self.progress_console.print(f"  {doing}", style="dim", highlight=False)
+        self.progress_console.print(f"  {doing}", style="dim")
 
     def progress(self, title: str) -> AbstractContextManager[Bar]:
         """Show a bar of runs with the best objective so far."""
@@ -96,7 +126,10 @@ class Screen:
         at_once: bool = False,
     ) -> Iterator[Bar]:
         """Show a bar from the first report on, or at once. Bad input raises before the first report: no bar then."""
-        shown = Progress("{task.description}", *columns, console=self.progress_console)
+        parts = (
+            TextColumn(one, markup=False) if isinstance(one, str) else one for one in ("{task.description}", *columns)
+        )
+        shown = Progress(*parts, console=self.progress_console)
         if at_once:
             shown.start()
         try:
@@ -123,6 +156,7 @@ class Bar:
 
     def __init__(self, shown: Progress, title: str, words: Callable[[float | None], str]) -> None:
         """Add a bar without a length; `words` formats the value of a report."""
+        title = one_line(title)
         self._shown, self._title, self._words = shown, title, words
         self._task = shown.add_task(title, total=None, value="")
 
@@ -136,4 +170,4 @@ class Bar:
     def phase(self, words: str) -> None:
         """Say behind the title which part of the work is done."""
         self._shown.start()
-        self._shown.update(self._task, description=f"{self._title}: {words}")
+        self._shown.update(self._task, description=one_line(f"{self._title}: {words}"))

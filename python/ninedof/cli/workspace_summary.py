@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.table import Table
+from rich.text import Text
 
-from ninedof.cli.screen import Screen
+from ninedof.cli.screen import Screen, bold
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.region import Region
 from ninedof.design.region_outline import region_lines, section_outline
@@ -84,7 +85,7 @@ def _rows(index: Index, over: IndexStatistics) -> Iterator[tuple[Any, ...]]:
         yield from zip(index.components, over.mean, over.least, over.greatest, strict=True)
 
 
-def sentences(found: WorkspaceMap) -> Iterator[str]:
+def sentences(found: WorkspaceMap) -> Iterator[str | Text]:
     """Yield remarks on the table, one sentence each."""
     words = {
         "limited": "the greatest number of poses was reached before the wanted error",
@@ -92,7 +93,7 @@ def sentences(found: WorkspaceMap) -> Iterator[str]:
         "stopped": "interrupted: the state after the last complete level",
     }
     if found.status in words:
-        yield f"[bold]{found.status}[/bold]: {words[found.status]}"
+        yield bold(found.status, f": {words[found.status]}")
     if not found.home_allowed:
         yield f"the home pose is not allowed: {found.home_limit}"
     if found.box_limits:

@@ -12,7 +12,7 @@ from ninedof import _core
 from ninedof.design import limits
 from ninedof.design.objective import Objective
 from ninedof.support.angles import angle_entry
-from ninedof.support.arguments import known_keys, shown, table
+from ninedof.support.arguments import known_keys, shown, shown_key, table
 from ninedof.support.files import write_whole
 from ninedof.support.units import AT_TOP, unit_entry
 
@@ -58,7 +58,9 @@ def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:
     known_keys("solver", tables["solver"], ["starts", "seed"])
     return {
         "variables": tables["variables"],
-        "constraints": {name: _limits(f"constraints.{name}", given) for name, given in tables["constraints"].items()},
+        "constraints": {
+            name: _limits(f"constraints.{shown_key(name)}", given) for name, given in tables["constraints"].items()
+        },
         "objective": Objective.from_dict(tables["objective"]),
         **({"unit": data["unit"]} if "unit" in data else {}),
         **tables["design"],

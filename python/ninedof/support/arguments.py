@@ -24,9 +24,14 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST else text[:LONGEST] + "..."
 
 
+def shown_key(key: object) -> str:
+    """Return a key for a message: as it is where it is a short name, else as `shown`."""
+    return key if isinstance(key, str) and key.isidentifier() and len(key) <= LONGEST else shown(key)
+
+
 def did_you_mean(slip: object, known: Iterable[str]) -> str:
     """Return a suggestion in brackets, or nothing."""
-    close = difflib.get_close_matches(str(slip).lower(), list(known), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(str(slip)[:LONGEST].lower(), list(known), n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 

@@ -48,7 +48,6 @@ def atlas(
         result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
     if result is None:
         raise typer.Exit(INTERRUPTED)
-    screen.print(_table(result))
     ratio, best = result["radius_ratio"], result["best"]
     rows = [
         {
@@ -69,7 +68,8 @@ def atlas(
         sides = np.array([[best.variables[name] for name in HEXAGONAL]])
         return [("atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number)))]
 
-    write(result, directory, "atlas", draw if figures else None, screen, data, report)
+    words = partial(screen.print, _table(result))
+    write(result, directory, "atlas", draw if figures else None, screen, data, words, report)
 
 
 def _table(result: SweepResult) -> Table:

@@ -9,7 +9,7 @@ import typer
 from rich.table import Column, Table
 
 from ninedof.cli.options import Json, Threads
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.robot.leg_names import LEGS
@@ -61,7 +61,7 @@ def certify(
                 progress=bar,
             )
     except KeyboardInterrupt:
-        screen.print("[bold]interrupted[/bold] before the limits were proved: the run folder is as it was")
+        screen.print(bold("interrupted", " before the limits were proved: the run folder is as it was"))
         raise typer.Exit(INTERRUPTED) from None
     file = save_certificate(certificate, certificate_file(run))
     screen.print(_table(certificate))

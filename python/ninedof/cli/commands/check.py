@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 
 from ninedof.cli.options import Json
-from ninedof.cli.screen import Screen
+from ninedof.cli.screen import DONE, REFUSED, Screen, bold
 from ninedof.proof.optimum import FILE, check_certificate
 
 PLACE = 4
@@ -34,12 +33,12 @@ def check(
         found = check_certificate(path, progress=bar)
     if found.proved:
         for line in _study_of(path.read_bytes()):
-            screen.print(escape(line))
-    screen.print(f"[bold]{'Proved' if found.proved else 'Refused'}[/bold]: {escape(found.words)}")
+            screen.print(line)
+    screen.print(bold("Proved" if found.proved else "Refused", f": {found.words}"))
     if found.proved:
         screen.print(f"{found.boxes} boxes of designs read, {found.recut} cut further by the checker")
     screen.data({"proved": found.proved, "words": found.words, "boxes": found.boxes})
-    raise typer.Exit(0 if found.proved else 1)
+    raise typer.Exit(DONE if found.proved else REFUSED)
 
 
 def _study_of(certificate: bytes) -> Iterator[str]:

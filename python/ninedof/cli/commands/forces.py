@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.screen import Screen
+from ninedof.cli.screen import Screen, bold
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_words import vector_words
 from ninedof.statics.statics import leg_forces
@@ -56,7 +56,7 @@ def forces(
     screen.print(_table(loads, found))
     left = np.abs(unbalanced).max(axis=(1, 2)) > BALANCED * np.abs(loads).max(axis=1)
     for k in np.flatnonzero(left).tolist():
-        screen.print(f"[bold]singular[/bold]: at some pose no leg forces balance all of load {k + 1}")
+        screen.print(bold("singular", f": at some pose no leg forces balance all of load {k + 1}"))
     data = {"poses": posed.poses_data(c), "loads": loads, "legs": LEGS}
     screen.data(unit_entry(chosen.unit) | data | {"forces": found, "unbalanced": unbalanced})
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Annotated
 
 import typer
@@ -11,7 +12,7 @@ from ninedof.cli.comparison_table import comparison_table, comparison_words
 from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.options import Figures, Json, Out, Report, Starts, StudyFile, Threads
 from ninedof.cli.result_table import price_text, proof_words, result_table
-from ninedof.cli.screen import Screen, exit_status
+from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
@@ -69,14 +70,16 @@ def optimize(
     if certify:
         left_out_of(chosen)  # raises where no proof is known, before the work
     directory = new_directory(out)
+    run: Comparison | Result
     if study is None:
-        run: Comparison | Result = _solve_paper(chosen, threads, certify, screen)
+        run = _solve_paper(chosen, threads, certify, screen)
     else:
         run = _solve_study(chosen, study.name, threads, certify, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
     draw = figures_of(run, screen.say, convergence) if figures else None
-    record = write_run(run, directory, with_report(draw, figures and report, screen))
+    words = partial(_comparison_words if isinstance(run, Comparison) else _result_words, run, screen)  # type: ignore[arg-type]
+    record = write_run(run, directory, with_report(draw, figures and report, screen, words))
     if check and result.best is not None:
         verdict = examine(result)
         screen.print(verdict.report())
@@ -94,13 +97,16 @@ def _solve_paper(study: Study, threads: int | None, certify: bool, screen: Scree
         comparison = compare(study.starts, study.seed, threads, bar.show)
         if certify and comparison.result.best is not None and not comparison.result.interrupted:
             comparison = replace(comparison, result=proved(comparison.result, threads, bar))
+    return comparison
+
+
+def _comparison_words(comparison: Comparison, screen: Screen) -> None:
     screen.print(comparison_table(comparison))
     screen.print(comparison_words(comparison))
     if comparison.result.proof is not None:
         screen.print(proof_words(comparison.result))
     if comparison.result.interrupted:
-        screen.print(f"[bold]{comparison.result.status}[/bold]: {comparison.result.reason}")
-    return comparison
+        screen.print(bold(comparison.result.status, f": {comparison.result.reason}"))
 
 
 def _solve_study(study: Study, name: str, threads: int | None, certify: bool, screen: Screen) -> Result:
@@ -109,8 +115,11 @@ def _solve_study(study: Study, name: str, threads: int | None, certify: bool, sc
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
-        result = solve(study, threads=threads, progress=bar, certify=certify)
-    screen.print(f"[bold]{result.status}[/bold]: {result.reason}")
+        return solve(study, threads=threads, progress=bar, certify=certify)
+
+
+def _result_words(result: Result, screen: Screen) -> None:
+    screen.print(bold(result.status, f": {result.reason}"))
     if result.candidates:
         screen.print(result_table(result))
         screen.print(*price_text(result))
@@ -119,4 +128,3 @@ def _solve_study(study: Study, name: str, threads: int | None, certify: bool, sc
                 screen.print(bound.sentence)
         if result.proof is not None:
             screen.print(proof_words(result))
-    return result

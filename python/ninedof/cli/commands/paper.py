@@ -48,11 +48,14 @@ def paper(
         table.add_column(title, ratio=ratio, overflow="fold")
     for v in found:
         table.add_row(v.where, v.printed, v.ours, v.verdict, end_section=True)
-    screen.print(table)
     rows = [asdict(v) for v in found]
-    if directory is not None:
+    words = partial(screen.print, table)
+    if directory is None:
+        words()
+    else:
         record = Record("paper", {}, {"verdicts": rows})
-        path = write_drawn(record, directory, with_report(partial(paper_figures, say=screen.say), report, screen))
-        words = report_words(directory)
-        screen.print(f"run folder {directory}: {path.name}, figure_1 to figure_7 (PNG, SVG, PDF){words}")
+        drawing = with_report(partial(paper_figures, say=screen.say), report, screen, words)
+        path = write_drawn(record, directory, drawing)
+        made = f"{path.name}, figure_1 to figure_7 (PNG, SVG, PDF){report_words(directory)}"
+        screen.print(f"run folder {directory}: {made}")
     screen.data(rows)

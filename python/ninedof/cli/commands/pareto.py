@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shlex
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,7 +15,7 @@ from ninedof.cli.chosen_design import named_design
 from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.long_run import CHUNKS, run_folder
 from ninedof.cli.options import Figures, Json, Out, Report, Resume, Starts, Threads
-from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
+from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result
@@ -87,16 +88,18 @@ def pareto(
         front = trace_front(
             chosen, against, value or None, points, threads=threads, progress=bar.show, out=directory / CHUNKS
         )
-    if front.limits:
-        screen.print(front_table(front))
-    if front.interrupted:
-        screen.print(
-            f"[bold]interrupted[/bold]: {_count(front)} solved so far and kept in {directory}; the same "
-            f"command with --out {directory} --resume continues the run"
-        )
+
+    def words() -> None:
+        if front.limits:
+            screen.print(front_table(front))
+        if front.interrupted:
+            again = f"--out {shlex.quote(str(directory))} --resume"
+            kept = f"{_count(front)} solved so far and kept in {directory}"
+            screen.print(bold("interrupted", f": {kept}; the same command with {again} continues the run"))
+
     drawn = figures and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
-    record = write_run(front, directory, with_report(draw, figures and report, screen))
+    record = write_run(front, directory, with_report(draw, figures and report, screen, words))
     figure = ", figure front (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {record.parent}: {record.name}{figure}{report_words(directory)}")
     screen.data({"front": front.to_dict(), "record": str(record)})

@@ -106,11 +106,14 @@ def path(
     with run_directory(out) as directory:
         found = follow(g, trajectory, home, **(asked | load), characteristic_length=length, unit=given.unit)
     of_study = path_limits(study, found, home) if study else None
-    screen.print(legs_table(found))
-    if of_study is not None and of_study.limits:
-        screen.print(limits_table(of_study, given.unit))
-    for sentence in sentences(found, of_study):
-        screen.print(sentence)
+
+    def words() -> None:
+        screen.print(legs_table(found))
+        if of_study is not None and of_study.limits:
+            screen.print(limits_table(of_study, given.unit))
+        for sentence in sentences(found, of_study):
+            screen.print(sentence)
+
     shapes = {name: value for name, value in shape.items() if value is not None}
     question = {
         "geometry": triples(g),
@@ -121,7 +124,8 @@ def path(
         **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }
     drawing = partial(draw, found, screen, of_study) if figures else None
-    record = write_motion(found, directory, with_report(drawing, figures and report, screen), question, of_study)
+    drawn = with_report(drawing, figures and report, screen, words)
+    record = write_motion(found, directory, drawn, question, of_study)
     figure = ", figure motion (PNG, SVG, PDF)" if figures else ""
     figure += report_words(directory)
     screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")

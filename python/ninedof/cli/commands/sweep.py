@@ -126,9 +126,9 @@ def sweep(
     if result is None:
         raise typer.Exit(INTERRUPTED)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
-    screen.print(summary_table(summary, title, result.units))
+    words = partial(screen.print, summary_table(summary, title, result.units))
     draw = (lambda: _figures(result, what)) if figures else None
-    write(result, directory, "sweep", draw, screen, json_data(result, summary), report)
+    write(result, directory, "sweep", draw, screen, json_data(result, summary), words, report)
 
 
 def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str, Values]:

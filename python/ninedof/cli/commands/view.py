@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import webbrowser
 from pathlib import Path
 from typing import Annotated
@@ -42,9 +43,9 @@ def view(
         raise ValueError(str(error)) from None
     with viewer:
         try:
-            typer.echo(f"{viewer.url}  (Ctrl-C ends the viewer)")
+            print(f"{viewer.url}  (Ctrl-C ends the viewer)", flush=True)
             if browser:
                 webbrowser.open(viewer.url)
             viewer.wait()
         except KeyboardInterrupt:
-            typer.echo("closed", err=True)
+            print("closed", file=sys.stderr)

@@ -1,0 +1,91 @@
+"""How a command ends that an error ends: one line on standard error, and the exit status that says whose matter it is.
+
+`screen` has the table of statuses.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from types import TracebackType
+
+from typer import BadParameter
+
+from ninedof.cli.screen import BAD_INPUT, DONE, FAILED, INTERRUPTED, NO_RESULT, REFUSED, status_of
+from ninedof.cli.streams import steady
+from ninedof.support.extras import MissingExtra
+from ninedof.support.printable import one_line
+
+PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ClickException = BadParameter.__mro__[2]  # what typer raises for options that it cannot read
+
+
+def ended(work: Callable[[], object], given: Sequence[str]) -> int:
+    """Do some work; return the exit status, after one line on standard error where an error ended it.
+
+    Consoles never end it: the line and status 1 for standard output that could not be written come after the work. A
+    reader that goes away is no error.
+    """
+    with steady() as output:
+        try:
+            status = status_of(work())
+        except SystemExit as error:
+            status = status_of(error.code)
+        except KeyboardInterrupt:
+            status = _said("interrupted", INTERRUPTED)
+        except Exception as error:  # whatever it is: the table of statuses has a row for it
+            if sys.flags.dev_mode:
+                raise
+            status = _said(_words(error, given), _status(error))
+        output.flush()
+        if output.failure is not None and status in (DONE, NO_RESULT):
+            status = _said(f"standard output: cannot be written ({output.failure.strerror})", REFUSED)
+    return status
+
+
+def _said(words: str, status: int) -> int:
+    sys.stderr.write(f"ninedof: {one_line(words)}\n")
+    return status
+
+
+def _status(error: Exception) -> int:
+    if isinstance(error, ClickException | MissingExtra) or (isinstance(error, ValueError) and _is_ours(error)):
+        return BAD_INPUT
+    return REFUSED if isinstance(error, OSError) else FAILED
+
+
+def _words(error: Exception, given: Sequence[str]) -> str:
+    """Return what to say: of an error that is not the user's, what kind it is."""
+    if isinstance(error, ClickException):
+        context = getattr(error, "ctx", None)
+        more = "" if context is None else f"; see `{context.command_path} --help`"
+        return f"{error.format_message().rstrip('.')}{more}"  # type: ignore[attr-defined]
+    if isinstance(error, OSError):
+        files = [os.fsdecode(file) for file in (error.filename, error.filename2) if isinstance(file, str | bytes)]
+        return f"{' and '.join(files)}: {error.strerror}" if files and error.strerror else str(error) or repr(error)
+    if _status(error) == BAD_INPUT:
+        return as_typed(str(error), given)
+    if isinstance(error, MemoryError):
+        return f"out of memory{f' ({error})' if str(error) else ''}"
+    if isinstance(error, RecursionError):
+        return "the input is nested too deep"
+    notes = " ".join(getattr(error, "__notes__", ()))
+    words = str(error) if type(error) is RuntimeError else f"{type(error).__name__}: {error}"
+    return f"{words or type(error).__name__}{f'. {notes}' if notes else ''}"
+
+
+def _is_ours(error: Exception) -> bool:
+    """Return whether an error was raised here, or by the core that was called here: its innermost frame is ours."""
+    at: TracebackType | None = error.__traceback__
+    while at is not None and at.tb_next is not None:
+        at = at.tb_next
+    return at is not None and os.path.abspath(at.tb_frame.f_code.co_filename).startswith(PACKAGE + os.sep)
+
+
+def as_typed(message: str, given: Sequence[str]) -> str:
+    """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
+    name, _, rest = message.partition(": ")
+    option = f"--{name.replace('_', '-')}"
+    typed = any(word == option or word.startswith(f"{option}=") for word in given)
+    return f"{option}: {rest}" if typed else message

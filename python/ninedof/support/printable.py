@@ -1,0 +1,26 @@
+"""Text as a terminal may have it: no character of it moves the cursor, sets a title, or turns the order of letters."""
+
+from __future__ import annotations
+
+import re
+
+MOST = 1200  # characters of a message
+HEAD, TAIL = 800, 300  # of those of a longer one that stay: its subject, and what was expected
+
+# Control characters but the line feed, marks of direction and of width zero, separators of lines, lone surrogates.
+_UNPRINTABLE = re.compile(
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
+    "\ud800-\udfff\U000e0000-\U000e007f]"
+)
+
+
+def escaped(text: str) -> str:
+    """Return a text whose characters that are not to be seen are escapes as in Python, line feeds left."""
+    return _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def one_line(text: str) -> str:
+    """Return a message as one line: line feeds are escapes too, and a long one is cut in the middle."""
+    if len(text) > MOST:
+        text = f"{text[:HEAD]} ... {text[-TAIL:]}"
+    return escaped(text).replace("\n", "\\n")

@@ -1,0 +1,142 @@
+"""No text of a file or an argument is markup, moves the cursor or forges a line; no message is as long as its cause."""
+
+import json
+import os
+import shlex
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from ninedof.cli.app import main
+from ninedof.cli.screen import Screen, bold
+from ninedof.support.printable import MOST, escaped, one_line
+
+EVIL = "\x1b]0;title\x07\nninedof: all is well\x9b2J\u202e\u2028[/b][bold]:smile:"
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def run(capsys, *words):
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    said = capsys.readouterr()
+    return ended.value.code, said.out, said.err
+
+
+def is_harmless(text):
+    return escaped(text) == text
+
+
+@pytest.mark.parametrize("name", ["[/foo]", "a[bold]b", "a b'c", ":smile:", "e\x1b[31mf"])
+def test_the_name_of_a_run_folder_is_no_markup(capsys, monkeypatch, name):
+    monkeypatch.setenv("COLUMNS", "300")
+    status, out, err = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--no-figures", "--out", name)
+    assert (status, Path(name, "record.json").is_file()) == (0, True)
+    assert f"run folder {escaped(name)}: record.json" in out
+    assert is_harmless(out + err)
+
+
+def test_the_hint_to_resume_is_one_word_for_a_shell(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "300")
+
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("ninedof.cli.commands.sweep.sweep_poses", interrupted)
+    status, out, _ = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b")
+    assert status == 130
+    words = shlex.split(out)
+    assert words[words.index("--out") + 1] == "a [bold]b"
+
+
+@pytest.mark.parametrize(
+    "where", ["", "design", "variables", "constraints", "objective", "solver", "constraints.stroke"]
+)
+@pytest.mark.parametrize("long", [False, True])
+def test_a_key_of_a_study_forges_no_line(capsys, where, long):
+    key = json.dumps("k" * 100_000 if long else EVIL)
+    Path("study.toml").write_text(f"[{where}]\n{key} = 1\n" if where else f"{key} = 1\n")
+    status, out, err = run(capsys, "optimize", "study.toml")
+    assert (status, out) == (2, "")
+    assert err.startswith("ninedof: ")
+    assert err.count("\n") == 1
+    assert len(err) < 1000
+    assert is_harmless(err)
+
+
+@pytest.mark.parametrize(
+    "entry", ["design.family", "unit", "objective.index", "variables.a1", "constraints.stroke.max"]
+)
+@pytest.mark.parametrize("long", [False, True])
+def test_a_value_of_a_study_forges_no_line(capsys, entry, long):
+    Path("study.toml").write_text(f"{entry} = {json.dumps('v' * 100_000 if long else EVIL)}\n")
+    status, out, err = run(capsys, "optimize", "study.toml")
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert len(err) < 1000
+    assert is_harmless(err)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("evaluate", EVIL),
+        ("evaluate", "--a1", EVIL),
+        ("optimize", f"--{EVIL}"),
+        ("optimize", "--seed", EVIL),
+        (EVIL,),
+        ("sweep", "--over", EVIL),
+        ("pareto", "--against", EVIL),
+        ("workspace", "--archetype", EVIL),
+        ("report", EVIL),
+        ("check", EVIL),
+        ("certify", EVIL),
+        ("optimize", "k" * 100_000),
+        ("optimize", "--scheduler", "k" * 100_000),
+    ],
+    ids=lambda words: " ".join(words)[:12].encode("unicode_escape").decode(),
+)
+def test_an_argument_forges_no_line(capsys, words):
+    status, out, err = run(capsys, *words)
+    assert status in (1, 2)
+    assert out == ""
+    *bars, line = err.splitlines()  # a bar of limits is there at once
+    assert line.startswith("ninedof: ")
+    assert not any(bar.startswith("ninedof") for bar in bars)
+    assert len(bars) <= (words[0] == "pareto")
+    assert len(err) < MOST + 200
+    assert is_harmless(err)
+
+
+def test_all_that_consoles_print_is_text(capsys):
+    screen = Screen(False)
+    screen.print(EVIL)
+    screen.print(bold(EVIL, EVIL))
+    with screen.points(EVIL) as bar:
+        bar.show(1, 1, None)
+        bar.phase(EVIL)
+    said = capsys.readouterr()
+    assert is_harmless(said.out + said.err)
+    assert "[/b][bold]:smile:" in said.out
+    assert "[/b][bold]:smile:" in said.err
+
+
+def test_our_bold_words_are_bold():
+    console = Console(force_terminal=True, color_system="standard", file=open(os.devnull, "w"))  # noqa: SIM115
+    with console.capture() as taken:
+        console.print(bold("word", ": rest"))
+    assert taken.get() == "\x1b[1mword\x1b[0m: rest\n"
+    console.file.close()
+
+
+def test_a_line_is_one_line_and_short():
+    assert one_line("a\nb\tc") == r"a\nb\tc"
+    assert escaped("l_c³ °\n") == "l_c³ °\n"
+    assert escaped("\ud800") == r"\ud800"
+    assert one_line("x" * 10**6).count(" ... ") == 1
+    assert not {chr(code) for code in (*range(10), *range(11, 32), *range(127, 160), *range(0x202A, 0x202F))} & set(
+        escaped("".join(map(chr, range(0x10000))))
+    )
