@@ -12,7 +12,7 @@ import numpy as np
 
 from ninedof.atlas import sample
 from ninedof.atlas.sample import Sample, bounds_of, squared_radius_ratio
-from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
+from ninedof.atlas.tally import Tally, condition_edges, is_tally, ratio_edges
 from ninedof.chunks import Arrays, chunk_argument, run
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.support.arguments import whole
@@ -87,6 +87,8 @@ def atlas(
     work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
     total = Tally()
     run(work, lambda _: lambda first, last, arrays: total.merge(arrays), executor=executor, out=out, progress=progress)
+    if total.designs != work.points:
+        raise RuntimeError(f"got {total.designs} designs, expected {work.points}")
     return _labelled(work, total)
 
 
@@ -118,6 +120,10 @@ class AtlasWork:
     def task(self, first: int, last: int) -> AtlasTask:
         """Return the work on designs first ... last - 1."""
         return AtlasTask(self.sample, first, last)
+
+    def fits(self, count: int, arrays: Arrays) -> bool:
+        """Return whether arrays are the tally of so many designs."""
+        return is_tally(arrays, count)
 
     def question(self) -> dict[str, Any]:
         """Return what the tally depends on."""

@@ -56,9 +56,22 @@ class Tally:
         self.best = np.where(better, best, self.best)
         self.number = np.where(better, number, self.number)
 
+    @property
+    def designs(self) -> int:
+        """Return how many designs were counted."""
+        return int(self.histogram.sum())
+
     def arrays(self) -> Arrays:
         """Return the arrays of the tally."""
         return {"histogram": self.histogram, "best": self.best, "number": self.number}
+
+
+def is_tally(arrays: Arrays, count: int) -> bool:
+    """Return whether arrays are the tally of so many designs."""
+    expected = {name: (array.shape, array.dtype) for name, array in Tally().arrays().items()}
+    if {name: (array.shape, array.dtype) for name, array in arrays.items()} != expected:
+        return False
+    return int(arrays["histogram"].min()) >= 0 and int(arrays["histogram"].sum()) == count
 
 
 def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:

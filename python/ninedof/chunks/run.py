@@ -75,7 +75,7 @@ def _run(
     missing = []
     for k in range(chunks_of(work)):
         first, last = bounds(work, k)
-        if store is None or (found := store.read(k)) is None:
+        if store is None or (found := store.read(k)) is None or not work.fits(last - first, found):
             missing.append(k)
         else:
             deliver(first, last, found)
@@ -86,12 +86,16 @@ def _run(
     with closing(_here(tasks) if executor is None else _by(executor, tasks)) as computed:
         for k, arrays in computed:
             first, last = bounds(work, k)
+            if not work.fits(last - first, arrays):
+                raise RuntimeError(f"chunk {k}: got arrays that are not of its {last - first} points")
             if store is not None:
                 store.write(k, arrays)
             deliver(first, last, arrays)
             done += last - first
             if progress is not None:
                 progress(done, work.points, None)
+    if done != work.points:
+        raise RuntimeError(f"got the values of {done} points, expected {work.points}")
 
 
 Tasks = Generator[tuple[int, Task]]

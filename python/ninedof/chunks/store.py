@@ -2,40 +2,38 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
-import io
 import os
-import threading
+import re
+import secrets
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
-
-import numpy as np
 
 from ninedof.support.arguments import shown
 from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
 from ninedof.support.json import decode, encode, plain
+from ninedof.support.lock import LOCK, FolderLock
+from ninedof.support.npz import DAMAGE, read_npz
+from ninedof.support.seal import digest_of, sealed, unsealed
 from ninedof.support.versions import versions
 
-FORMAT = "ninedof-chunks-1"
+FORMAT = "ninedof-chunks-2"
+EARLIER = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
-MARK = b"ninedof chunk 1\n"
+MARK = b"ninedof chunk 2\n"
 DIGEST = 32  # bytes
-
-
-_taken: set[Path] = set()  # folders in use by this process: its file lock does not exclude its own threads
-_mutex = threading.Lock()
-os.register_at_fork(after_in_child=_taken.clear)  # the parent keeps the lock
+LEFTOVER = re.compile(rf"{re.escape(PART)}(chunk-\d{{8,}}|{re.escape(MANIFEST)})-[0-9a-f]{{8}}")  # of a killed run
+ASIDE = "not-a-"  # begins the new name of a folder in the place of a chunk
 
 
 class Store:
     """A folder of finished chunks.
 
-    It holds `manifest.json`, the question and its fingerprint, and one file per chunk. A file starts with a digest of
-    the question, its own number and its contents: a chunk that was truncated, damaged, renamed or left by another
-    question is computed again. The version of the package is part of the question.
+    It holds `manifest.json`, the question, the points of a chunk and the digest of both, and one file per chunk. A file
+    starts with a digest of that digest, its own number and its contents: a chunk that was truncated, damaged, renamed
+    or left by another question or size is computed again. The version of the package is part of the question.
 
     Parameters
     ----------
@@ -57,23 +55,18 @@ class Store:
         self.folder = Path(folder)
         self.chunk = chunk
         asked = {**plain(question), "ninedof": versions()["ninedof"]}
-        self._fingerprint = fingerprint(asked)
         self._create()
-        self._own = self.folder.resolve()
-        self._lock = self._locked()
+        self._is_ours()  # before the lock, which is a file
+        self._lock = FolderLock(self.folder)
         try:
-            self._open(asked)
+            self._digest = self._open(asked)
         except BaseException:
             self.close()
             raise
 
     def close(self) -> None:
         """Let another run use the folder."""
-        with _mutex:
-            if self._lock >= 0:  # not closed yet
-                os.close(self._lock)
-                _taken.discard(self._own)
-            self._lock = -1
+        self._lock.close()
 
     def __enter__(self) -> Store:
         return self
@@ -88,26 +81,29 @@ class Store:
     def write(self, k: int, arrays: Arrays) -> None:
         """Write a finished chunk; after this it survives a kill and a loss of power."""
         payload = npz_bytes(arrays)
-        write_whole(self.path(k), MARK + self._digest(k, payload) + payload)
+        path = self.path(k)
+        if path.is_dir() and not path.is_symlink():  # whoever made it: no file can take its place
+            path.rename(path.with_name(f"{ASIDE}{path.name}-{secrets.token_hex(4)}"))
+        write_whole(path, MARK + self._digest_of(k, payload) + payload)
 
     def read(self, k: int) -> Arrays | None:
         """Return a finished chunk; None if it is missing or damaged."""
+        path = self.path(k)
         try:
-            data = self.path(k).read_bytes()
-        except OSError:
+            data = path.read_bytes() if path.is_file() else b""
+        except (OSError, MemoryError):
             return None
         start = len(MARK) + DIGEST
         payload = data[start:]
-        if data[:start] != MARK + self._digest(k, payload):
+        if data[:start] != MARK + self._digest_of(k, payload):
             return None
         try:
-            with np.load(io.BytesIO(payload), allow_pickle=False) as found:
-                return dict(found)
-        except (OSError, ValueError, BadZipFile):
+            return read_npz(payload)
+        except (OSError, *DAMAGE):
             return None
 
-    def _digest(self, k: int, payload: bytes) -> bytes:
-        own = hashlib.sha256(f"{self._fingerprint} {k} ".encode())
+    def _digest_of(self, k: int, payload: bytes) -> bytes:
+        own = hashlib.sha256(f"{self._digest} {k} ".encode())
         own.update(payload)
         return own.digest()
 
@@ -119,47 +115,41 @@ class Store:
                 f"out: got {self.folder}, which cannot be created ({error.strerror}), expected a folder"
             ) from None
 
-    def _locked(self) -> int:
-        """Lock the folder for this process. The system removes the lock when the process ends, however it ends."""
-        in_use = f"out: got {self.folder}, which another run is using, expected another folder"
-        with _mutex:
-            if self._own in _taken:  # not opened: closing any descriptor of the file would release the lock
-                raise ValueError(in_use)
-            lock = os.open(self.folder / ".lock", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o644)
-            try:
-                # A lock of the process: unlike with flock, workers that outlive a killed parent do not keep it.
-                fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                os.close(lock)
-                raise ValueError(in_use) from None
-            _taken.add(self._own)
-        return lock
-
-    def _open(self, question: Mapping[str, Any]) -> None:
+    def _is_ours(self) -> bool:
+        """Return whether there is a manifest of ours; raise for a folder that holds something else."""
         manifest = self.folder / MANIFEST
-        for leftover in self.folder.glob(f"{PART}*"):  # of a run that was killed: no other uses the folder
-            leftover.unlink(missing_ok=True)
-        if not manifest.exists():
-            if others := sorted(p.name for p in self.folder.iterdir() if p.name != ".lock"):
-                raise ValueError(
-                    f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
-                )
-            data = {"format": FORMAT, "fingerprint": self._fingerprint, "chunk": self.chunk, "question": question}
-            write_whole(manifest, (encode(data) + "\n").encode())
-            return
-        found = _manifest(manifest)
-        if found["fingerprint"] != self._fingerprint:
-            what = ", ".join(differing(plain(found["question"]), question))
+        if os.path.lexists(manifest):
+            _manifest(manifest)
+            return True
+        others = sorted(p.name for p in self.folder.iterdir() if p.name != LOCK and not _is_leftover(p))
+        if others:
             raise ValueError(
-                f"out: got {self.folder}, which holds the chunks of another question (it differs in {what}), "
-                "expected an empty folder, or the question that was asked there"
+                f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
             )
-        self.chunk = found["chunk"]
+        return False
 
-
-def fingerprint(question: Mapping[str, Any]) -> str:
-    """Return the digest of a question; numbers count to the last bit."""
-    return hashlib.sha256(encode([FORMAT, question], indent=None, sort_keys=True).encode()).hexdigest()
+    def _open(self, question: Mapping[str, Any]) -> str:
+        """Return the digest of the manifest, written or found; once it is ours and locked, clear what a kill left."""
+        ours = self._is_ours()
+        manifest = self.folder / MANIFEST
+        data = {"format": FORMAT, "chunk": self.chunk, "question": question}
+        if ours:
+            found = _manifest(manifest)
+            if digest_of(found["question"]) != digest_of(question):
+                what = ", ".join(differing(plain(found["question"]), plain(question)))
+                raise ValueError(
+                    f"out: got {self.folder}, which holds the chunks of another question (it differs in {what}), "
+                    "expected an empty folder, or the question that was asked there"
+                )
+            data = found
+            self.chunk = found["chunk"]
+        for entry in self.folder.iterdir():
+            if _is_leftover(entry):
+                with suppress(OSError):
+                    entry.unlink()
+        if not ours:
+            write_whole(manifest, (encode(sealed(data)) + "\n").encode())
+        return digest_of(data)
 
 
 def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
@@ -167,14 +157,23 @@ def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
     return sorted(name for name in {*one, *other} if one.get(name) != other.get(name))
 
 
+def _is_leftover(path: Path) -> bool:
+    return LEFTOVER.fullmatch(path.name) is not None and path.is_file() and not path.is_symlink()
+
+
 def _manifest(path: Path) -> dict[str, Any]:
+    """Return what a manifest says, if ninedof wrote it and nothing of it was changed."""
     try:
-        data = decode(path.read_text(encoding="utf-8"))
-        if data["format"] != FORMAT or not isinstance(data["question"], dict) or int(data["chunk"]) < 1:
+        if path.exists() and not (path.is_file() or path.is_dir()):
             raise ValueError
-        str(data["fingerprint"])
+        data = decode(path.read_text(encoding="utf-8"))
+        kind = data["format"]
+        if kind not in (FORMAT, EARLIER) or not isinstance(data["question"], dict) or not int(data["chunk"]) >= 1:
+            raise ValueError
     except OSError as error:
         raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise ValueError(f"{path}: got no {FORMAT!r} manifest, expected one written by ninedof") from None
-    return dict(data)
+    if kind == EARLIER:
+        raise ValueError(f"{path}: got the chunks of an earlier version of ninedof, expected an empty folder")
+    return unsealed(data, path, required=True)

@@ -34,6 +34,9 @@ class Work(Protocol):
     def task(self, first: int, last: int) -> Task:
         """Return the work on points first ... last - 1."""
 
+    def fits(self, count: int, arrays: Arrays) -> bool:
+        """Return whether arrays are those of so many points: what is kept is looked at before it is taken."""
+
     def question(self) -> dict[str, Any]:
         """Return all that the arrays depend on, but for the version of this package, as plain JSON values."""
 

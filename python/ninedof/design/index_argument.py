@@ -13,6 +13,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import Floats
+from ninedof.support.files import is_plain_name
 
 OwnIndex = Callable[[Geometry, Configuration, Any], Any]
 """A caller's function of a geometry, a stack of n configurations and the characteristic length: returns n numbers."""
@@ -59,6 +60,8 @@ def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
 
 def _own(function: OwnIndex) -> Index:
     name = getattr(function, "__name__", type(function).__name__)
+    if not is_plain_name(name):
+        raise ValueError(f"index: got a function of the name {shown(name)}, expected a name without / and \\")
     return Index(name, _Own(name, function))
 
 

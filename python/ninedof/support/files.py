@@ -5,52 +5,83 @@ from __future__ import annotations
 import io
 import os
 import secrets
-import struct
-import zlib
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, ClassVar, Self
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ninedof.support.npz import DAMAGE, read_npz
+from ninedof.support.system import sync_folder
+
 Arrays = dict[str, NDArray[Any]]
 
 PART = ".part-"  # begins the name of a file that is being written
+MOST_NAME = 120  # bytes of a name that is put into a folder
 
-# What zipfile and numpy raise on bits that were changed; NotImplementedError and RuntimeError for flags and methods.
-DAMAGE = (
-    *(ValueError, KeyError, TypeError, IndexError, AttributeError, EOFError, OverflowError, MemoryError),
-    *(NotImplementedError, RuntimeError, BadZipFile, zlib.error, struct.error),
-)
+_SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
+
+
+def part_name(name: str) -> str:
+    """Return a new name for the part of a file that is being written; it begins with PART and, if short, the name."""
+    return f"{PART}{name[:_SHORT]}-{secrets.token_hex(4)}"
 
 
 def write_whole(path: Path, data: bytes) -> Path:
-    """Write a file that appears whole or not at all, even if the power fails; return its path."""
-    part = path.with_name(f"{PART}{path.name}-{secrets.token_hex(4)}")  # in the same folder: renaming is atomic there
+    """Write a file that appears whole or not at all, even if the power fails; return its path.
+
+    Raises
+    ------
+    OSError
+        With the name of the file: the disk is full, or the folder gone.
+
+    """
+    part = path.with_name(part_name(path.name))  # in the same folder: renaming is atomic there
     try:
         with part.open("wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-            os.replace(part, path)
+        os.replace(part, path)
+    except OSError as error:
+        raise naming(error, path) from None
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):  # the first error is the one to be told
+            part.unlink(missing_ok=True)
+    sync_folder(path.parent)
     return path
+
+
+def naming(error: OSError, path: Path) -> OSError:
+    """Return the error of a system call with the file that it is about: one on an open file has none."""
+    return OSError(error.errno, error.strerror or str(error), os.fspath(path)) if error.errno else error
+
+
+def system_words(error: OSError) -> str:
+    """Return an error of the system in words: "No space left on device: runs/1/record.json"."""
+    reason = error.strerror or str(error) or type(error).__name__
+    return reason if error.filename is None else f"{reason}: {os.fsdecode(error.filename)}"
 
 
 def why_not_writable(path: Path) -> str:
     """Return why a file cannot be written there, "" where it can: to be known before the work, not after it."""
-    part = path.with_name(f"{PART}{path.name}-{secrets.token_hex(4)}")
     try:
         if path.is_dir():
             return "it is a folder"
+        if path.is_symlink() and not path.exists():
+            return "it is a link to nothing"
+        with suppress(FileNotFoundError):
+            path.lstat()  # raises where the name is too long
+        part = path.with_name(part_name(path.name))
         part.touch()
         part.unlink()
     except OSError as error:
         return error.strerror or str(error)
+    except ValueError as error:  # a zero byte
+        return str(error)
     return ""
 
 
@@ -58,8 +89,19 @@ def own_or_new(name: str, path: Path, mark: str) -> None:
     """Raise ValueError, naming the argument, for a file that exists without the mark of those that ninedof writes."""
     if reason := why_not_writable(path):
         raise ValueError(f"{name}: got {path}, which cannot be written ({reason}), expected a writeable place")
-    if path.exists() and mark.encode() not in path.read_bytes():
+    if path.exists() and (not path.is_file() or mark.encode() not in path.read_bytes()):
         raise ValueError(f"{name}: got {path}, which exists and was not written by ninedof, expected another name")
+
+
+def is_plain_name(name: object) -> bool:
+    """Return whether a name stays in the folder it is put into, on every system, and is no hidden file."""
+    return (
+        isinstance(name, str)
+        and 0 < len(name.encode(errors="replace")) <= MOST_NAME
+        and name.isprintable()
+        and not name.startswith(".")
+        and not set(name) & set("/\\:")
+    )
 
 
 def npz_bytes(arrays: Mapping[str, Any], *, compressed: bool = False) -> bytes:
@@ -103,8 +145,7 @@ class Saved(ABC):
 
         """
         try:
-            with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
-                contents = dict(found)
+            contents = read_npz(Path(path))
             return cls._made(contents)
         except OSError as error:
             raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None

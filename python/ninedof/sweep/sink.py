@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ninedof.chunks import Arrays
 from ninedof.design.indices import Index
-from ninedof.support.files import PART
+from ninedof.support.files import PART, is_plain_name, naming
 
 IN_MEMORY = 2**28  # bytes of all arrays; more go to files, if there is a folder
 
@@ -36,7 +36,9 @@ class Sink:
             folder = None
         try:
             for name, shape in self._shapes.items():
-                self._parts[name] = np.empty(shape) if folder is None else _File(folder / f"{name}.npy", shape)
+                # The name of a caller's function may be no name of a file.
+                stem = name if is_plain_name(name) else f"array-{len(self._parts)}"
+                self._parts[name] = np.empty(shape) if folder is None else _File(folder / f"{stem}.npy", shape)
         except MemoryError:
             expected = "what fits into memory, or out for a folder"
             raise ValueError(f"over: got {' x '.join(map(str, self._grid))} points, expected {expected}") from None
@@ -60,6 +62,7 @@ class _File:
 
     def __init__(self, path: Path, shape: tuple[int, ...]) -> None:
         self._path, self._part = path, path.with_name(f"{PART}{path.name}")
+        self._part.unlink(missing_ok=True)  # of a run that was killed, or a link
         np.lib.format.open_memmap(self._part, mode="w+", dtype=np.float64, shape=shape)
         self._file = self._part.open("r+b")
         np.lib.format.read_magic(self._file)
@@ -68,10 +71,16 @@ class _File:
 
     def put(self, first: int, last: int, values: NDArray[Any]) -> None:
         data = np.ascontiguousarray(values, dtype=np.float64)
-        self._file.seek(self._start + first * (data.nbytes // (last - first)))
-        self._file.write(data.tobytes())
+        try:
+            self._file.seek(self._start + first * (data.nbytes // (last - first)))
+            self._file.write(data.tobytes())
+        except OSError as error:
+            raise naming(error, self._path) from None
 
     def whole(self) -> NDArray[Any]:
-        self._file.close()
-        os.replace(self._part, self._path)
+        try:
+            self._file.close()
+            os.replace(self._part, self._path)
+        except OSError as error:
+            raise naming(error, self._path) from None
         return np.asanyarray(np.load(self._path, mmap_mode="r"))

@@ -67,6 +67,13 @@ class GridWork:
         """Return the work on points first ... last - 1, with only the axis values that it needs."""
         return GridTask(self.subject, self.grid.part(first, last), self.indices, first, last, self.threads)
 
+    def fits(self, count: int, arrays: Arrays) -> bool:
+        """Return whether arrays are those of so many points."""
+        shapes = {i.name: (count, *i.tail) for i in self.indices}
+        return shapes == {name: array.shape for name, array in arrays.items()} and all(
+            array.dtype.kind in "biuf" for array in arrays.values()
+        )
+
     def question(self) -> dict[str, Any]:
         """Return what the values depend on."""
         return {**self._points(), "index": [identity(i) for i in self.indices]}

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from ninedof.atlas import run as module
 from ninedof.atlas import sample
 from ninedof.atlas.run import AtlasTask
 from ninedof.atlas.sample import STEPS, Sample, bounds_of, squared_radius_ratio
-from ninedof.atlas.tally import Tally, condition_edges, ratio_edges
+from ninedof.atlas.tally import Tally, condition_edges, is_tally, ratio_edges
 from ninedof.conditioning.hexagonal import HEXAGONAL
 
 RATIO_EDGES, CONDITION_EDGES = ratio_edges(), condition_edges()
@@ -195,10 +196,11 @@ def test_a_killed_atlas_is_resumed(tmp_path, found):
     """SIGKILL in the middle of a write; finished chunks are not computed again."""
     out = tmp_path / "out"
     code = f"""
-import os, signal, ninedof as nd
+import os, signal, stat, ninedof as nd
 real, calls = os.fsync, []
 def fsync(file):
-    calls.append(file)
+    if not stat.S_ISDIR(os.fstat(file).st_mode):
+        calls.append(file)
     if len(calls) == 5:
         os.kill(os.getpid(), signal.SIGKILL)
     real(file)
@@ -283,3 +285,53 @@ def test_progress():
     nd.atlas(10_000, chunk=1000, progress=lambda *a: seen.append(a))
     assert [done for done, *_ in seen] == list(range(0, 11_000, 1000))
     assert module.BLOCK < module.CHUNK
+
+
+# --- What is counted is what was asked --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("chunk", [8000, 2000])
+def test_a_chunk_size_changed_in_the_manifest_is_refused(tmp_path, chunk):
+    """It was taken: fewer designs were counted than asked, with status 0."""
+
+    def stop(done, *_):
+        if done >= 12_000:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path, progress=stop)
+    manifest = tmp_path / "manifest.json"
+    text = manifest.read_text()
+    assert '"chunk": 4000' in text
+    manifest.write_text(text.replace('"chunk": 4000', f'"chunk": {chunk}'))
+    with pytest.raises(ValueError, match=r"manifest\.json: got a file that was changed or damaged"):
+        nd.atlas(40_000, seed=3, out=tmp_path)
+    manifest.write_text(text)
+    assert nd.atlas(40_000, seed=3, out=tmp_path)["histogram"].sum() == 40_000
+
+
+def test_a_tally_of_fewer_designs_is_not_taken(tmp_path, found, monkeypatch):
+    whole = nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path / "whole")
+    same(whole, found)
+    real = AtlasTask.__call__
+    monkeypatch.setattr(AtlasTask, "__call__", lambda self: real(replace(self, last=self.last - 1)))
+    with pytest.raises(RuntimeError, match="chunk 0: got arrays that are not of its 4000 points"):
+        nd.atlas(40_000, seed=3, chunk=4000)
+    same(nd.atlas(40_000, seed=3, out=tmp_path / "whole"), found)
+
+
+@pytest.mark.parametrize("change", ["fewer", "negative", "shape", "name", "float"])
+def test_what_is_no_tally_of_the_designs_is_told(change):
+    tally = Tally()
+    tally.add(0, np.full(10, 2.0), np.full(10, 5.0))
+    assert is_tally(tally.arrays(), 10)
+    arrays = {name: array.copy() for name, array in tally.arrays().items()}
+    if change == "negative":
+        arrays["histogram"][0, :2] = [-1, 1]
+    elif change == "shape":
+        arrays["best"] = arrays["best"][:-1]
+    elif change == "name":
+        arrays["other"] = arrays.pop("number")
+    elif change == "float":
+        arrays["histogram"] = arrays["histogram"].astype(float)
+    assert not is_tally(arrays, 9 if change == "fewer" else 10)

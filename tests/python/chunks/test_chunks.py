@@ -14,7 +14,8 @@ import sweep_work as work
 from sweep_work import GRID, HOME, G
 
 import ninedof as nd
-from ninedof.chunks.store import Store, fingerprint
+from ninedof.chunks.store import FORMAT, Store
+from ninedof.support.seal import digest_of
 from ninedof.sweep import sink
 
 QUESTION = {"kind": "test", "value": 0.1}
@@ -87,7 +88,7 @@ def test_a_sweep_killed_many_times_is_resumed(child, tmp_path, expected, monkeyp
     found = nd.sweep(G, HOME, GRID, work.noted, out=folder, chunk=20)["noted"]
     assert found.tobytes() == expected.tobytes()
     assert not list(last.iterdir()), "a complete sweep computes nothing"
-    assert {p.name for p in folder.iterdir()} == {".lock", "manifest.json", *(f"chunk-{k:08d}" for k in range(20))}
+    assert {p.name for p in folder.iterdir()} == {"manifest.json", *(f"chunk-{k:08d}" for k in range(20))}
 
 
 def firsts():
@@ -119,13 +120,13 @@ def test_a_kill_between_write_and_rename_leaves_no_chunk(tmp_path, expected, mon
         patch.setattr("os.replace", killed)
         with pytest.raises(KeyboardInterrupt):
             Store(tmp_path, QUESTION, 20)
-    assert [p.name for p in tmp_path.iterdir()] == [".lock"]
+    assert not list(tmp_path.iterdir())
     Store(tmp_path, QUESTION, 20).close()
 
 
 def test_leftovers_of_a_kill_are_removed(tmp_path, expected):
     asked(tmp_path)
-    (tmp_path / ".part-chunk-00000003-abcd").write_bytes(b"half")
+    (tmp_path / ".part-chunk-00000003-0123abcd").write_bytes(b"half")
     chunks(tmp_path)[3].unlink()
     assert asked(tmp_path).tobytes() == expected.tobytes()
     assert not list(tmp_path.glob(".part-*"))
@@ -177,9 +178,9 @@ def test_a_damaged_chunk_is_computed_again_and_no_other(tmp_path, damage, expect
 def test_a_chunk_with_the_right_digest_and_wrong_contents_is_not_read(tmp_path):
     with Store(tmp_path, QUESTION, 20) as store:
         payload = b"not an archive"
-        asked = fingerprint({**QUESTION, "ninedof": nd.__version__})
+        asked = digest_of({"format": FORMAT, "chunk": 20, "question": {**QUESTION, "ninedof": nd.__version__}})
         digest = hashlib.sha256(f"{asked} 0 ".encode() + payload).digest()
-        store.path(0).write_bytes(b"ninedof chunk 1\n" + digest + payload)
+        store.path(0).write_bytes(b"ninedof chunk 2\n" + digest + payload)
         assert store.read(0) is None
         store.write(0, {"a": np.arange(3.0)})
         assert store.read(0)["a"].tolist() == [0.0, 1.0, 2.0]
@@ -235,7 +236,7 @@ def test_the_chunk_size_of_a_folder_is_kept(tmp_path, expected):
         ("manifest.json", "{", "expected one written by ninedof"),
         (
             "manifest.json",
-            json.dumps({"format": "ninedof-chunks-1", "question": {}, "chunk": 0}),
+            json.dumps({"format": "ninedof-chunks-2", "question": {}, "chunk": 0}),
             "expected one written",
         ),
     ],
@@ -339,3 +340,127 @@ def test_large_arrays_go_to_files(tmp_path, expected, monkeypatch):
     assert np.load(tmp_path / "leg_lengths.npy").shape == (23, 17, 9)
     again = nd.sweep(G, HOME, GRID, ["condition_number", "leg_lengths"], out=tmp_path)
     assert again["condition_number"].tobytes() == expected.tobytes()
+
+
+# --- What is kept is what was asked -----------------------------------------------------------------------------------
+
+
+def changed(path, **entries):
+    """Change a manifest as somebody would who wants to."""
+    data = json.loads(path.read_text()) | entries
+    path.write_text(json.dumps(data))
+
+
+@pytest.mark.parametrize("entries", [{"chunk": 40}, {"chunk": 20.0}, {"digest": "0" * 64}, {"more": 1}])
+def test_a_manifest_that_was_changed_is_refused(tmp_path, entries):
+    """Of "chunk" the fingerprint knew nothing: an atlas counted 6 757 120 designs of 12 000 000, with status 0."""
+    asked(tmp_path)
+    changed(tmp_path / "manifest.json", **entries)
+    with pytest.raises(ValueError, match=r"manifest.json: got a file that was changed or damaged since it was written"):
+        asked(tmp_path)
+
+
+def test_a_question_that_was_changed_is_refused(tmp_path):
+    asked(tmp_path)
+    data = json.loads((tmp_path / "manifest.json").read_text())
+    changed(tmp_path / "manifest.json", question=data["question"] | {"relative": False})
+    with pytest.raises(ValueError, match="changed or damaged"):
+        nd.sweep(G, HOME, GRID, out=tmp_path, chunk=20, relative=False)
+
+
+def test_a_manifest_without_a_digest_or_of_an_earlier_format_is_refused(tmp_path):
+    asked(tmp_path)
+    manifest = tmp_path / "manifest.json"
+    data = json.loads(manifest.read_text())
+    digest = data.pop("digest")
+    manifest.write_text(json.dumps(data))
+    with pytest.raises(ValueError, match="changed or damaged"):
+        asked(tmp_path)
+    manifest.write_text(json.dumps(data | {"format": "ninedof-chunks-1", "fingerprint": digest}))
+    with pytest.raises(ValueError, match=r"earlier version of ninedof, expected an empty folder$") as caught:
+        asked(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_chunks_of_another_size_under_a_manifest_made_to_fit_are_computed_again(tmp_path, expected):
+    """Two folders of the same question: the chunks of one are worth nothing in the other."""
+    asked(tmp_path / "a")
+    nd.sweep(G, HOME, GRID, out=tmp_path / "b", chunk=40)
+    for path in chunks(tmp_path / "a"):
+        shutil.copy(path, tmp_path / "b" / path.name)
+    assert nd.sweep(G, HOME, GRID, out=tmp_path / "b")["condition_number"].tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("wrong", [{"condition_number": np.zeros(19)}, {}, {"other": np.zeros(20)}])
+def test_a_kept_chunk_of_other_points_is_computed_again(tmp_path, wrong, expected):
+    """Its digest is right: the rows are counted all the same."""
+    asked(tmp_path)
+    manifest = json.loads((tmp_path / "manifest.json").read_text())
+    question = {name: value for name, value in manifest["question"].items() if name != "ninedof"}
+    with Store(tmp_path, question, 20) as store:
+        store.write(3, wrong)
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_a_folder_in_the_place_of_a_chunk_is_put_aside(tmp_path, inside, expected):
+    asked(tmp_path)
+    chunk = tmp_path / "chunk-00000003"
+    chunk.unlink()
+    chunk.mkdir()
+    if inside:
+        (chunk / "mine").write_text("kept")
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+    (aside,) = tmp_path.glob("not-a-chunk-00000003-*")
+    assert [p.read_text() for p in aside.iterdir()] == ["kept"] * inside
+    assert chunk.is_file()
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, lambda p: p.symlink_to("/dev/zero"), lambda p: p.symlink_to("nothing")])
+def test_what_is_no_file_in_the_place_of_a_chunk_is_replaced(tmp_path, make, expected):
+    asked(tmp_path)
+    chunk = tmp_path / "chunk-00000003"
+    chunk.unlink()
+    make(chunk)
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+    assert chunk.is_file()
+    assert not chunk.is_symlink()
+
+
+@pytest.mark.parametrize(
+    "foreign",
+    [".part-film.mkv", ".part-chunk-notes", ".part-manifest.json", "manifest.json", ".part-chunk-00000001-abc"],
+)
+@pytest.mark.parametrize("with_another", [False, True])
+def test_a_foreign_folder_is_not_touched(tmp_path, foreign, with_another):
+    """`.part-*` files were deleted before the folder was looked at."""
+    (tmp_path / foreign).write_text("mine")
+    if with_another:
+        (tmp_path / "notes.txt").write_text("mine")
+    before = {p.name: p.stat().st_mtime_ns for p in tmp_path.iterdir()}
+    folder_before = tmp_path.stat().st_mtime_ns
+    with pytest.raises(ValueError, match=r"^(out: got|.*manifest.json: got no) .*expected"):
+        asked(tmp_path)
+    assert {p.name: p.stat().st_mtime_ns for p in tmp_path.iterdir()} == before
+    assert tmp_path.stat().st_mtime_ns == folder_before
+
+
+def test_of_our_own_folder_only_our_own_parts_are_removed(tmp_path, expected):
+    asked(tmp_path)
+    (tmp_path / ".part-film.mkv").write_text("mine")
+    (tmp_path / ".part-manifest.json-0123abcd").write_text("ours")
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+    assert [p.name for p in tmp_path.glob(".part-*")] == [".part-film.mkv"]
+
+
+@pytest.mark.parametrize("name", ["../../evil", "a/b", "a\\b", "", ".hidden", "x" * 300, "a\0b", "a\nb", 5])
+def test_the_name_of_an_index_does_not_lead_outside(tmp_path, name, monkeypatch):
+    def own(g, c, lc):
+        return nd.condition_number(g, c, lc)
+
+    monkeypatch.setattr(sink, "IN_MEMORY", 0)
+    callable_ = type("Own", (), {"__call__": lambda self, *a: own(*a), "__qualname__": "Own"})()
+    callable_.__name__ = name
+    with pytest.raises(ValueError, match=r"^index: got a function of the name .*, expected a name"):
+        nd.sweep(G, HOME, GRID, callable_, out=tmp_path / "deep" / "out")
+    assert not list(tmp_path.iterdir())

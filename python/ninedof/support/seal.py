@@ -1,0 +1,36 @@
+"""Digests of plain values: a file that holds its own is known to be as it was written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from hashlib import sha256
+from typing import Any
+
+from ninedof.support.json import encode
+
+DIGEST = "digest"  # the entry of a file
+
+
+def digest_of(value: Any, salt: str = "") -> str:
+    """Return the digest of plain values, and of a text before them; the order of entries does not count."""
+    return sha256((salt + encode(value, sort_keys=True)).encode()).hexdigest()
+
+
+def sealed(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a file with the digest of all of them."""
+    return {**data, DIGEST: digest_of(data)}
+
+
+def unsealed(data: Mapping[str, Any], name: object, required: bool = False) -> dict[str, Any]:
+    """Return the entries of a file without their digest.
+
+    Raises
+    ------
+    ValueError
+        If they are not those that were sealed; without a digest only where one is required.
+
+    """
+    entries = {key: value for key, value in data.items() if key != DIGEST}
+    if (DIGEST in data or required) and data.get(DIGEST) != digest_of(entries):
+        raise ValueError(f"{name}: got a file that was changed or damaged since it was written, expected it as it was")
+    return entries
