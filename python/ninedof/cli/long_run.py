@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ninedof.cli.job_report import report_words, with_report
 from ninedof.cli.screen import Screen, bold
-from ninedof.runs.directory import run_directory
+from ninedof.runs.directory import run_directory, used_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.extras import MissingExtra
 from ninedof.sweep import SweepResult
@@ -34,7 +34,8 @@ def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
         raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
     if not (out / CHUNKS).is_dir():
         raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
-    yield out
+    with used_directory(out):
+        yield out
 
 
 def compute(

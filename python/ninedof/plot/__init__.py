@@ -3,6 +3,7 @@
 Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
 """
 
+import ninedof.plot.agg  # noqa: F401, before matplotlib
 from ninedof.plot.atlas import atlas
 from ninedof.plot.body import workspace_body
 from ninedof.plot.certified import CertifiedPanel, certified_workspace

@@ -6,9 +6,11 @@ import io
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.image import imsave
 
 from ninedof.plot import style
 from ninedof.support.files import write_whole
@@ -53,6 +55,13 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
         for kind, image in _images(figure):
             paths.append(write_whole(folder / f"{stem}.{kind}", image))
     return paths
+
+
+def picture(image: Any) -> bytes:
+    """Return an array of pixels as a PNG file."""
+    stream = io.BytesIO()
+    imsave(stream, image, format="png")
+    return stream.getvalue()
 
 
 def _images(figure: Figure) -> Iterator[tuple[str, bytes]]:

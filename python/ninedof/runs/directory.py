@@ -1,72 +1,153 @@
-"""Where run folders are made, and removed again if bad input ends a run at once."""
+"""Where run folders are made, and removed again if bad input ends a run at once. A run has its folder to itself."""
 
 from __future__ import annotations
 
 import itertools
+import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
 from ninedof.chunks.store import MANIFEST
-from ninedof.support.files import why_not_writable
+from ninedof.support.command import at_end
+from ninedof.support.files import is_part, why_not_writable
+from ninedof.support.lock import LOCK, FolderLock
 
 RUNS = Path("runs")
+LONGEST = "n" * 80  # no name that a run writes into its folder is longer, a folder of chunks between counted
 
 
 def new_directory(out: Path | None) -> Path:
     """Create the run folder before any work is done: `out`, or runs/<time> here.
 
-    An existing folder must be empty: a run never overwrites another.
+    An existing folder must be empty: a run never overwrites another. A command has the folder to itself until it ends,
+    and leaves none that is empty.
     """
-    if out is not None:
-        if _taken(out):
-            raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
-        _create(out, exist_ok=True)
-        if reason := why_not_writable(out / "record.json"):
-            raise ValueError(f"out: got {out}, which cannot be written to ({reason}), expected a writeable place")
-        return out
-    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
-    for attempt in itertools.count():
-        path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
-        if _create(path, exist_ok=False):
-            return path
-    raise AssertionError("unreachable")
+    directory, lock, remove = _begun(out)
+    if not at_end(lambda: _ended(directory, lock, remove)):
+        lock.close()
+    return directory
 
 
 @contextmanager
 def run_directory(out: Path | None) -> Iterator[Path]:
-    """Create the run folder as `new_directory` does; remove it if bad input ends the run before anything was kept."""
-    existed = out is not None and out.exists()
-    directory = new_directory(out)
+    """Create the run folder as `new_directory` does; remove it if an error ends the run before anything was kept.
+
+    It belongs to this run until the end of the block, or of the command that runs.
+    """
+    directory, lock, remove = _begun(out)
+    later = at_end(lambda: _ended(directory, lock, remove))
     try:
         yield directory
-    except ValueError:
-        if not any(path.is_file() and not _is_preparation(path) for path in directory.rglob("*")):
-            _remove(directory, existed)
+    except Exception:
+        if all(_is_preparation(path) for path in _files(directory)):
+            lock.close()
+            remove()
         raise
+    finally:
+        if not later:
+            _ended(directory, lock, remove)
+
+
+@contextmanager
+def used_directory(directory: Path, name: str = "out") -> Iterator[Path]:
+    """Have the folder of an earlier run to oneself until the end of the block, or of the command that runs."""
+    lock = FolderLock(directory, name)
+    later = at_end(lock.close)
+    try:
+        if reason := why_not_writable(directory / LONGEST):
+            raise ValueError(
+                f"{name}: got {directory}, which cannot be written to ({reason}), expected a writeable place"
+            )
+        yield directory
+    finally:
+        if not later:
+            lock.close()
+
+
+def _begun(out: Path | None) -> tuple[Path, FolderLock, Callable[[], None]]:
+    """Return a new run folder, its lock, and what removes it again as far as it was made here."""
+    if out is None:
+        directory, made = _of_now()
+    else:
+        if _taken(out):
+            raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
+        directory, made = out, _missing(out)
+        _create(out, exist_ok=True)
+
+    def remove() -> None:
+        for entry in directory.iterdir() if directory.is_dir() else ():
+            with suppress(OSError):
+                shutil.rmtree(entry) if entry.is_dir() and not entry.is_symlink() else entry.unlink()
+        for folder in made:
+            with suppress(OSError):  # others are there
+                folder.rmdir()
+
+    lock = None
+    try:
+        lock = FolderLock(directory)
+        if _taken(directory):  # since it was looked at
+            raise ValueError(f"out: got {directory}, which another run is using, expected another folder")
+        if reason := why_not_writable(directory / LONGEST):
+            raise ValueError(f"out: got {directory}, which cannot be written to ({reason}), expected a writeable place")
+    except BaseException:
+        if lock is not None:
+            lock.close()
+        for folder in made:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+    return directory, lock, remove
+
+
+def _ended(directory: Path, lock: FolderLock, remove: Callable[[], None]) -> None:
+    """Give the folder back; remove it where there is not a single file in it."""
+    empty = all(_is_nothing(path) for path in _files(directory))
+    lock.close()
+    if empty:
+        remove()
+
+
+def _files(directory: Path) -> list[Path]:
+    return [path for path in directory.rglob("*") if path.is_symlink() or not path.is_dir()]
+
+
+def _is_nothing(path: Path) -> bool:
+    return path.name == LOCK or is_part(path.name)
 
 
 def _is_preparation(path: Path) -> bool:
-    return path.name.startswith(".") or path.name == MANIFEST
+    return _is_nothing(path) or path.name == MANIFEST
 
 
-def _remove(directory: Path, keep: bool) -> None:
-    for entry in directory.iterdir():
-        shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
-    if not keep:
-        directory.rmdir()
-        if directory.parent == RUNS:
-            with suppress(OSError):  # other runs are there
-                RUNS.rmdir()
+def _of_now() -> tuple[Path, list[Path]]:
+    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    for attempt in itertools.count():
+        path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
+        made = _missing(path)
+        if _create(path, exist_ok=False):
+            return path, made
+    raise AssertionError("unreachable")
+
+
+def _missing(path: Path) -> list[Path]:
+    """Return the folders of a path that do not exist, the innermost first."""
+    return [folder for folder in (path, *path.parents) if not os.path.lexists(folder)]
 
 
 def _taken(path: Path) -> bool:
+    """Return whether a place holds anything but the leftovers of a run that was killed as it began."""
     try:
-        return path.exists() and (not path.is_dir() or any(path.iterdir()))
-    except OSError as error:
-        raise ValueError(f"out: got {path}, which cannot be read ({error.strerror}), expected a new folder") from None
+        if path.is_symlink() and not path.exists():
+            raise ValueError("it is a link to nothing")
+        if not path.is_dir():
+            return os.path.lexists(path)
+        return not all(_is_nothing(entry) for entry in path.iterdir())
+    except (OSError, ValueError) as error:  # a zero byte is a ValueError
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise ValueError(f"out: got {path}, which cannot be used ({reason}), expected a new folder") from None
 
 
 def _create(path: Path, exist_ok: bool) -> bool:

@@ -12,7 +12,7 @@ from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.runs import folder
 from ninedof.runs.design_file import Design, load_design, save_design
-from ninedof.runs.directory import new_directory
+from ninedof.runs.directory import run_directory
 from ninedof.runs.motion_folder import load_motion, write_motion
 from ninedof.support.arguments import shown
 from ninedof.sweep import SweepResult
@@ -102,8 +102,8 @@ def save(kept: Kept, path: str | os.PathLike[str]) -> Path:
         return save_design(kept, path)
     if not isinstance(kept, Result | Front | WorkspaceMap | SweepResult | Followed):
         raise ValueError(f"kept: got {shown(kept)}, expected a run or a design")
-    directory = new_directory(Path(path))
-    return write_motion(kept, directory) if isinstance(kept, Followed) else folder.write_run(kept, directory)
+    with run_directory(Path(path)) as directory:
+        return write_motion(kept, directory) if isinstance(kept, Followed) else folder.write_run(kept, directory)
 
 
 def split(name: str) -> tuple[Path, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import secrets
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -22,12 +23,18 @@ Arrays = dict[str, NDArray[Any]]
 PART = ".part-"  # begins the name of a file that is being written
 MOST_NAME = 120  # bytes of a name that is put into a folder
 
+_PART = re.compile(rf"{re.escape(PART)}.+-[0-9a-f]{{8}}", re.DOTALL)
 _SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
 
 
 def part_name(name: str) -> str:
     """Return a new name for the part of a file that is being written; it begins with PART and, if short, the name."""
     return f"{PART}{name[:_SHORT]}-{secrets.token_hex(4)}"
+
+
+def is_part(name: str) -> bool:
+    """Return whether a name is one that `part_name` returns: the file of a run that was killed while it wrote."""
+    return _PART.fullmatch(name) is not None
 
 
 def write_whole(path: Path, data: bytes) -> Path:
@@ -58,12 +65,6 @@ def write_whole(path: Path, data: bytes) -> Path:
 def naming(error: OSError, path: Path) -> OSError:
     """Return the error of a system call with the file that it is about: one on an open file has none."""
     return OSError(error.errno, error.strerror or str(error), os.fspath(path)) if error.errno else error
-
-
-def system_words(error: OSError) -> str:
-    """Return an error of the system in words: "No space left on device: runs/1/record.json"."""
-    reason = error.strerror or str(error) or type(error).__name__
-    return reason if error.filename is None else f"{reason}: {os.fsdecode(error.filename)}"
 
 
 def why_not_writable(path: Path) -> str:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from matplotlib.image import imsave
-
 from ninedof.export.export import export
 from ninedof.export.formats import FORMATS
 from ninedof.motion.follow import follow
+from ninedof.plot.files import picture
 from ninedof.runs.design_file import save_design
 from ninedof.runs.motion_folder import legs_csv
 from ninedof.support.extras import MissingExtra
@@ -102,6 +100,4 @@ def _picture(client: Any) -> dict[str, bytes]:
         image = client.get_render(height=height, width=width, transport_format="png")
     except RuntimeError:  # the page was closed before it was drawn
         return {}
-    stream = io.BytesIO()
-    imsave(stream, image, format="png")
-    return {"ninedof.png": stream.getvalue()}
+    return {"ninedof.png": picture(image)}

@@ -13,6 +13,7 @@ from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.robot.leg_names import LEGS
+from ninedof.runs.directory import used_directory
 from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
 from ninedof.runs.objects import load
 from ninedof.support.arguments import finite
@@ -48,9 +49,10 @@ def certify(
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
+    file = certificate_file(run)
     earlier = load_certificate(run) if resume else None
     try:
-        with screen.boxes("certify") as bar:
+        with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
             certificate = found.certify(
                 condition_number=condition,
                 gap=gap,
@@ -63,7 +65,7 @@ def certify(
     except KeyboardInterrupt:
         screen.print(bold("interrupted", " before the limits were proved: the run folder is as it was"))
         raise typer.Exit(INTERRUPTED) from None
-    file = save_certificate(certificate, certificate_file(run))
+    save_certificate(certificate, file)
     screen.print(_table(certificate))
     for sentence in certificate.sentences():
         screen.print(sentence)

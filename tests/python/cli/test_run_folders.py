@@ -1,0 +1,109 @@
+"""A run folder belongs to one command at a time; what cannot be written is told before the work."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.support.lock import FolderLock
+
+SMALL = {
+    "optimize": ["--starts", "1"],
+    "pareto": ["--value", "2", "--starts", "1"],
+    "sweep": ["--over", "x_p=-1:1:3"],
+    "atlas": ["--designs", "1000"],
+    "workspace": ["--condition", "6", "--resolution", "4", "--tolerance", "0.2"],
+    "path": ["--circle", "0.2", "--points", "11"],
+    "paper": ["--figures"],
+}
+
+
+def ran(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        main(list(arguments))
+    return end.value.code, capsys.readouterr()
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_a_folder_in_use_is_refused_before_the_work(tmp_path, capsys, name):
+    out = tmp_path / "out"
+    out.mkdir()
+    with FolderLock(out):
+        code, said = ran(capsys, name, *SMALL[name], "--out", str(out))
+    assert code == 2
+    (line,) = [line for line in said.err.splitlines() if line.startswith("ninedof: ")]
+    assert line == f"ninedof: --out: got {out}, which another run is using, expected another folder"
+    assert not list(out.iterdir())
+
+
+@pytest.mark.parametrize("name", ["sweep", "atlas", "pareto"])
+def test_a_folder_in_use_is_not_resumed(tmp_path, capsys, name):
+    out = tmp_path / "out"
+    (out / "chunks").mkdir(parents=True)
+    with FolderLock(out):
+        code, said = ran(capsys, name, *SMALL[name], "--out", str(out), "--resume")
+    assert code == 2
+    assert "which another run is using" in said.err
+
+
+def test_two_commands_with_one_folder_one_is_refused(tmp_path):
+    """Both ended with status 0, and one record was lost."""
+    path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    command = [
+        sys.executable,
+        "-m",
+        "ninedof",
+        "optimize",
+        "--starts",
+        "2",
+        "--no-figures",
+        "--no-report",
+        "--out",
+        "oo",
+    ]
+    both = [
+        subprocess.Popen(
+            [*command, "--seed", str(seed)],
+            cwd=tmp_path,
+            env=os.environ | {"PYTHONPATH": path},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        for seed in (1, 2)
+    ]
+    errors = [process.communicate(timeout=120)[1] for process in both]
+    codes = [process.returncode for process in both]
+    assert sorted(codes) == [0, 2], errors
+    refused = [line for line in errors[codes.index(2)].splitlines() if line.startswith("ninedof: ")]
+    assert len(refused) == 1
+    assert refused[0].startswith("ninedof: --out: got oo, which")
+    record = json.loads((tmp_path / "oo" / "record.json").read_text())
+    assert record["study"]["solver"]["seed"] == 1 + codes.index(0)
+    assert [p.name for p in (tmp_path / "oo").iterdir() if p.name.startswith(".")] == []
+
+
+def test_a_backend_of_matplotlib_that_is_not_there_does_not_matter(tmp_path):
+    """It was found out after the work."""
+    path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    code = "import os, ninedof.plot as p; from matplotlib.figure import Figure; p.save(Figure(), '.', 'f'); "
+    code += "assert os.environ['MPLBACKEND'] == 'weird'"
+    environment = os.environ | {"PYTHONPATH": path, "MPLBACKEND": "weird"}
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, check=True, timeout=60)
+    assert (tmp_path / "f.png").read_bytes()[1:4] == b"PNG"
+    chosen = "import ninedof.plot, matplotlib; assert matplotlib.rcParams['backend'] == 'svg'"
+    environment = os.environ | {"PYTHONPATH": path, "MPLBACKEND": "svg"}
+    subprocess.run([sys.executable, "-c", chosen], env=environment, check=True, timeout=60)
+
+
+@pytest.mark.parametrize("arguments", [["--against", "foo"], ["--value", "-1"], ["--points", "1"], ["--starts", "0"]])
+def test_rejected_arguments_of_pareto_leave_no_folder(tmp_path, capsys, arguments):
+    code, said = ran(capsys, "pareto", *arguments, "--out", str(tmp_path / "a" / "b"))
+    assert code == 2
+    assert sum(line.startswith("ninedof: ") for line in said.err.splitlines()) == 1
+    assert not list(tmp_path.iterdir())
