@@ -2,9 +2,13 @@
 
 #include "support/module.hpp"
 
-PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
+#include "support/without_gil.hpp"
+
+// A module of another name than the one that Python imports: its entry is called by ours, below.
+PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "The compiled core of ninedof. Private: use the names of `ninedof`.";
   m.attr("version") = NINEDOF_VERSION;
+  ninedof::python::watch_interpreter_exit();
   ninedof::python::bind_geometry(m);
   ninedof::python::bind_kinematics(m);
   ninedof::python::bind_position(m);
@@ -23,4 +27,11 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_machine(m);
   ninedof::python::bind_optimize(m);
   ninedof::python::bind_optimum(m);
+}
+
+/// In a subinterpreter pybind11 would wait for ever for the GIL of the main one, in its first step: refused before.
+extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
+  if (PyInterpreterState_Get() == PyInterpreterState_Main()) return PyInit_ninedof_core();
+  PyErr_SetString(PyExc_ImportError, "ninedof: got a subinterpreter, expected the main interpreter of the process");
+  return nullptr;
 }

@@ -11,7 +11,10 @@ from ninedof.support import starting as _starting  # noqa: F401  # first: Ctrl-C
 
 try:
     from ninedof import _core
-except ImportError as error:  # a source tree without its compiled part
+except ImportError as error:
+    if "subinterpreter" in str(error):
+        raise
+    # A source tree without its compiled part.
     raise ImportError(
         "the compiled part of ninedof (ninedof._core) is missing or does not fit this Python: "
         "install the package with `pip install .` from its source directory and import it from elsewhere"

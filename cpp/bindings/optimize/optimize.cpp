@@ -264,7 +264,8 @@ void bind_optimize(py::module_& m) {
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
     const Trace t = [&] {
       const Formulation f = formulation_from(formulation);
-      const py::gil_scoped_release nogil;
+      const CoreCall call;
+      const WithoutGil nogil;
       return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f);
     }();
     return py::make_tuple(t.best, fields_of(problem, t.end));

@@ -18,12 +18,13 @@ Orbit orbit_from(const std::string& name, const py::object& value) {
 /// allowed.
 void check_configurations(const Array& position, const Array& rotation, const Array& internal_point, bool is_stack) {
   const ConfigurationStack stack(position, rotation, internal_point);
-  const py::gil_scoped_release nogil;
-  for (long i = 0; i < stack.count(); ++i) {
-    const Configuration c = stack[i];
-    const bool missing = c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN();
-    if (!(is_stack && missing)) validate(c);
-  }
+  in_slices(stack.count(), 1024, 1, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      const Configuration c = stack[i];
+      const bool missing = c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN();
+      if (!(is_stack && missing)) validate(c);
+    }
+  });
 }
 
 /// Three arrays to fill with configurations.

@@ -16,6 +16,7 @@
 
 #include "ninedof/math/control.hpp"
 #include "ninedof/math/parallel.hpp"
+#include "support/without_gil.hpp"
 
 namespace ninedof::python {
 
@@ -52,8 +53,9 @@ auto interruptible(const py::object& progress, const Work& work, const IsPartial
     shared.finished = true;
     shared.changed.notify_one();
   });
+  const CoreCall call(&worker);
   const auto join = [&] {
-    const py::gil_scoped_release nogil;
+    const WithoutGil nogil;
     worker.join();
   };
   long reported = 0;
@@ -61,7 +63,7 @@ auto interruptible(const py::object& progress, const Work& work, const IsPartial
     long done = 0, total = 0;
     double value = 0.0;
     {
-      const py::gil_scoped_release nogil;
+      const WithoutGil nogil;
       std::unique_lock lock(shared.guard);
       shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.finished; });
       finished = shared.finished;
@@ -71,7 +73,8 @@ auto interruptible(const py::object& progress, const Work& work, const IsPartial
     }
     try {
       if (!progress.is_none() && done > reported)
-        progress(done, total, std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value)));
+        call_python(
+            [&] { progress(done, total, std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value))); });
       reported = done;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     } catch (const py::error_already_set& error) {
@@ -104,11 +107,12 @@ void in_slices(long count, long block, int threads, const Work& work) {
   const long most = std::max(1L, count);
   long length = std::min(block, most);
   int workers = 1;
+  const CoreCall call;
   for (long first = 0; first < count;) {
     const long last = std::min(count, first + length);
     const auto start = Clock::now();
     {
-      const py::gil_scoped_release nogil;
+      const WithoutGil nogil;
       parallel_for(last - first, block, workers, [&](long a, long b) { work(first + a, first + b); });
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
