@@ -37,7 +37,8 @@ def hexagonal_condition_number(
     threads : int, optional
         Number of threads; one per processor by default. The result does not depend on it.
     out : numpy.ndarray, optional
-        Array for the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to.
+        Array for the result: float64, C-contiguous, aligned, of the shape the arguments broadcast to. It may be or
+        overlap an argument.
 
     Returns
     -------
@@ -61,6 +62,8 @@ def hexagonal_condition_number(
     shape = leading_shape({name: (values, 0) for name, values in columns.items()})
     checked_out(out, shape)
     found = np.empty(shape) if out is None else out
+    if out is not None:  # the arguments are read while `out` is being filled
+        columns = {name: v.copy() if np.may_share_memory(v, out) else v for name, v in columns.items()}
     each = [v.reshape(-1) if v.size == 1 else np.broadcast_to(v, shape).reshape(-1) for v in columns.values()]
     flat, count = found.reshape(-1), thread_argument(threads)
     designs = np.empty((min(GATHERED, flat.size), len(each)))

@@ -63,10 +63,8 @@ def leading_shape(arrays: dict[str, tuple[Floats, int]]) -> tuple[int, ...]:
 
 
 def frozen(array: Floats) -> Floats:
-    """Return a read-only C-contiguous copy."""
-    own = np.array(array, dtype=np.float64, order="C", copy=True)
-    own.flags.writeable = False
-    return own
+    """Return a C-contiguous copy that nobody can make writeable: its numbers belong to a bytes object."""
+    return np.ndarray(np.shape(array), np.float64, np.asarray(array, dtype=np.float64).tobytes())
 
 
 def without_infinity(name: str, values: Floats) -> Floats:

@@ -205,6 +205,33 @@ def test_many_hexagonal_designs_are_gathered_block_by_block():
     out = np.zeros_like(found)
     assert nd.hexagonal_condition_number(a1, a2, b1, 1, zp, 0.25, out=out, threads=1) is out
     assert out.tobytes() == found.tobytes()
+
+
+@pytest.mark.parametrize("shift", [0, 1, 7])
+@pytest.mark.parametrize("threads", [1, 4])
+def test_an_out_that_overlaps_an_argument(shift, threads):
+    """As numpy does it: the result is that of arguments which nothing overlaps."""
+    rng = np.random.default_rng(16)
+    memory = rng.uniform(1.0, 2.0, 150_000 + shift)
+    a1, out = memory[shift:], memory[: memory.size - shift]
+    found = nd.hexagonal_condition_number(a1.copy(), 2.0, a1[::-1].copy(), 1.0, out.copy(), 0.5)
+    nd.hexagonal_condition_number(a1, 2.0, a1[::-1], 1.0, out, 0.5, threads=threads, out=out)
+    assert out.tobytes() == found.tobytes()
+
+
+def test_an_out_that_holds_a_number_of_the_arguments():
+    a1, out = np.linspace(1.0, 2.0, 100_000), np.full(100_000, 0.5)
+    found = nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, 0.5)
+    nd.hexagonal_condition_number(a1, 2.0, 1.0, 1.0, 1.5, out[:1], out=out)
+    assert out.tobytes() == found.tobytes()
+
+
+def test_characteristic_lengths_in_out(published, stack):
+    lengths = np.linspace(0.5, 1.5, len(stack))
+    for index in (nd.condition_number, nd.manipulability, nd.isotropy_residual, nd.reciprocal_condition_number):
+        out = lengths.copy()
+        index(published, stack, out, out=out)
+        assert out.tobytes() == index(published, stack, lengths).tobytes()
     assert nd.hexagonal_condition_number([], 1, 1, 1, 1, 0.5).shape == (0,)
     with pytest.raises(ValueError, match="leading dimensions do not broadcast"):
         nd.hexagonal_condition_number([1, 2], [1, 2, 3], 1, 1, 1, 0.5)

@@ -241,3 +241,16 @@ def test_memory_layout_does_not_matter(published):
     assert plain == odd
     assert odd.rotation.flags.c_contiguous
     assert_array_equal(nd.leg_lengths(published, odd), nd.leg_lengths(published, plain))
+
+
+@pytest.mark.parametrize("shape", [(), (4,), (2, 3), (0,)])
+def test_no_flag_makes_a_configuration_changeable(shape):
+    at = nd.Configuration.neutral(3.9828, np.full(shape, 2.3745))
+    for made in (at, at.moved(np.zeros(9)), pickle.loads(pickle.dumps(at)), copy.deepcopy(at)):
+        for array in (made.position, made.rotation, made.internal_point):
+            base = array
+            while isinstance(base, np.ndarray):
+                assert base.flags.aligned
+                with pytest.raises(ValueError, match="WRITEABLE"):
+                    base.flags.writeable = True
+                base = base.base
