@@ -118,7 +118,7 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     (<TrackStatus.TRACKED: 'tracked'>, True, True)
 
     """
-    operands(geometry, start)
+    operands(geometry, start, "start")
     lengths = as_floats("leg_lengths", leg_lengths, (9,))
     is_path = lengths.ndim - 1 > len(start.shape)
     path = lengths.shape[-2] if is_path else 1

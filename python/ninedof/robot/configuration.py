@@ -191,11 +191,16 @@ def require_geometry(geometry: Any) -> None:
         raise ValueError(f"geometry: got {type(geometry).__name__}, expected a Geometry")
 
 
-def operands(geometry: Geometry, configuration: Configuration) -> Operands:
+def require_configuration(name: str, configuration: Any) -> None:
+    """Raise ValueError, naming the argument, unless it is a Configuration."""
+    if not isinstance(configuration, Configuration):
+        raise ValueError(f"{name}: got {type(configuration).__name__}, expected a Configuration")
+
+
+def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core: the geometry, and arrays (n, 3), (n, 3, 3), (n, 3)."""
     require_geometry(geometry)
-    if not isinstance(configuration, Configuration):
-        raise ValueError(f"configuration: got {type(configuration).__name__}, expected a Configuration")
+    require_configuration(name, configuration)
     return geometry, *_flat(*configuration._arrays())
 
 

@@ -18,6 +18,7 @@ from ninedof.support.short import short_repr
 
 PARTS = {"rotation": 0, "position": 3, "internal_point": 6}  # place in a tangent of `Configuration.moved`
 ROUNDS, NEARER = 12, 0.35  # of the search about the best direction, and how much closer each of them looks
+FARTHEST = 2000.0  # longest legs, or quarter turns: what is farther takes long and is no matter of this machine
 AROUND = 60  # directions of a round
 
 
@@ -60,7 +61,7 @@ def nearest_singularity(
         "position": the platform moves without turning, O at rest. "rotation": it turns about an axis through p, O at
         rest. "internal_point": O moves, the platform at rest.
     most : float, optional
-        How far is looked; by default twice the longest leg, and half a turn.
+        How far is looked; by default twice the longest leg, and half a turn; at most a thousand times as far.
     directions : int
         Number of directions at first, 1000 by default.
     threads : int, optional
@@ -91,9 +92,8 @@ def nearest_singularity(
     if len(configuration.shape) > 1 or configuration.shape == (0,):
         raise ValueError(f"configuration: got shape {configuration.shape}, expected a single one or a stack (n,)")
     count = whole("directions", directions, 0, 10**6)
-    if most is None:
-        most = math.pi if part == "rotation" else 2.0 * float(np.nanmax(leg_lengths(geometry, configuration)))
-    reach = finite("most", most, 0.0)
+    size = math.pi / 2.0 if part == "rotation" else float(np.nanmax(leg_lengths(geometry, configuration)))
+    reach = 2.0 * size if most is None else finite("most", most, 0.0, FARTHEST * size)
     stack = configuration
     if not stack.shape:
         stack = Configuration(stack.position[None], stack.rotation[None], stack.internal_point[None])
@@ -119,7 +119,8 @@ def nearest_singularity(
     motion = np.zeros(9)
     motion[first : first + 3] = (share if math.isfinite(share) else 0.0) * reach * best
     there = here[0].moved(motion)
-    return NearestSingularity(share * reach, Mechanism(str(found.mechanism[at])), best, pose, there)
+    distance = share * reach if math.isfinite(share) else math.inf
+    return NearestSingularity(distance, Mechanism(str(found.mechanism[at])), best, pose, there)
 
 
 def _sphere(count: int) -> Floats:

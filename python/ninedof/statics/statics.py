@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import flag
 from ninedof.support.arrays import Floats, one_or_each
 from ninedof.support.short import short_repr
 
@@ -153,5 +154,5 @@ def stiffness(
     """
     k = one_or_each("leg_stiffness", leg_stiffness, 9)
     shape, flat, (k,) = operands_with(geometry, configuration, leg_stiffness=(k, 9))
-    core, size = (_core.stiffness_with_o, 9) if internal else (_core.stiffness, 6)
+    core, size = (_core.stiffness_with_o, 9) if flag("internal", internal) else (_core.stiffness, 6)
     return core(*flat, k, 0).reshape(*shape, size, size)

@@ -16,11 +16,15 @@ Vector = tuple[float, float, float]
 
 
 def shown(value: Any) -> str:
-    """Return the text of a value for a message, cut where it is long."""
+    """Return the text of a value for a message: of one line, cut where it is long."""
     try:
         text = repr(value)
     except ValueError:  # a whole number of thousands of digits, which Python does not convert
-        return "a very long number"
+        return "a very long number" if isinstance(value, int) else f"a {type(value).__name__} with a very long number"
+    except Exception:  # lists in lists in lists, an object whose own words fail
+        return f"a {type(value).__name__}"
+    text = " ".join(text.split()) if "\n" in text else text  # numpy's arrays have a line for each row
+    text = text if text.isprintable() else "".join(c if c.isprintable() else "?" for c in text)
     return text if len(text) <= LONGEST else text[:LONGEST] + "..."
 
 
@@ -55,7 +59,7 @@ def table(name: str, value: Any) -> Mapping[str, Any]:
 
 def is_number(value: Any) -> bool:
     """Return whether a value is a real number, Python's or numpy's; bool does not count as a number."""
-    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool | np.timedelta64)
 
 
 def number(name: str, value: Any) -> float:
@@ -80,10 +84,21 @@ def finite(name: str, value: Any, least: float = -math.inf, most: float = math.i
 
 def whole(name: str, value: Any, least: int, most: int = LARGEST) -> int:
     """Return a whole number; 3.0 does not count as one."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
+    if (
+        isinstance(value, bool | np.timedelta64)
+        or not isinstance(value, int | np.integer)
+        or not least <= value <= most
+    ):
         to = "to 2^63 - 1" if most == LARGEST else f"to {most}"
         raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} {to}")
     return int(value)
+
+
+def flag(name: str, value: Any) -> bool:
+    """Return a truth value, Python's or numpy's; 1 and 0 do not count as such."""
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"{name}: got {shown(value)}, expected True or False")
+    return bool(value)
 
 
 def choice(name: str, value: Any, known: Iterable[str]) -> str:

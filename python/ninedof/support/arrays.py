@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ninedof.support.arguments import whole
+from ninedof.support.arguments import shown, whole
 
 Floats = NDArray[np.float64]
 
@@ -23,7 +23,9 @@ def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:
             raise TypeError
         array = array.astype(np.float64)
     except (TypeError, ValueError):
-        raise ValueError(f"{name}: got {value!r}, expected real numbers of shape {_shape_text(trailing)}") from None
+        raise ValueError(
+            f"{name}: got {shown(value)}, expected real numbers of shape {_shape_text(trailing)}"
+        ) from None
     if array.ndim < len(trailing) or array.shape[array.ndim - len(trailing) :] != trailing:
         raise ValueError(f"{name}: got shape {array.shape}, expected shape {_shape_text(trailing)}")
     return array

@@ -264,5 +264,5 @@ def test_wrong_lengths_are_named(published, home, wrong):
 
 
 def test_wrong_start_is_named(published):
-    with pytest.raises(ValueError, match=r"^configuration: got "):
+    with pytest.raises(ValueError, match=r"^start: got "):
         nd.track(published, np.ones(9), np.ones(15))

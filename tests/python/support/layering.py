@@ -101,8 +101,9 @@ ORACLES = {"verify": {"__init__", "cli"}}
 # `import ninedof` stays light: none of these at the top of a module that it loads.
 HEAVY = {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "distributed", "viser"}
 
-# Tests lie in the rooms of the package; those of documents, examples and of the whole in a room of their own.
-TEST_ROOMS = {*PYTHON_ROOMS, "project"}
+# Tests lie in the rooms of the package; those of documents, examples and of the whole in a room of their own,
+# and so do those that attack every entry point.
+TEST_ROOMS = {*PYTHON_ROOMS, "project", "entry"}
 
 
 def reachable(start: str, graph: Mapping[str, set[str]]) -> set[str]:
