@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/math/dual.hpp"
 #include "ninedof/math/error.hpp"
@@ -95,6 +97,13 @@ TEST_SUITE("interval") {
         };
         CHECK(middle(curved(p, s)) == doctest::Approx((slope(s + h) - slope(s - h)) / (2.0 * h)).epsilon(1e-6));
       }
+  }
+
+  TEST_CASE("the middle lies inside, of the smallest and of the largest numbers too") {
+    const double least = std::numeric_limits<double>::denorm_min(), most = std::numeric_limits<double>::max();
+    for (const Interval& x : {Interval(least), Interval(-least), Interval(3.0 * least), Interval(least, 2.0 * least),
+                              Interval(-most, most), Interval(most), Interval(0.5 * most, most), Interval::whole()})
+      CHECK(contains(x, middle(x)));
   }
 
   TEST_CASE("the arithmetic of this process is sound") {

@@ -79,10 +79,12 @@ inline double width(const Interval& x) {
 inline bool contains(const Interval& x, double value) {
   return x.lo <= value && value <= x.hi;
 }
-/// A number inside, near the middle; finite.
+/// A number inside, near the middle; finite. Halves of the smallest doubles round to zero, which may lie outside.
 inline double middle(const Interval& x) {
   const double m = 0.5 * x.lo + 0.5 * x.hi;
-  return std::isfinite(m) ? m : x.lo == -detail::no_bound ? std::min(x.hi, 0.0) : std::max(x.lo, 0.0);
+  return std::isfinite(m)            ? std::clamp(m, x.lo, x.hi)
+         : x.lo == -detail::no_bound ? std::min(x.hi, 0.0)
+                                     : std::max(x.lo, 0.0);
 }
 inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
