@@ -16,6 +16,7 @@ from ninedof.viewer.html import words_html
 from ninedof.viewer.player import Player
 
 LONGEST_STEP = 0.2  # seconds: a page that was not served for long does not jump
+LARGEST = 50_000_000  # bytes of a path that the browser sends: some 400 000 poses
 
 
 class Playback:
@@ -45,7 +46,9 @@ class Playback:
         return Trajectory.load(path, self._viewer.state.home, self._viewer.subject.unit)
 
     def read(self, file: Any) -> None:
-        """Open a path that the browser has sent."""
+        """Open a path that the browser has sent; its name is shown and opens nothing here."""
+        if len(file.content) > LARGEST:
+            raise ValueError(f"{file.name}: got {len(file.content)} bytes, expected {LARGEST} at most")
         with TemporaryDirectory() as folder:
             path = Path(folder) / "path.csv"
             path.write_bytes(file.content)

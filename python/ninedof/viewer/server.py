@@ -11,6 +11,7 @@ from typing import Any
 
 from ninedof.support.arguments import shown
 from ninedof.support.extras import optional
+from ninedof.viewer.guard import guard
 
 
 def started(host: str, port: int) -> Any:
@@ -21,7 +22,7 @@ def started(host: str, port: int) -> Any:
     MissingExtra
         Without viser.
     ValueError
-        If the port is in use or the host is no address of this machine.
+        If the port is in use, the host is no address of this machine, or viser lets nobody look at its requests.
 
     """
     viser = optional("viser", "viewer", "the viewer")
@@ -29,8 +30,14 @@ def started(host: str, port: int) -> Any:
         raise ValueError(f"port: got {shown(port)}, expected a number from 0 to 65535")
     _require_free(host, port)
     logging.getLogger("websockets.server").addFilter(_no_handshake)  # only once, however often it is added
-    with _silence():
+    with _silence(), guard(host) as guarded:
         server = viser.ViserServer(host=host, port=port, label="ninedof", verbose=False)
+    if not guarded:
+        stopped(server)
+        raise ValueError(
+            f"viser: got {viser.__version__}, whose requests cannot be looked at, expected another release"
+        )
+    server.request_share_url = server.disconnect_share_url = _not_shared  # any page could ask for it by a message
     if port not in (0, server.get_port()):  # taken a moment ago: viser goes on to the next ones
         stopped(server)
         raise ValueError(_in_use(port))
@@ -41,6 +48,10 @@ def stopped(server: Any) -> None:
     """Stop a server."""
     with _silence():
         server.stop()
+
+
+def _not_shared(verbose: bool = False) -> None:
+    """Stand for what would hand the viewer to the whole world through a server of strangers."""
 
 
 def _no_handshake(record: logging.LogRecord) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def view(
         run folder, "RUN#7". The published design by default.
     host : str
         Address to listen at. The default is reached from this machine alone; "0.0.0.0" from the whole network, and
-        nothing asks for a password.
+        nothing asks for a password: that gives a RuntimeWarning.
     port : int
         0 takes any free port.
     path : Trajectory or path, optional
@@ -63,13 +64,17 @@ def view(
 
     optional("viser", "viewer", "the viewer")
     from ninedof.viewer.app import Viewer
+    from ninedof.viewer.guard import loopback
     from ninedof.viewer.subject import subject_of
 
     shown = Viewer(subject_of(design), host, port, dark)
-    if path is not None:
-        try:
+    try:
+        if not loopback(host):
+            said = f"host: {host} is reached from the network, by everyone there: nothing asks for a password"
+            warnings.warn(said, RuntimeWarning, stacklevel=2)
+        if path is not None:
             shown.play(path)
-        except BaseException:
-            shown.close()
-            raise
+    except BaseException:
+        shown.close()
+        raise
     return shown

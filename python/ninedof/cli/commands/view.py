@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 import webbrowser
 from pathlib import Path
 from typing import Annotated
@@ -38,10 +39,14 @@ def view(
     Needs the extra `viewer`. Ctrl-C ends it.
     """
     try:
-        viewer = view_of(design, host=host, port=port, path=path, dark=dark)
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")
+            viewer = view_of(design, host=host, port=port, path=path, dark=dark)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
     with viewer:
+        for one in warned:
+            typer.echo(f"ninedof: {one.message}", err=True)
         try:
             print(f"{viewer.url}  (Ctrl-C ends the viewer)", flush=True)
             if browser:
