@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable
-from html import escape
 from pathlib import Path
 
-from ninedof.report.markup import Html, joined, tag
+from ninedof.report.markup import Html, joined, safe, tag
 from ninedof.runs.paper_figures import FIGURES
 
 CAPTIONS = {
@@ -22,12 +21,13 @@ CAPTIONS = {
     "motion": "Leg lengths, condition number and margins along the path.",
     **{stem: f"{name}." for stem, name in FIGURES.items()},
 }
+LARGEST = 20_000_000  # bytes of a figure
 KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
 def stems(folder: Path) -> list[str]:
     """Return the names of the figures of a folder, known ones first."""
-    found = {file.stem for kind in KINDS for file in folder.glob(f"*{kind}")}
+    found = {file.stem for kind in KINDS for file in folder.glob(f"*{kind}") if _own(file)}
     return sorted(found, key=lambda stem: ([*CAPTIONS, stem].index(stem), stem))
 
 
@@ -38,10 +38,15 @@ def figures(folder: Path, names: Iterable[str]) -> Html:
 
 def image(folder: Path, stem: str) -> Html:
     """Return a figure as an element that holds its file: SVG or PNG, whichever is smaller."""
-    files = [path for kind in KINDS if (path := folder / f"{stem}{kind}").is_file()]
+    files = [path for kind in KINDS if _own(path := folder / f"{stem}{kind}")]
     smallest = min(files, key=lambda path: path.stat().st_size)
     data = b64encode(smallest.read_bytes()).decode()
-    return Html(f'<img alt="{escape(_caption(stem))}" src="data:{KINDS[smallest.suffix]};base64,{data}">')
+    return Html(f'<img alt="{safe(_caption(stem))}" src="data:{KINDS[smallest.suffix]};base64,{data}">')
+
+
+def _own(file: Path) -> bool:
+    """Return whether a figure is a file of this folder: a page is sent by mail, so a link to elsewhere stays out."""
+    return file.is_file() and file.resolve().parent == file.parent.resolve() and file.stat().st_size <= LARGEST
 
 
 def _caption(stem: str) -> str:

@@ -1,10 +1,12 @@
-"""Pieces of HTML. Plain text is escaped wherever it is put in; what is `Html` already is not."""
+"""Pieces of HTML. Plain text is escaped wherever it is put in, and made visible; what is `Html` already is not."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import NamedTuple
+
+from ninedof.support.visible import visible
 
 
 class Html(str):
@@ -21,12 +23,12 @@ class Section(NamedTuple):
 
 def safe(value: object) -> str:
     """Return a value as HTML: escaped, unless it is HTML already."""
-    return str(value) if isinstance(value, Html) else escape(str(value))
+    return str(value) if isinstance(value, Html) else escape(visible(str(value)))
 
 
 def tag(name: str, *children: object, **attributes: object) -> Html:
     """Return an element; a trailing underscore of an attribute (class_) is dropped, others become hyphens."""
-    given = "".join(f' {key.strip("_").replace("_", "-")}="{escape(str(v))}"' for key, v in attributes.items())
+    given = "".join(f' {key.strip("_").replace("_", "-")}="{escape(visible(str(v)))}"' for key, v in attributes.items())
     return Html(f"<{name}{given}>{''.join(safe(child) for child in children)}</{name}>")
 
 

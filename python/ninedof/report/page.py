@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from base64 import b64encode
 from collections.abc import Sequence
+from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from string import Template
@@ -13,6 +15,10 @@ from ninedof.report.markup import Html, Section, facts, joined, safe, tag
 from ninedof.report.pages import Page
 
 SCRIPTS = ("camera.js", "paint.js", "scene.js")
+# Nothing is loaded; style and script are the ones written here, known by their hashes, and no text becomes code.
+POLICY = (
+    "default-src 'none'; img-src data:; style-src {style}; script-src {script}; base-uri 'none'; form-action 'none'"
+)
 
 
 def page(
@@ -37,9 +43,12 @@ def page(
     if stems:
         sections.insert(_place_of_figures(sections), Section("figures", "Figures", figures(folder, stems)))
     parts = [_section(s, _view(still) if s.id == "machine" and contents.shown else Html()) for s in sections]
+    style = f"\n{_file('style.css')}\n"
+    script = f"\n{''.join(_file(name) for name in SCRIPTS)}\n" if contents.shown else ""
     return Template(_file("page.html")).substitute(
+        policy=POLICY.format(style=_hash(style), script=_hash(script) if script else "'none'"),
         title=safe(f"{name}: {contents.headline}"),
-        style=_file("style.css"),
+        style=f"<style>{style}</style>",
         kind=safe(contents.kind),
         name=safe(name),
         created=safe(created.replace("T", " ").replace("+00:00", " UTC")),
@@ -49,7 +58,7 @@ def page(
         links=joined(*(tag("a", s.title, href=f"#{s.id}") for s in sections)),
         sections=joined(*parts),
         scene=_script_data(contents.shown),
-        script="\n".join(_file(name) for name in SCRIPTS) if contents.shown else "",
+        script=f"<script>{script}</script>" if script else "",
     )
 
 
@@ -65,6 +74,11 @@ def _section(section: Section, before: Html) -> Html:
 def _view(still: tuple[Path, str] | None) -> Html:
     picture = Html() if still is None else tag("noscript", tag("figure", image(*still)))
     return joined(Html(_file("view.html")), picture)
+
+
+def _hash(text: str) -> str:
+    """Return the name by which a policy knows a style or a script."""
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 
 def _script_data(shown: object) -> str:

@@ -11,6 +11,7 @@ from ninedof.optimize.result import Result
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin
+from ninedof.report.damage import named
 from ninedof.report.figures import stems
 from ninedof.report.front_page import of_front
 from ninedof.report.markup import Section, joined
@@ -71,21 +72,24 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
             raise ValueError("path: got none, expected the file to write for a result in memory")
         file = Path(path)
         record = Record("front" if isinstance(run, Front) else "optimization", run.study, {})
-        return _written(_page_of(run, record, file.stem), record, file, None, file.stem)
+        text = _text(_page_of(run, record, file.stem), record, None, file.stem)
+        return write_whole(file, text.encode())
     if not isinstance(run, str | os.PathLike):
         raise ValueError(f"run: got {shown(run)}, expected a run folder, a Result or a Front")
     place, point = split(os.fspath(run))
     if place.suffix == ".toml":
         raise ValueError(f"{place}: got a file of a design or study, expected a run folder")
     folder = place if place.is_dir() else place.parent
-    record = load_record(place)
     name = folder.resolve().name + (f"#{point}" if point else "")
-    found = None if record.kind == PAPER and not point else load(run)
-    whole = load(place) if point else None
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    certificate = _certificate_of(found, run) if isinstance(found, Result) else None
-    made = _page_of(found, record, name, point, whole, certificate)
-    return _written(made, record, file, None if point else folder, name)
+    with named(place):
+        record = load_record(place)
+        found = None if record.kind == PAPER and not point else load(run)
+        whole = load(place) if point else None
+        certificate = _certificate_of(found, run) if isinstance(found, Result) else None
+        made = _page_of(found, record, name, point, whole, certificate)
+        text = _text(made, record, None if point else folder, name)
+    return write_whole(file, text.encode())
 
 
 def _certificate_of(found: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
@@ -128,7 +132,7 @@ def _page_of(
     return Page(made.kind, made.headline, made.figures, sections, made.shown, made.good)
 
 
-def _written(made: Page, record: Record, file: Path, folder: Path | None, name: str) -> Path:
+def _text(made: Page, record: Record, folder: Path | None, name: str) -> str:
     names = [] if folder is None else stems(folder)
     with TemporaryDirectory() as spare:
         still = None
@@ -136,8 +140,7 @@ def _written(made: Page, record: Record, file: Path, folder: Path | None, name: 
             still = (
                 (folder, STILL) if folder is not None and STILL in names else (_drawn(made.shown, Path(spare)), STILL)
             )
-        text = page(made, name, record.created, folder or Path(spare), names, still)
-    return write_whole(file, text.encode())
+        return page(made, name, record.created, folder or Path(spare), names, still)
 
 
 def _drawn(scene: Any, folder: Path) -> Path:

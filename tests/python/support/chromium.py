@@ -30,6 +30,7 @@ class Page:
         self._number = 0
         self.errors = []
         self.messages = []  # of the console, and those of the browser once `listen` was called
+        self.requests = []  # addresses that were asked for, once `listen` was called
 
     def call(self, method, **parameters):
         self._number += 1
@@ -40,6 +41,8 @@ class Page:
                 self.errors.append(answer["params"]["exceptionDetails"]["exception"].get("description", ""))
             elif answer.get("method") == "Runtime.consoleAPICalled":
                 self.messages.append(" ".join(str(one.get("value", one)) for one in answer["params"]["args"]))
+            elif answer.get("method") == "Network.requestWillBeSent":
+                self.requests.append(answer["params"]["request"]["url"])
             elif answer.get("method") == "Log.entryAdded":
                 self.messages.append(answer["params"]["entry"]["text"])
             if answer.get("id") == self._number:
@@ -66,8 +69,9 @@ class Page:
                 self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=KEYS[name])
 
     def listen(self):
-        """Also note what the browser says of a page: what it did not load, a policy that was broken."""
+        """Also note what the browser says of a page: what it did not load, a policy that was broken, its requests."""
         self.call("Log.enable")
+        self.call("Network.enable")
 
     def open(self, path, width=1280, height=800, media=""):
         """Load a file in a window of a size, on screen or as it is printed."""
