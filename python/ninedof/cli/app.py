@@ -24,9 +24,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Optimum design of the nine-degree-of-freedom parallel manipulator of Zanganeh and Angeles.",
-    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem. Exit status: 0 done, 1 refused "
-    "by the system (a file, the disk), 2 bad input, 3 no acceptable result, 4 a failure of memory, a library or a "
-    "cluster, 130 interrupted.",
+    epilog="Without a command: [bold]ninedof optimize[/bold], the paper's design problem. Exit status: 0 done, "
+    "1 refused by the system (a file, the disk), 2 bad input, 3 no acceptable result, 4 a failure of memory, a library "
+    "or a cluster, 130 interrupted.",
 )
 
 

@@ -46,7 +46,7 @@ def view(
         raise ValueError(str(error)) from None
     with viewer:
         for one in warned:
-            typer.echo(f"ninedof: {one.message}", err=True)
+            print(f"ninedof: {one.message}", file=sys.stderr)
         try:
             print(f"{viewer.url}  (Ctrl-C ends the viewer)", flush=True)
             if browser:
