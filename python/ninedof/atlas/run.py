@@ -23,7 +23,7 @@ from ninedof.sweep.result import SweepResult
 
 CHUNK = 2**19  # designs: some 30 ms of work; signals are checked between chunks
 BLOCK = 2**14  # designs evaluated together: they fit into the caches
-MOST = 2**48
+MOST = 2**40  # designs: years of work
 
 
 def atlas(

@@ -20,6 +20,7 @@ from ninedof.support.progress import Progress, progress_argument
 
 IN_FLIGHT = 4  # chunks per worker that wait at the executor: enough to keep it busy, few to be lost or pickled early
 FEWEST, UNKNOWN = 8, 128
+MOST_CHUNKS = 2**22  # of a run: each is a file of its folder
 
 Deliver = Callable[[int, int, Arrays], object]
 """Called as deliver(first, last, arrays) for each chunk."""
@@ -56,6 +57,9 @@ def run(
     progress_argument(progress)
     if out is not None and not isinstance(out, str | os.PathLike):
         raise ValueError(f"out: got {shown(out)}, expected a path")
+    if chunks_of(work) > MOST_CHUNKS:
+        least = -(-work.points // MOST_CHUNKS)
+        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
     with nullcontext() if out is None else Store(out, work.question(), work.chunk) as store:
         if store is None:
             _run(work, begin(None), None, executor, progress)

@@ -132,8 +132,14 @@ class Screen:
         shown = Progress(*parts, console=self.progress_console)
         if at_once:
             shown.start()
+        bar = Bar(shown, title, words)
         try:
-            yield Bar(shown, title, words)
+            yield bar
+        except ValueError:
+            if not bar.reported:  # bad input: nothing was done that the bar could show
+                shown.live.transient = True
+                shown.live.stop()
+            raise
         finally:
             if shown.live.is_started:
                 shown.stop()
@@ -159,9 +165,11 @@ class Bar:
         title = one_line(title)
         self._shown, self._title, self._words = shown, title, words
         self._task = shown.add_task(title, total=None, value="")
+        self.reported = False
 
     def show(self, done: int, total: int, value: float | None) -> None:
         """Update the bar: the progress callback of a long call."""
+        self.reported = True
         self._shown.start()
         self._shown.update(self._task, completed=done, total=total, value=self._words(value))
 

@@ -26,6 +26,7 @@ Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 
 LENGTH = "characteristic_length"
+MOST_STARTS = 1_000_000  # each may be searched four times, and all ends are kept
 
 
 @short_repr
@@ -119,7 +120,7 @@ class Study:
             "constraints": MappingProxyType({n: limits.parse(n, value) for n, value in self.constraints.items()}),
             "characteristic_length": length,
             "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
-            "starts": whole("starts", self.starts, 1, 2**31 - 1),
+            "starts": whole("starts", self.starts, 1, MOST_STARTS),
             "seed": whole("seed", self.seed, 0),
             "unit": unit_argument(self.unit),
             "defaulted": tuple(n for n, b in variables.items() if n not in given and isinstance(b, tuple)),

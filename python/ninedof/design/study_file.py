@@ -14,6 +14,7 @@ from ninedof.design.objective import Objective
 from ninedof.support.angles import angle_entry
 from ninedof.support.arguments import known_keys, shown, shown_key, table
 from ninedof.support.files import write_whole
+from ninedof.support.reading import DEEPEST, TOML, deep_key, read_text
 from ninedof.support.units import AT_TOP, unit_entry
 
 
@@ -28,7 +29,10 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     name = os.fspath(path)
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+        text = read_text(path, TOML)
+        if key := deep_key(text):
+            raise ValueError(f"got the key {shown(key)}, expected at most {DEEPEST} parts")
+        return tomllib.loads(text)
     except OSError as error:
         raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:

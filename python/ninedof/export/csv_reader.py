@@ -18,6 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import did_you_mean
 from ninedof.support.arrays import Floats
+from ninedof.support.reading import TOML, read_text
 from ninedof.support.units import unit_argument
 
 
@@ -68,9 +69,8 @@ def read(path: str | os.PathLike[str]) -> Read:
 
 def _lines(file: str) -> list[Row]:
     try:
-        with open(file, encoding="utf-8-sig", newline="") as lines:
-            reader = csv.reader(lines)
-            rows = [Row(f"{file}, line {reader.line_num}", [entry.strip() for entry in row]) for row in reader]
+        reader = csv.reader(read_text(file, TOML).split("\n"))
+        rows = [Row(f"{file}, line {reader.line_num}", [entry.strip() for entry in row]) for row in reader]
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None
     except (UnicodeDecodeError, csv.Error) as error:

@@ -19,13 +19,14 @@ from ninedof.export.reading import Read
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arrays import Floats
+from ninedof.support.reading import TOML, read_file
 from ninedof.support.units import unit_argument
 
 
 def read(path: Path) -> Read:
     """Return the design; ValueError if the file is not such a file or lacks a part."""
     try:
-        root = ElementTree.fromstring(path.read_bytes())
+        root = ElementTree.fromstring(read_file(path, TOML))
     except ElementTree.ParseError as error:
         raise ValueError(f"not an XML file: {error}") from None
     texts = {item.get("name"): item.get("data", "") for item in root.iterfind("custom/text")}

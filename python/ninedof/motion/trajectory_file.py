@@ -12,6 +12,7 @@ import numpy as np
 
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
 from ninedof.support.arrays import Floats
+from ninedof.support.reading import TABLE, read_text
 
 PLACE = ("t", "x", "y", "z")
 QUATERNION = ("qw", "qx", "qy", "qz")
@@ -41,9 +42,8 @@ def read_trajectory(path: str | os.PathLike[str], unit: str) -> Columns:
     """Read a file; raise ValueError naming file, line and column, and where it names another unit of lengths."""
     file = os.fspath(path)
     try:
-        with open(path, encoding="utf-8-sig", newline="") as lines:
-            reader = csv.reader(lines)
-            rows = [(reader.line_num, row) for row in reader if any(row) and not row[0].lstrip().startswith("#")]
+        reader = csv.reader(read_text(path, TABLE).split("\n"))
+        rows = [(reader.line_num, row) for row in reader if any(row) and not row[0].lstrip().startswith("#")]
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None
     except (UnicodeDecodeError, csv.Error) as error:

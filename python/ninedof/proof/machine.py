@@ -18,6 +18,7 @@ from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, whole
+from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.progress import Progress, phase
 
 
@@ -81,7 +82,7 @@ def certify(
     finite("tolerance", tolerance, 0.0, 0.01)
     if condition_number is not None:
         finite("condition_number", condition_number, 1.0)
-    how = {"threads": whole("threads", threads, 0), "seconds": seconds, "gap": gap, "condition": 0.0}
+    how = {"threads": whole("threads", threads, 0, MOST_THREADS), "seconds": seconds, "gap": gap, "condition": 0.0}
     only_neutral = region is None and len(configurations) == 1
     if resume is not None and resume.where != _where(study, only_neutral):
         raise ValueError(

@@ -15,6 +15,7 @@ from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.reading import PROOF, read_file
 from ninedof.support.short import short_repr
 
 FILE = "optimum.certificate"
@@ -216,7 +217,7 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
 
     """
     try:
-        data = Path(path).read_bytes()
+        data = read_file(path, PROOF)
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
     return Checked(*_core.check_certificate(data, progress_argument(progress)))

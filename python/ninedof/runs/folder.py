@@ -23,6 +23,7 @@ from ninedof.runs.describe import describe_comparison, describe_front, front_fro
 from ninedof.support.command import command_line
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
+from ninedof.support.reading import JSON, read_text
 from ninedof.support.versions import versions
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
@@ -191,7 +192,7 @@ def load_record(path: str | os.PathLike[str]) -> Record:
     if file.is_dir():
         file = file / FILE
     try:
-        data = decode(file.read_text(encoding="utf-8"))
+        data = decode(read_text(file, JSON))
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
     except ValueError as error:

@@ -9,6 +9,7 @@ from ninedof.proof.machine_record import MachineCertificate
 from ninedof.runs.objects import split
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
+from ninedof.support.reading import JSON, read_text
 
 
 def certificate_file(run: str | os.PathLike[str]) -> Path:
@@ -47,7 +48,7 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
     if not file.name.startswith("certify"):
         file = certificate_file(run)
     try:
-        data = decode(file.read_text(encoding="utf-8"))
+        data = decode(read_text(file, JSON))
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
     except ValueError as error:

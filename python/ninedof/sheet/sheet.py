@@ -28,7 +28,7 @@ from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
-from ninedof.statics.accuracy import error_bounds
+from ninedof.statics.accuracy import MOST_SAMPLES, error_bounds
 from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats
 from ninedof.support.html import html_table
@@ -304,7 +304,7 @@ def sheet(
     bounded = leg_errors is not None or joint_errors is not None
     errors = (0.0 if leg_errors is None else leg_errors, 0.0 if joint_errors is None else joint_errors)
     asked = Asked(motion, wrenches, weight, errors if bounded else None, leg_stiffness, length)
-    count = whole("samples", samples, 1)
+    count = whole("samples", samples, 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
     region = design.study.objective.region if poses is None and study is not None else None

@@ -15,6 +15,7 @@ from ninedof.support.arrays import Floats, one_or_each, thread_argument
 from ninedof.support.short import short_repr
 
 CHUNK = 20_000  # samples per call of the core, some hundredths of a second: Ctrl-C is checked between chunks
+MOST_SAMPLES = 10_000_000  # 720 MB of errors
 
 
 @short_repr
@@ -162,7 +163,7 @@ def error_samples(
 
     """
     single(geometry, configuration)
-    count = whole("samples", samples, 0, 2**40)
+    count = whole("samples", samples, 0, MOST_SAMPLES)
     key = whole("seed", seed, 0)
     workers = thread_argument(threads)
     shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)

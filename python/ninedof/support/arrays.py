@@ -12,7 +12,7 @@ from ninedof.support.arguments import shown, whole
 
 Floats = NDArray[np.float64]
 
-MOST_THREADS = 4096
+MOST_THREADS = 1024  # more than machines have processors: beyond it systems refuse them
 
 
 def as_floats(name: str, value: ArrayLike, trailing: tuple[int, ...]) -> Floats:

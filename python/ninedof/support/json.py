@@ -39,7 +39,10 @@ def decode(text: str) -> Any:
         If the text is not JSON.
 
     """
-    return _numbers(json.loads(text))
+    try:
+        return _numbers(json.loads(text))
+    except RecursionError:
+        raise ValueError("nested too deep") from None
 
 
 def _numbers(value: Any) -> Any:

@@ -29,6 +29,7 @@ STATIONARY = 1e-6
 BETTER = 1e-8  # relative: a smaller improvement is rounding or the tolerance of the limits
 BETWEEN = 1e-6  # by which a limit may be passed between the poses that ruled
 IN_REGION = 4000
+MOST_PERTURBATIONS = 1_000_000
 ERRORS = 5.0  # standard errors of a mean at random poses
 PLACED = 1000  # the same where O is placed at every pose, by a search of its own
 BOUND = 1e-7  # close to 1 a condition number has half the digits only
@@ -131,7 +132,7 @@ def check(result: Result, perturbations: int = 4000, seed: int = 0) -> Check:
         got = getattr(result, "status", None)
         what = f"one without a design (status {str(got)!r})" if got is not None else type(result).__name__
         raise ValueError(f"result: got {what}, expected a Result with a design")
-    findings = _findings(result, whole("perturbations", perturbations, 0), whole("seed", seed, 0))
+    findings = _findings(result, whole("perturbations", perturbations, 0, MOST_PERTURBATIONS), whole("seed", seed, 0))
     return Check(tuple(findings), f"check of a design of the {result.study.family} family")
 
 

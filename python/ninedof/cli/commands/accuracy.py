@@ -12,7 +12,7 @@ from ninedof.cli import options, posed
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.screen import Screen
 from ninedof.robot.configuration import Configuration
-from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_samples
+from ninedof.statics.accuracy import MOST_SAMPLES, ErrorBounds, error_bounds, error_samples
 from ninedof.support.arguments import finite, whole
 from ninedof.support.units import amount, unit_entry
 
@@ -48,7 +48,7 @@ def accuracy(
     if leg_error == 0.0 and joint_error == 0.0:
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
     if samples is not None:
-        whole("--samples", samples, 1)
+        whole("--samples", samples, 1, MOST_SAMPLES)
     if samples is not None and all_poses:
         raise ValueError("--samples: got it with --all-poses, expected one pose")
     chosen = named_design(design)

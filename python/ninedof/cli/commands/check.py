@@ -11,6 +11,7 @@ import typer
 from ninedof.cli.options import Json
 from ninedof.cli.screen import DONE, REFUSED, Screen, bold
 from ninedof.proof.optimum import FILE, check_certificate
+from ninedof.support.reading import PROOF, read_file
 
 PLACE = 4
 EXAMPLES = f"""[bold]Examples[/bold]
@@ -32,7 +33,7 @@ def check(
     with screen.points("reading the certificate") as bar:
         found = check_certificate(path, progress=bar)
     if found.proved:
-        for line in _study_of(path.read_bytes()):
+        for line in _study_of(read_file(path, PROOF)):
             screen.print(line)
     screen.print(bold("Proved" if found.proved else "Refused", f": {found.words}"))
     if found.proved:
