@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ninedof.cli.screen import Screen
 from ninedof.report.report import FILE, report
@@ -39,6 +41,28 @@ def with_report(draw: Draw | None, wanted: bool, screen: Screen, words: Callable
         return []
 
     return drawn
+
+
+@contextmanager
+def told(screen: Screen, words: Callable[[], object], data: Any) -> Iterator[Callable[[], None]]:
+    """Yield what says the words on a run, once. Where its files cannot be written they are said all the same.
+
+    So is the JSON: a full disk does not lose what was computed. The error follows.
+    """
+    said = False
+
+    def once() -> None:
+        nonlocal said
+        if not said:
+            said = True
+            words()
+
+    try:
+        yield once
+    except OSError:
+        once()
+        screen.data(data)
+        raise
 
 
 def report_words(directory: Path) -> str:

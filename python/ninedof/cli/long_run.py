@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.screen import Screen, bold
 from ninedof.runs.directory import run_directory, used_directory
 from ninedof.runs.folder import write_run
@@ -80,8 +80,9 @@ def write(
             files += plot.save(figure, folder, name)
         return files
 
-    drawing = with_report(drawn if draw else None, report and draw is not None, screen, words)
-    record = write_run(result, directory, drawing, results=data)
+    with told(screen, words, data) as once:
+        drawing = with_report(drawn if draw else None, report and draw is not None, screen, once)
+        record = write_run(result, directory, drawing, results=data)
     made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
     screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}{report_words(directory)}")
     screen.data({**data, "record": str(record)})

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.table import Column, Table
 
+from ninedof.cli.job_report import told
 from ninedof.cli.options import Json, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
@@ -65,10 +66,15 @@ def certify(
     except KeyboardInterrupt:
         screen.print(bold("interrupted", " before the limits were proved: the run folder is as it was"))
         raise typer.Exit(INTERRUPTED) from None
-    save_certificate(certificate, file)
-    screen.print(_table(certificate))
-    for sentence in certificate.sentences():
-        screen.print(sentence)
+
+    def words() -> None:
+        screen.print(_table(certificate))
+        for sentence in certificate.sentences():
+            screen.print(sentence)
+
+    with told(screen, words, certificate.to_dict() | {"left": []}) as once:
+        save_certificate(certificate, file)
+        once()
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     screen.data(certificate.to_dict() | {"file": str(file), "left": []})
     if certificate.interrupted:

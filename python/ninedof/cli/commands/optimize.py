@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ninedof.cli.comparison_table import comparison_table, comparison_words
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.options import Figures, Json, Out, Report, Starts, StudyFile, Threads
 from ninedof.cli.result_table import price_text, proof_words, result_table
 from ninedof.cli.screen import Screen, bold, exit_status
@@ -79,7 +79,8 @@ def optimize(
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
     draw = figures_of(run, screen.say, convergence) if figures else None
     words = partial(_comparison_words if isinstance(run, Comparison) else _result_words, run, screen)  # type: ignore[arg-type]
-    record = write_run(run, directory, with_report(draw, figures and report, screen, words))
+    with told(screen, words, {**unit_entry(chosen.unit), **data}) as once:
+        record = write_run(run, directory, with_report(draw, figures and report, screen, once))
     if check and result.best is not None:
         verdict = examine(result)
         screen.print(verdict.report())

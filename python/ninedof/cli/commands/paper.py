@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.options import Json, Report, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts
@@ -54,8 +54,9 @@ def paper(
         words()
     else:
         record = Record("paper", {}, {"verdicts": rows})
-        drawing = with_report(partial(paper_figures, say=screen.say), report, screen, words)
-        path = write_drawn(record, directory, drawing)
+        with told(screen, words, rows) as once:
+            drawing = with_report(partial(paper_figures, say=screen.say), report, screen, once)
+            path = write_drawn(record, directory, drawing)
         made = f"{path.name}, figure_1 to figure_7 (PNG, SVG, PDF){report_words(directory)}"
         screen.print(f"run folder {directory}: {made}")
     screen.data(rows)

@@ -12,7 +12,7 @@ import typer
 from rich.table import Table
 
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.long_run import CHUNKS, run_folder
 from ninedof.cli.options import Figures, Json, Out, Report, Resume, Starts, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
@@ -99,7 +99,8 @@ def pareto(
 
     drawn = figures and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
-    record = write_run(front, directory, with_report(draw, figures and report, screen, words))
+    with told(screen, words, {"front": front.to_dict()}) as once:
+        record = write_run(front, directory, with_report(draw, figures and report, screen, once))
     figure = ", figure front (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {record.parent}: {record.name}{figure}{report_words(directory)}")
     screen.data({"front": front.to_dict(), "record": str(record)})

@@ -10,7 +10,7 @@ import numpy as np
 import typer
 
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.motion_summary import draw, legs_table, limits_table, sentences
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report
 from ninedof.cli.screen import DONE, NO_RESULT, Screen
@@ -124,8 +124,9 @@ def path(
         **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }
     drawing = partial(draw, found, screen, of_study) if figures else None
-    drawn = with_report(drawing, figures and report, screen, words)
-    record = write_motion(found, directory, drawn, question, of_study)
+    with told(screen, words, {"motion": plain(found, of_study)}) as once:
+        drawn = with_report(drawing, figures and report, screen, once)
+        record = write_motion(found, directory, drawn, question, of_study)
     figure = ", figure motion (PNG, SVG, PDF)" if figures else ""
     figure += report_words(directory)
     screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")

@@ -83,9 +83,9 @@ def sheet(
     )
     for part in sheet_tables(found):
         screen.print(part)
-    if csv is not None:
-        write_whole(csv, found.to_csv().encode())
     screen.data(found.to_dict())
+    if csv is not None:  # last: a full disk does not lose the rest
+        write_whole(csv, found.to_csv().encode())
 
 
 def _given(option: str, text: str | None, expected: str) -> list[float] | None:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.chosen_design import named_design, with_length
-from ninedof.cli.job_report import report_words, with_report
+from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_limits import compare_poses, criteria_asked, rule_asked
@@ -200,12 +200,17 @@ def workspace(
     with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
         found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
-    write_run(found, directory, None, question)  # at once: an interruption of what follows does not lose the map
-    for line in asked_lines(asked, home, own, left, given.unit):
-        screen.print(line)
-    screen.print(workspace_table(found))
-    for sentence in sentences(found):
-        screen.print(sentence)
+
+    def words() -> None:
+        for line in asked_lines(asked, home, own, left, given.unit):
+            screen.print(line)
+        screen.print(workspace_table(found))
+        for sentence in sentences(found):
+            screen.print(sentence)
+
+    with told(screen, words, {"workspace": found.to_dict()}) as once:
+        write_run(found, directory, None, question)  # at once: an interruption of what follows does not lose the map
+        once()
     if certify and not found.interrupted:
         with screen.boxes("proving") as bar:
             proved = certified_workspace(
@@ -219,9 +224,10 @@ def workspace(
         if found.method != "sample" and not found.interrupted:
             proved = proved.with_estimate(found.volume, found.error)
         found = replace(found, certified=proved)
-        write_run(found, directory, None, question)
-        for sentence in proved.sentences():
-            screen.print(sentence)
+        of_proof = partial(screen.print, "\n".join(proved.sentences()))
+        with told(screen, of_proof, {"workspace": found.to_dict()}) as once:
+            write_run(found, directory, None, question)
+            once()
     share = None
     if region_asked is not None and places_o(region_asked):
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
@@ -229,13 +235,14 @@ def workspace(
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
     outlined = None if archetype == "orientation" else region_asked
     drawing = partial(draw, found, screen, home, outlined) if drawn else None
-    record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
+    data = {"workspace": found.to_dict()} | ({} if share is None else {"region": share._asdict()})
+    with told(screen, lambda: None, data):
+        record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
     arrays = "map.npz" if found.certified is None else "map.npz, certified.npz"
     names = sorted(path.stem for path in directory.glob("*.png"))
     figure = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, {arrays}{figure}{report_words(directory)}")
-    data = {"workspace": found.to_dict(), "record": str(record)}
-    screen.data(data | ({} if share is None else {"region": share._asdict()}))
+    screen.data(data | {"record": str(record)})
     if found.interrupted or (found.certified is not None and found.certified.interrupted):
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
