@@ -85,7 +85,8 @@ def _plate(axes: Any, external: Floats, internal: Floats, letter: str, colour: s
         axes.plot(*point, ls="", mec="white", mew=0.5, zorder=5, **mark)
         hats = (r"\mathbf{r}", r"\hat{\mathbf{r}}") if base else (r"\mathbf{u}", r"\tilde{\mathbf{u}}")
         inward = (0.33 if coincide and k >= 3 else 0.13) * reach * point / np.linalg.norm(point)
-        axes.text(*(point - inward), f"${hats[k // 3]}_{k % 3 + 1}$", ha="center", va="center", size=style.TEXT_SIZE)
+        symbol = f"${hats[k // 3]}_{k % 3 + 1}$"
+        axes.text(*(point - inward), symbol, ha="center", va="center", size=style.TEXT_SIZE, parse_math=True)
     for number, (start, end) in enumerate(((flat[3], flat[0]), (flat[0], flat[5])), start=1):
         _dimension(axes, start, end, f"{letter}{number}", away, reach, unit)
     tip = 0.3 * reach

@@ -11,9 +11,11 @@ from typing import Any
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
+from matplotlib.text import Text
 
 from ninedof.plot import style
 from ninedof.support.files import write_whole
+from ninedof.support.visible import visible
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
@@ -49,6 +51,7 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
     with style.settings():
+        _show_what_acts(figure)
         if (engine := figure.get_layout_engine()) is not None:
             engine.execute(figure)  # once for all files
             figure.set_layout_engine("none")
@@ -62,6 +65,13 @@ def picture(image: Any) -> bytes:
     stream = io.BytesIO()
     imsave(stream, image, format="png")
     return stream.getvalue()
+
+
+def _show_what_acts(figure: Figure) -> None:
+    r"""Write control characters of names as \x1b: SVG has no place for them."""
+    for text in figure.findobj(Text):
+        if (words := visible(text.get_text())) != text.get_text():
+            text.set_text(words)
 
 
 def _images(figure: Figure) -> Iterator[tuple[str, bytes]]:

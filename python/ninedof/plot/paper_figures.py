@@ -106,7 +106,8 @@ def _arrow(axes: Any, start: Floats, end: Floats, colour: str, width: float) -> 
 
 
 def _word(axes: Any, at: Floats, text: str, colour: str, size: float = style.SMALL_SIZE) -> None:
-    written = axes.annotate(text, _flat(axes, at), size=size, color=colour, zorder=31, path_effects=HALO)
+    looks = {"size": size, "color": colour, "zorder": 31, "path_effects": HALO}
+    written = axes.annotate(text, _flat(axes, at), parse_math=True, **looks)
     written.set(ha="center", va="center")
 
 

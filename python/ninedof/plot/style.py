@@ -79,6 +79,7 @@ _SETTINGS: Any = {
     "svg.fonttype": "path",
     "svg.hashsalt": "ninedof",  # ids that are not random: equal figures give equal files
     "text.color": INK,
+    "text.parse_math": False,  # names come from files: a "$" in them is a dollar; symbols of our own ask for it
     "text.usetex": False,
     "xtick.major.pad": 2.5,
     "xtick.major.size": 2.5,

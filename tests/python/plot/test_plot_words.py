@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from sizes import size
 from words import outside, overlaps, unnamed
 
@@ -108,6 +109,18 @@ def test_no_two_texts_intersect_and_axes_have_names(name):
         assert overlaps(figure) == []
         assert unnamed(figure) == []
         assert outside(figure) == []
+
+
+@pytest.mark.parametrize("name", size([name for name in FIGURES if name not in SLOW], FIGURES))
+def test_formulas_are_our_own_symbols_alone(name):
+    """Everything else is plain text, in which a "$" of a name is a dollar; ticks of logarithmic axes too."""
+    with style.settings():
+        texts = [text for text in made(name).findobj(Text) if text.get_visible() and text.get_text()]
+    assert texts
+    for text in texts:
+        own = text.get_parse_math() and text.get_text().startswith("$")
+        assert own or "$" not in text.get_text(), text
+        assert own or not text.get_parse_math() or name.startswith("figure"), text
 
 
 @pytest.mark.parametrize("name", size([name for name in FIGURES if name not in SLOW], FIGURES))
