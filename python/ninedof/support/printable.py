@@ -7,9 +7,10 @@ import re
 MOST = 1200  # characters of a message
 HEAD, TAIL = 800, 300  # of those of a longer one that stay: its subject, and what was expected
 
-# Control characters but the line feed, marks of direction and of width zero, separators of lines, lone surrogates.
+# Control characters but the line feed, marks of direction and of width zero, separators of lines, lone surrogates,
+# what is no character.
 _UNPRINTABLE = re.compile(
-    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufdd0-\ufdef\ufff9-\ufffb\ufffe\uffff"
     "\ud800-\udfff\U000e0000-\U000e007f]"
 )
 

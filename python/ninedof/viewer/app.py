@@ -63,7 +63,7 @@ class Viewer:
     @property
     def url(self) -> str:
         """The address to open in a browser."""
-        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(
+        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(  # noqa: S104 nothing listens here
             self.host, f"[{self.host}]" if ":" in self.host else self.host
         )
         return f"http://{host}:{self.port}"

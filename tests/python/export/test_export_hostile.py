@@ -1,0 +1,112 @@
+"""Names of files and XML that a stranger chose: no name becomes structure, no document grows or reads other files."""
+
+import csv
+import io
+import json
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+import ninedof as nd
+from ninedof.export.formats import FORMATS
+from ninedof.runs.motion_folder import write_motion
+
+DESIGN = nd.Design(
+    nd.Geometry.hexagonal(a1=0.0, a2=581.24, b1=290.62, b2=0.0), nd.Configuration.neutral(398.28, 244.35), 100.0, "mm"
+)
+NAMES = (
+    '"><script>ran=1<',
+    "--><!-- ]]>&amp;",
+    "=cmd|' C'!A0",
+    "*! int main(){} *!\"; x('",
+    "\\input{x}$x$%{title}",
+    "\x1b]0;evil\x07\u202e",
+    "');ENDSEC;",
+    "@SUM(1)\n+1\t-1",
+)
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_the_name_of_a_file_stays_a_name(tmp_path, format):
+    pytest.importorskip("ezdxf") if format == "dxf" else None
+    row = FORMATS[format]
+    plain = nd.export(DESIGN, format, tmp_path / f"{'n' * 8}{row.suffix}").read_text(encoding="utf-8")
+    for name in NAMES:
+        folder = tmp_path / "out"
+        folder.mkdir(exist_ok=True)
+        nd.export(DESIGN, format, folder / f"{name}{row.suffix}")
+        for file in folder.iterdir():
+            text = file.read_text(encoding="utf-8")
+            assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]", text)
+            if file.suffix in (".xml", ".urdf", ".sdf"):
+                made, expected = (ElementTree.fromstring(one) for one in (text, plain))
+                assert [item.tag for item in made.iter()] == [item.tag for item in expected.iter()]
+            elif file.suffix == ".json":
+                json.loads(text)
+            elif file.suffix == ".csv":
+                assert text == plain
+            elif format in ("c", "latex"):
+                assert len(text.splitlines()) == len(plain.splitlines())
+            elif format == "step":
+                assert text.count("'") == plain.count("'")
+                assert len(text.split(";")) == len(plain.split(";"))
+            file.unlink()
+
+
+def test_no_cell_of_a_table_is_a_formula(tmp_path):
+    """A spreadsheet computes a cell that begins with =, +, - or @; only numbers may begin with a sign."""
+    path = nd.export(DESIGN, "csv", tmp_path / "=1+1.csv")
+    tables = [path.read_text(), nd.sheet(DESIGN).to_csv()]
+    home = DESIGN.configuration
+    circle = nd.Trajectory.circle(home, radius=5.0, duration=1.0, points=5)
+    followed = nd.follow(DESIGN.geometry, circle, home, unit="mm")
+    write_motion(followed, tmp_path, asked={"design": "=1+1"})
+    tables += [(tmp_path / name).read_text() for name in ("legs.csv", "poses.csv")]
+    seen = 0
+    for text in tables:
+        for cell in (cell for row in csv.reader(io.StringIO(text)) for cell in row if cell):
+            assert cell[0] not in "=@\t\r"
+            if cell[0] in "+-":
+                float(cell)
+            seen += 1
+    assert seen > 300
+    for unit in ("=1+1", "@x", "mm\n=1"):
+        with pytest.raises(ValueError, match="unit: got"):
+            nd.export(nd.Design(DESIGN.geometry, home, 1.0, unit), "csv", path)
+        with pytest.raises(ValueError, match="unit: got"):
+            nd.follow(DESIGN.geometry, circle, home, unit=unit)
+
+
+BOMB = "<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'>" + "".join(
+    f"<!ENTITY {b} '{10 * f'&{a};'}'>" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
+)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+@pytest.mark.parametrize(
+    "head",
+    [
+        BOMB + "]>",
+        "<!DOCTYPE x [<!ENTITY a SYSTEM 'file:///etc/hostname'>]>",
+        "<!DOCTYPE x SYSTEM 'http://127.0.0.1:9/a.dtd'>",
+        "<!DOCTYPE x>",
+    ],
+)
+def test_a_model_with_a_document_type_is_refused(tmp_path, head, encoding):
+    good = nd.export(DESIGN, "mjcf", tmp_path / "good.xml").read_text()
+    assert nd.load(tmp_path / "good.xml").geometry == DESIGN.geometry
+    bad = tmp_path / "bad.xml"
+    declared = f'<?xml version="1.0" encoding="{encoding}"?>'
+    bad.write_bytes((declared + head + good).encode(encoding))
+    with pytest.raises(ValueError, match=r"bad\.xml: got a document type, expected an MJCF file without one"):
+        nd.load(bad)
+
+
+@pytest.mark.parametrize("text", ["", "<", "<a>" * 50_000, "\x00", "<mujoco>&x;</mujoco>"])
+def test_what_is_no_xml_is_one_line(tmp_path, text):
+    path = tmp_path / "it.xml"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=r"it\.xml: not an XML file") as refused:
+        nd.load(path)
+    assert "\n" not in str(refused.value)
