@@ -15,7 +15,7 @@ from matplotlib.text import Text
 
 from ninedof.plot import style
 from ninedof.support.files import write_whole
-from ninedof.support.visible import visible
+from ninedof.support.printable import escaped
 
 
 def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[Path]:
@@ -70,7 +70,7 @@ def picture(image: Any) -> bytes:
 def _show_what_acts(figure: Figure) -> None:
     r"""Write control characters of names as \x1b: SVG has no place for them."""
     for text in figure.findobj(Text):
-        if (words := visible(text.get_text())) != text.get_text():
+        if (words := escaped(text.get_text())) != text.get_text():
             text.set_text(words)
 
 

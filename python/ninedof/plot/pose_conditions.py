@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
-from ninedof.support.visible import visible
+from ninedof.support.printable import escaped
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
 LONGEST = 24  # letters of a name on the axis; longer ones are a list below it, by number
@@ -72,7 +72,7 @@ def poses(
         raise ValueError(f"designs: got conditions of shapes {[v.shape for v in values]}, expected one shape (n,)")
     if len(names) not in (0, count):
         raise ValueError(f"names: got {len(names)}, expected {count}, one a pose")
-    names = [visible(name) for name in names]  # those of ticks are written while they are drawn
+    names = [escaped(name) for name in names]  # those of ticks are written while they are drawn
     longest = max((len(name) for name in names), default=0)
     listed = _listed(values, names) if longest > LONGEST or count > MOST_NAMED else []
     if listed:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ninedof.plot import style
 from ninedof.plot.section import BOUNDARY, KINDS, Section, draw_section, home_mark, kind_of
 from ninedof.support.arrays import Floats
-from ninedof.support.visible import visible
+from ninedof.support.printable import escaped
 
 MOST_SECTIONS = 3
 MOST_SHARES = 9
@@ -144,7 +144,7 @@ def _shares(axes: Any, shares: Mapping[str, float]) -> None:
         return
     colours = [KINDS[kind_of(name)][1] for name, _ in top]
     axes.barh(range(len(top)), [100.0 * share for _, share in top], color=colours, height=0.7)
-    axes.set_yticks(range(len(top)), [visible(name.replace("_", " ")) for name, _ in top])
+    axes.set_yticks(range(len(top)), [escaped(name.replace("_", " ")) for name, _ in top])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("% of the boundary")

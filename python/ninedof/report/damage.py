@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ninedof.support.arguments import LONGEST
-from ninedof.support.visible import visible
+from ninedof.support.printable import escaped
 
 ODD = (LookupError, TypeError, AttributeError, ArithmeticError)
 """Raised by values of another kind than the record of a run has: entries that are missing, words for numbers."""
@@ -20,12 +20,12 @@ def named(place: Path) -> Iterator[None]:
         yield
     except ValueError as error:
         said = _line(error)
-        raise ValueError(said if said.startswith(visible(str(place))) else f"{place}: {said}") from None
+        raise ValueError(said if said.startswith(escaped(str(place))) else f"{place}: {said}") from None
     except ODD as error:
         said = f"{type(error).__name__}: {_line(error)}"
         raise ValueError(f"{place}: got a record that is not whole ({said}), expected that of a run") from None
 
 
 def _line(error: Exception) -> str:
-    text = visible(" ".join(str(error).split()))
+    text = escaped(" ".join(str(error).split()))
     return text if len(text) <= 2 * LONGEST else text[: 2 * LONGEST] + "..."

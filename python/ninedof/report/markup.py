@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import NamedTuple
 
-from ninedof.support.visible import visible
+from ninedof.support.printable import escaped
 
 
 class Html(str):
@@ -23,12 +23,12 @@ class Section(NamedTuple):
 
 def safe(value: object) -> str:
     """Return a value as HTML: escaped, unless it is HTML already."""
-    return str(value) if isinstance(value, Html) else escape(visible(str(value)))
+    return str(value) if isinstance(value, Html) else escape(escaped(str(value)))
 
 
 def tag(name: str, *children: object, **attributes: object) -> Html:
     """Return an element; a trailing underscore of an attribute (class_) is dropped, others become hyphens."""
-    given = "".join(f' {key.strip("_").replace("_", "-")}="{escape(visible(str(v)))}"' for key, v in attributes.items())
+    given = "".join(f' {key.strip("_").replace("_", "-")}="{escape(escaped(str(v)))}"' for key, v in attributes.items())
     return Html(f"<{name}{given}>{''.join(safe(child) for child in children)}</{name}>")
 
 

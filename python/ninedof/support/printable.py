@@ -1,4 +1,4 @@
-"""Text as a terminal may have it: no character of it moves the cursor, sets a title, or turns the order of letters."""
+"""Text that cannot act on a terminal, a page or a figure: no escape sequence, no turned order of letters."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ HEAD, TAIL = 800, 300  # of those of a longer one that stay: its subject, and wh
 # Control characters but the line feed, marks of direction and of width zero, separators of lines, lone surrogates,
 # what is no character.
 _UNPRINTABLE = re.compile(
-    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufdd0-\ufdef\ufff9-\ufffb\ufffe\uffff"
-    "\ud800-\udfff\U000e0000-\U000e007f]"
+    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff"
+    "\ufdd0-\ufdef\ufff9-\ufffb\ufffe\uffff\ud800-\udfff\U000e0000-\U000e007f]"
 )
 
 

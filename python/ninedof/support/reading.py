@@ -77,13 +77,13 @@ def deep_key(text: str) -> str:
     parts: list[str] = []
     dotted = False
     for found in _TOKEN.finditer(text):
-        token = found[0]
-        if token.isspace() and token != "\n":
+        piece = found[0]
+        if piece.isspace() and piece != "\n":
             continue
-        if token == "." and parts:
+        if piece == "." and parts:
             dotted = True
-        elif token[0] in "\"'" or token[0].isalnum() or token[0] in "_-+":
-            parts = [*parts, token] if dotted else [token]
+        elif piece[0] in "\"'" or piece[0].isalnum() or piece[0] in "_-+":
+            parts = [*parts, piece] if dotted else [piece]
             dotted = False
             if len(parts) > DEEPEST:
                 return ".".join(parts)
