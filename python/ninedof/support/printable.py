@@ -7,16 +7,16 @@ import re
 MOST = 1200  # characters of a message
 HEAD, TAIL = 800, 300  # of those of a longer one that stay: its subject, and what was expected
 
-# Control characters but the line feed, marks of direction and of width zero, separators of lines, lone surrogates,
+# Control characters but tab and line feed, marks of direction and of width zero, separators of lines, lone surrogates,
 # what is no character.
 _UNPRINTABLE = re.compile(
-    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff"
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff"
     "\ufdd0-\ufdef\ufff9-\ufffb\ufffe\uffff\ud800-\udfff\U000e0000-\U000e007f]"
 )
 
 
 def escaped(text: str) -> str:
-    """Return a text whose characters that are not to be seen are escapes as in Python, line feeds left."""
+    """Return a text whose characters that are not to be seen are escapes as in Python, tabs and line feeds left."""
     return _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], text)
 
 
