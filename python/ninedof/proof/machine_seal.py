@@ -11,7 +11,7 @@ from ninedof.design.study import Study
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.json import encode
+from ninedof.support.seal import digest_of
 
 
 def machine_digest(
@@ -28,8 +28,7 @@ def machine_digest(
 
 def sealed(made: MachineCertificate, machine: str) -> MachineCertificate:
     """Return a certificate with its seal: a digest of the machine and of all that the certificate says."""
-    text = encode(replace(made, seal="").to_dict(), sort_keys=True)
-    return replace(made, seal=sha256((machine + text).encode()).hexdigest())
+    return replace(made, seal=digest_of(replace(made, seal="").to_dict(), machine))
 
 
 def belongs(certificate: MachineCertificate, machine: str) -> bool:

@@ -1,8 +1,8 @@
 """Run folders of all kinds, written and read. Each has a `record.json` of one form.
 
 The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created`, `command` if
-one made it, and `files`: the names of the arrays and figures beside it. It is written whole or not at all, before the
-figures are drawn.
+one made it, `files`: the names of the arrays and figures beside it, and `digest`, which tells a record that was
+changed. It is written whole or not at all, before the figures are drawn.
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from ninedof.support.command import command_line
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.reading import JSON, read_text
+from ninedof.support.seal import sealed, unsealed
 from ninedof.support.versions import versions
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
-FORMAT = "ninedof-record-2"
-STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"  # of earlier releases
+FORMAT = "ninedof-record-3"
+STUDIES_1, WORKSPACES_1 = "ninedof-record-1", "ninedof-workspace-record-1"
+EARLIER = ("ninedof-record-2", STUDIES_1, WORKSPACES_1)  # of earlier releases: without a digest
 FILE = "record.json"
 
 Run = Result | Comparison | Front | WorkspaceMap | SweepResult
@@ -176,7 +178,7 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
         **({"command": record.command} if record.command else {}),
         "files": record.files,
     }
-    return write_whole(Path(directory) / FILE, (encode(data) + "\n").encode())
+    return write_whole(Path(directory) / FILE, (encode(sealed(data)) + "\n").encode())
 
 
 def load_record(path: str | os.PathLike[str]) -> Record:
@@ -197,8 +199,9 @@ def load_record(path: str | os.PathLike[str]) -> Record:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
     except ValueError as error:
         raise ValueError(f"{file}: not a JSON file: {error}") from None
-    if not isinstance(data, dict) or data.get("format") not in (FORMAT, STUDIES_1, WORKSPACES_1):
+    if not isinstance(data, dict) or data.get("format") not in (FORMAT, *EARLIER):
         raise ValueError(f"{file}: got no {FORMAT!r} mark, expected a record written by ninedof")
+    data = unsealed(data, file, required=data["format"] == FORMAT)
     try:
         if data["format"] == WORKSPACES_1:
             data |= {"kind": "workspace", "question": data["asked"], "results": {"workspace": data["workspace"]}}

@@ -10,6 +10,7 @@ from ninedof.runs.objects import split
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.reading import JSON, read_text
+from ninedof.support.seal import sealed, unsealed
 
 
 def certificate_file(run: str | os.PathLike[str]) -> Path:
@@ -21,7 +22,7 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
     """Write a certificate; return its path."""
-    return write_whole(Path(file), (encode(certificate.to_dict()) + "\n").encode())
+    return write_whole(Path(file), (encode(sealed(certificate.to_dict())) + "\n").encode())
 
 
 def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
@@ -53,7 +54,8 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
     except ValueError as error:
         raise ValueError(f"{file}: not a JSON file: {error}") from None
+    entries = unsealed(data, file) if isinstance(data, dict) else {}
     try:
-        return MachineCertificate.from_dict(data if isinstance(data, dict) else {})
+        return MachineCertificate.from_dict(entries)
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None

@@ -5,6 +5,7 @@ import shutil
 from importlib import import_module
 
 import pytest
+from changed_files import write_sealed
 
 import ninedof as nd
 from ninedof.cli.app import main
@@ -109,7 +110,14 @@ def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run,
     with pytest.raises(ValueError, match=r"certify\.json: got a certificate of another machine"):
         nd.report(other)
     text = (ours / "certify.json").read_text()
-    (ours / "certify.json").write_text(text.replace('"which": "det N"', '"which": "det B"'))
+    changed = text.replace('"which": "det N"', '"which": "det B"')
+    (ours / "certify.json").write_text(changed)
+    with pytest.raises(ValueError, match=r"certify\.json: got a file that was changed or damaged"):
+        nd.report(ours)
+    (ours / "certify.json").write_text(changed.replace('"digest"', '"more"'))
+    with pytest.raises(ValueError, match=r"certify\.json: got a certificate without"):
+        nd.report(ours)
+    write_sealed(ours / "certify.json", {k: v for k, v in json.loads(changed).items() if k != "digest"})
     with pytest.raises(
         ValueError, match=r"certify\.json: got a certificate of another machine or one that was changed"
     ):

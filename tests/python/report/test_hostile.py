@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 
 import chromium
 import pytest
+from changed_files import entries_of, write_sealed
 
 import ninedof as nd
 from ninedof.cli.app import main
@@ -119,7 +120,7 @@ def runs(tmp_path_factory):
 @pytest.mark.parametrize("name", ["sweep", "path", "atlas"])
 def test_no_string_of_a_record_becomes_structure(runs, tmp_path, name):
     chance = random.Random(16)
-    record = json.loads((runs[name] / "record.json").read_text())
+    record = entries_of(runs[name] / "record.json")
     places = list(paths(record))
     made = refused = 0
     for text in HOSTILE * 3:
@@ -129,7 +130,7 @@ def test_no_string_of_a_record_becomes_structure(runs, tmp_path, name):
             folder = tmp_path / "run"
             shutil.rmtree(folder, ignore_errors=True)
             shutil.copytree(runs[name], folder)
-            (folder / "record.json").write_text(json.dumps(changed(record, path, kind, word)))
+            write_sealed(folder / "record.json", changed(record, path, kind, word))
             found.append(rendered(folder))
         hostile, plain = found
         assert (hostile is None) == (plain is None), (path, kind, text)
@@ -186,9 +187,9 @@ DAMAGED = (
 def test_a_damaged_record_is_one_line_and_status_2(runs, tmp_path, capsys, number):
     folder = tmp_path / "run"
     shutil.copytree(runs["path"], folder)
-    record = json.loads((folder / "record.json").read_text())
+    record = entries_of(folder / "record.json")
     DAMAGED[number](record)
-    (folder / "record.json").write_text(json.dumps(record))
+    write_sealed(folder / "record.json", record)
     with pytest.raises(SystemExit) as ended:
         main(["report", str(folder)])
     said = capsys.readouterr()
@@ -263,10 +264,10 @@ def test_a_hostile_page_runs_and_asks_for_nothing(browser, folder, tmp_path):
     for name in ("mechanism", "<script>window.ran=1<"):
         (place / f"{name}.svg").write_text(svg)
     (place / "mechanism.png").unlink()
-    record = json.loads((place / "record.json").read_text())
+    record = entries_of(place / "record.json")
     record |= {"command": words, "created": words, "versions": {text: text for text in HOSTILE}}
     record["results"]["optimization"] |= {"reason": words, "agreement": words}
-    (place / "record.json").write_text(json.dumps(record))
+    write_sealed(place / "record.json", record)
     page = nd.report(place)
     browser.messages.clear()
     browser.requests.clear()

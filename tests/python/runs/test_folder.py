@@ -70,7 +70,7 @@ def test_other_files_are_refused_by_name(tmp_path, text):
         load_record(file)
 
 
-KEYS = ["format", "kind", "study", "results", "versions", "created", "files"]
+KEYS = ["format", "kind", "study", "results", "versions", "created", "files", "digest"]
 OLD = {"versions": {"ninedof": "0.0.1"}, "created": "2026-01-01T00:00:00+00:00", "files": ["a.png"]}
 
 
