@@ -61,18 +61,19 @@ def _words(error: Exception, given: Sequence[str]) -> str:
         context = getattr(error, "ctx", None)
         more = "" if context is None else f"; see `{context.command_path} --help`"
         return f"{error.format_message().rstrip('.')}{more}"  # type: ignore[attr-defined]
+    notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
     if isinstance(error, OSError):
         files = [os.fsdecode(file) for file in (error.filename, error.filename2) if isinstance(file, str | bytes)]
-        return f"{' and '.join(files)}: {error.strerror}" if files and error.strerror else str(error) or repr(error)
+        words = f"{' and '.join(files)}: {error.strerror}" if files and error.strerror else str(error) or repr(error)
+        return words + notes
     if _status(error) == BAD_INPUT:
         return as_typed(str(error), given)
     if isinstance(error, MemoryError):
-        return f"out of memory{f' ({error})' if str(error) else ''}"
+        return f"out of memory{f' ({error})' if str(error) else ''}{notes}"
     if isinstance(error, RecursionError):
         return "the input is nested too deep"
-    notes = " ".join(getattr(error, "__notes__", ()))
     words = str(error) if type(error) is RuntimeError else f"{type(error).__name__}: {error}"
-    return f"{words or type(error).__name__}{f'. {notes}' if notes else ''}"
+    return (words or type(error).__name__) + notes
 
 
 def _is_ours(error: Exception) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
@@ -13,9 +14,10 @@ from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.screen import Screen, bold
 from ninedof.runs.directory import run_directory, used_directory
 from ninedof.runs.folder import write_run
+from ninedof.support.arguments import LONGEST
 from ninedof.support.extras import MissingExtra
 from ninedof.sweep import SweepResult
-from ninedof.sweep.cluster import dask_executor
+from ninedof.sweep.cluster import dask_executor, is_of_cluster
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,19 +44,20 @@ def compute(
     asked: Callable[..., SweepResult], title: str, directory: Path, scheduler: str | None, screen: Screen
 ) -> SweepResult | None:
     """Compute with a progress bar and keep chunks in the run folder; return None if Ctrl-C ends the run."""
+    again = f"the same command with --out {shlex.quote(str(directory))} --resume continues the run"
     try:
         with _executor(scheduler) as executor, screen.points(title) as bar:
             return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
     except KeyboardInterrupt:
-        screen.print(
-            bold(
-                "interrupted",
-                f": finished chunks are kept in {directory}; the same command with "
-                f"--out {shlex.quote(str(directory))} --resume continues the run",
-            )
-        )
+        screen.print(bold("interrupted", f": finished chunks are kept in {directory}; {again}"))
         screen.data({"interrupted": True, "run": str(directory)})
         return None
+    except (Exception, CancelledError) as error:
+        if scheduler is None or not is_of_cluster(error):
+            raise
+        reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        kept = f"finished chunks are kept in {directory}; {again}"
+        raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}); {kept}") from None
 
 
 def write(

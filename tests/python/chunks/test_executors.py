@@ -303,6 +303,11 @@ def test_the_command_line_uses_a_scheduler(cluster, tmp_path, capsys):
         ("tcp://127.0.0.1:99999", "expected one as"),
         ("tcp://127.0.0.1:1", "got tcp://127.0.0.1:1, where no scheduler answers (Connection refused)"),
         ("tcp://127.0.0.1:SILENT", "where no scheduler answers (timed out)"),
+        ("tcp://127.0.0.1:BANNER", "where no scheduler answers (another program answers)"),
+        ("tcp://127.0.0.1:BYTES", "where no scheduler answers (timed out)"),
+        ("tcp://127.0.0.1:CLOSING", "where no scheduler answers (the connection was closed)"),
+        ("ws://127.0.0.1:SILENT", "where no scheduler answers (timed out)"),
+        ("tls://127.0.0.1:SILENT", "where no scheduler answers (TLS expects"),
     ],
 )
 def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypatch, address, words):
@@ -311,8 +316,13 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
 
     monkeypatch.setattr(schedulers, "TIMEOUT", 0.2)
     out = tmp_path / "run"
-    with socket.create_server(("127.0.0.1", 0)) as silent:  # accepts connections and sends nothing
-        address = address.replace("SILENT", str(silent.getsockname()[1]))
+    said = {"BANNER": b"HTTP/1.1 400 Bad Request\r\n", "BYTES": bytes(100), "CLOSING": None}
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        where, _, port = address.rpartition(":")
+        if port.isupper():
+            address = f"{where}:{server.getsockname()[1]}"
+        if port in said:  # the other one accepts connections and sends nothing
+            threading.Thread(target=_answer, args=(server, said[port]), daemon=True).start()
         with pytest.raises(SystemExit) as end:
             main(["sweep", "--over", "x_p=0:1:3", "--scheduler", address, "--out", str(out)])
     gc.collect()  # a client that was not closed would warn now
@@ -322,3 +332,49 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
     assert words in err
     assert err.count("\n") == 1
     assert not out.exists()
+
+
+def _answer(server, words):
+    """Take one connection, send what another program sends, or close it at once."""
+    line, _ = server.accept()
+    if words is None:
+        line.close()
+        return
+    line.sendall(words)
+    _open.append(line)
+
+
+_open = []
+
+
+def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, capsys, monkeypatch):
+    """What dask raises when the scheduler is killed while it works; the chunks so far are kept."""
+    from ninedof.cli import long_run
+    from ninedof.cli.app import main
+
+    class Lost(Executor):
+        count = 0
+
+        def submit(self, perform, *task):
+            self.count += 1
+            future = Future()
+            if self.count > 2:
+                future.set_exception(CancelledError())
+            else:
+                future.set_result(perform(*task))
+            return future
+
+    monkeypatch.setattr(long_run, "dask_executor", lambda address: Lost())
+    monkeypatch.chdir(tmp_path)
+    line = "sweep --over x_p=-1:1:23 --chunk 5 --no-figures --out".split()
+    with pytest.raises(SystemExit) as end:
+        main([*line, "my run", "--scheduler", "tcp://127.0.0.1:8786"])
+    assert end.value.code == 4
+    (said,) = (said for said in capsys.readouterr().err.splitlines() if said.startswith("ninedof: "))
+    assert said.startswith("ninedof: --scheduler: lost tcp://127.0.0.1:8786 (CancelledError); finished chunks are kept")
+    assert "--out 'my run' --resume" in said
+    assert len(list((tmp_path / "my run" / "chunks").glob("chunk-*"))) == 2
+    with pytest.raises(SystemExit) as end:
+        main([*line, "my run", "--resume"])
+    assert end.value.code == 0
+    assert nd.load("my run")["condition_number"].shape == (23,)
