@@ -17,6 +17,11 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
+/// The text of a value for a message, as the package words it: of one line, cut where it is long, whatever it is.
+inline std::string shown(const py::handle& value) {
+  return py::module_::import("ninedof.support.arguments").attr("shown")(value).cast<std::string>();
+}
+
 // numpy's arrays may lie at any address: views into a message, as Dask has them, or a field of packed records. Only an
 // aligned one may be read as doubles. pybind11 has no public name for the flag.
 constexpr int aligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
@@ -37,8 +42,7 @@ inline Array array_of_shape(const std::string& name, const py::object& value, co
   PyErr_Clear();
   const bool real =
       raw && std::string("biuf").find(raw.dtype().kind()) != std::string::npos && !py::hasattr(value, "mask");
-  if (!real)
-    throw InvalidArgument(name, py::repr(value).cast<std::string>(), "real numbers of shape " + shape_text(shape));
+  if (!real) throw InvalidArgument(name, shown(value), "real numbers of shape " + shape_text(shape));
   const Array a = Array::ensure(raw);
   const std::vector<py::ssize_t> got(a.shape(), a.shape() + a.ndim());
   if (got != shape) throw InvalidArgument(name, "shape " + shape_text(got), "shape " + shape_text(shape));

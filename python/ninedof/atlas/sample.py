@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
-from ninedof.support.arguments import finite, known_keys, pair
+from ninedof.support.arguments import finite, known_keys, pair, shown
 from ninedof.support.arrays import Floats
 
 BOUNDS: dict[str, tuple[float, float]] = {
@@ -88,5 +88,5 @@ def _bound(name: str, value: Any) -> tuple[float, float]:
     where = f"bounds[{name!r}]"
     low, high = (finite(where, end, 0.0) for end in pair(where, value, "(low, high)"))
     if low > high or (name == "zs_fraction" and high > 1.0):
-        raise ValueError(f"{where}: got {value!r}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
+        raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
     return low, high

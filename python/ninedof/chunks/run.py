@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 from ninedof.chunks.store import Store
 from ninedof.chunks.work import Task, Work, as_arrays, bounds, chunks_of
-from ninedof.support.arguments import executor_argument, shown
+from ninedof.support.arguments import executor_argument, path_argument
 from ninedof.support.files import Arrays
 from ninedof.support.progress import Progress, progress_argument
 
@@ -55,8 +55,8 @@ def run(
     """
     executor_argument(executor)
     progress_argument(progress)
-    if out is not None and not isinstance(out, str | os.PathLike):
-        raise ValueError(f"out: got {shown(out)}, expected a path")
+    if out is not None:
+        out = path_argument("out", out)
     if chunks_of(work) > MOST_CHUNKS:
         least = -(-work.points // MOST_CHUNKS)
         raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")

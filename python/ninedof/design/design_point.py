@@ -11,6 +11,7 @@ import numpy as np
 
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.fixed import Fixed
 from ninedof.support.short import short_repr
 
 if TYPE_CHECKING:
@@ -46,6 +47,13 @@ class DesignPoint:
     """The neutral one."""
     configurations: Configuration
     """The neutral one, then the poses of the objective: a stack."""
+
+    def __post_init__(self) -> None:
+        """Make what is there by name unchangeable, as all else is."""
+        for name in ("variables", "gradient", "margins"):
+            object.__setattr__(self, name, Fixed(getattr(self, name)))
+        slopes = {name: Fixed(slope) for name, slope in self.margin_gradients.items()}
+        object.__setattr__(self, "margin_gradients", Fixed(slopes))
 
 
 def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:

@@ -46,7 +46,8 @@ def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
     Of designs at their neutral pose there are more: those that the core alone has, as objectives.
     """
     given = [index] if isinstance(index, str) or callable(index) else index
-    if not isinstance(given, Iterable) or not (listed := list(given)):
+    sequence = isinstance(given, Iterable) and not isinstance(given, bytes | bytearray | memoryview | np.ndarray)
+    if not sequence or not (listed := list(given)) or not all(isinstance(one, str) or callable(one) for one in listed):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")
     known = INDICES if of_designs else computed()
     if "six_legged" in listed and not of_designs:

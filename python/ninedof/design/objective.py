@@ -12,7 +12,7 @@ from ninedof.design import poses
 from ninedof.design.indices import objectives
 from ninedof.design.pose import POSE_KEYS, Pose
 from ninedof.design.region import REGION_KEYS, Region
-from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table
+from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table, text, whole
 from ninedof.support.short import short_repr
 
 Made = TypeVar("Made")
@@ -112,7 +112,8 @@ class Objective:
 
         Of a region all poses count, or only so many imposed ones, at which O is not placed yet.
         """
-        index = objectives()[self.index].words
+        index, imposed = objectives()[self.index].words, whole("imposed", imposed, 0)
+        unit = text("unit", unit)
         if self.region is not None and imposed:
             where = replace(self.region, internal_point="shifted").worded(unit)
             return f"{AGGREGATES[self.aggregate].format(index=index)} over {imposed} poses of {where}"

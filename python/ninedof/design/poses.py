@@ -129,7 +129,8 @@ def path(
         raise ValueError(f"positions: got {len(corners)} corners, expected at least two")
     turns = _turns(rotations, rotations_deg, len(corners))
     count = whole("points", points, 2, MOST_POSES)
-    steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
+    with np.errstate(over="ignore"):  # of huge numbers, see below
+        steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
     if not steps.any():
         steps = np.ones_like(steps)
     for k, step in enumerate(steps):
@@ -139,10 +140,12 @@ def path(
                 "which the platform moves wherever it turns"
             )
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    at = np.linspace(0.0, along[-1], count)
-    p, q = (
-        np.column_stack([np.interp(at, along, column) for column in np.transpose(rows)]) for rows in (corners, turns)
-    )
+    with np.errstate(all="ignore"):  # of huge numbers, which poses refuse
+        at = np.linspace(0.0, along[-1], count)
+        p, q = (
+            np.column_stack([np.interp(at, along, column) for column in np.transpose(rows)])
+            for rows in (corners, turns)
+        )
     return tuple(Pose(tuple(x), tuple(w), internal_point, unit) for x, w in zip(p.tolist(), q.tolist(), strict=True))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ninedof.redundancy.rules import study_rule
 from ninedof.support.angles import exact_degrees
-from ninedof.support.arguments import Vector, finite, items, known_keys, pair, vector
+from ninedof.support.arguments import Vector, finite, items, known_keys, pair, text, vector
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount, scale_argument
 
@@ -124,7 +124,7 @@ class Region:
 
     def worded(self, unit: str = "") -> str:
         """Return the region in words, with the name of the length unit."""
-        unit = "zp" if self.unit == "zp" else unit
+        unit = "zp" if self.unit == "zp" else text("unit", unit)
         where = "the neutral position"
         if self.box is not None:
             where = f"a box of half edges {amount(', '.join(map(_plain, self.box)), unit)}"

@@ -18,7 +18,7 @@ from ninedof.design.objective import Objective
 from ninedof.design.study_file import read_toml, study_arguments, study_tables, write_toml
 from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import DEG, degrees_of, in_radians
-from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, whole
+from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, text, whole
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_argument
 
@@ -175,11 +175,12 @@ class Study:
 
     def unit_of(self, variable: str) -> str:
         """Return the unit in which a variable is shown: "deg" for an angle, else that of lengths."""
-        return "deg" if variable in self.angles else self.unit
+        return "deg" if text("variable", variable) in self.angles else self.unit
 
     def shown(self, variable: str, value: float) -> float:
         """Return the value of a variable in the unit in which it is shown: angles in degrees."""
-        return degrees_of(value) if variable in self.angles else value
+        value = number("value", value)
+        return degrees_of(value) if text("variable", variable) in self.angles else value
 
     @property
     def words(self) -> str:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 from ninedof import _core
 from ninedof.design import limits
 from ninedof.design.objective import Objective
 from ninedof.support.angles import angle_entry
-from ninedof.support.arguments import known_keys, shown, shown_key, table
+from ninedof.support.arguments import known_keys, path_argument, shown, shown_key, table
 from ninedof.support.files import write_whole
 from ninedof.support.reading import DEEPEST, TOML, deep_key, read_text
 from ninedof.support.units import AT_TOP, unit_entry
@@ -27,7 +26,7 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
         Naming the file, if it cannot be read or is not TOML.
 
     """
-    name = os.fspath(path)
+    name = str(path_argument("path", path))
     try:
         text = read_text(path, TOML)
         if key := deep_key(text):
@@ -47,7 +46,7 @@ def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:
     """Write tables as a TOML file."""
     import tomli_w
 
-    write_whole(Path(path), tomli_w.dumps(tables).encode())
+    write_whole(path_argument("path", path), tomli_w.dumps(tables).encode())
 
 
 def study_arguments(data: Mapping[str, Any]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from ninedof.export.points import JOINTS, O, P
 from ninedof.export.reading import Read
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
-from ninedof.support.arguments import did_you_mean
+from ninedof.support.arguments import did_you_mean, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.reading import TOML, read_text
 from ninedof.support.units import unit_argument
@@ -87,7 +87,7 @@ def _sections(rows: Sequence[Row]) -> dict[str, Section]:
             rows_here = {}
             found[name] = Section(Row(where, entries), rows_here)
         elif rows_here is None:
-            raise ValueError(f"{where}: got {name!r}, expected the header of a section, such as joint,x,y,z")
+            raise ValueError(f"{where}: got {shown(name)}, expected the header of a section, such as joint,x,y,z")
         else:
             _require_once(where, name, rows_here)
             rows_here[name] = Row(where, entries)
@@ -131,7 +131,7 @@ def _vectors(section: Section, names: Sequence[str]) -> Floats:
     for name, row in section.rows.items():
         if name not in names:
             raise ValueError(
-                f"{row.where}: got {name!r}, expected one of {', '.join(names)}{did_you_mean(name, names)}"
+                f"{row.where}: got {shown(name)}, expected one of {', '.join(names)}{did_you_mean(name, names)}"
             )
     missing = [name for name in names if name not in section.rows]
     if missing:
@@ -146,14 +146,14 @@ def _number(row: Row, index: int, name: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ValueError(f"{row.where}, column {name}: got {entry!r}, expected a finite number")
+        raise ValueError(f"{row.where}, column {name}: got {shown(entry)}, expected a finite number")
     return value
 
 
 def _length(section: Section) -> float | str:
     for name, row in section.rows.items():
         if name != LENGTH:
-            raise ValueError(f"{row.where}: got {name!r}, expected {LENGTH}")
+            raise ValueError(f"{row.where}: got {shown(name)}, expected {LENGTH}")
         entry = row.entries[0] if row.entries else ""
         if entry in KINDS:
             return entry

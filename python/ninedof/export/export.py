@@ -9,7 +9,7 @@ from typing import Any
 
 from ninedof.export.formats import format_named
 from ninedof.export.model import model_of
-from ninedof.support.arguments import known_keys
+from ninedof.support.arguments import known_keys, path_argument
 from ninedof.support.files import write_whole
 
 
@@ -61,7 +61,7 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     if options and not taken:
         raise ValueError(f"options: got {', '.join(options)}, expected none: {format} takes no options")
     known_keys("options", options, taken)
-    file = Path(path)
+    file = path_argument("path", path)
     if not file.absolute().parent.is_dir():
         raise ValueError(f"path: got {file}, expected a file in a folder that exists")
     model = model_of(design, file.name.split(".")[0], unit)

@@ -19,6 +19,7 @@ from ninedof.export.mjcf import MARK
 from ninedof.export.reading import Read
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
+from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 from ninedof.support.reading import TOML, read_file
 from ninedof.support.units import unit_argument
@@ -86,7 +87,7 @@ def _numbers(item: ElementTree.Element, key: str, count: int, default: tuple[flo
     except ValueError:
         found = np.empty(0)
     if found.shape != (count,):
-        raise ValueError(f"{item.get('name')}: got {key}={text!r}, expected {count} numbers")
+        raise ValueError(f"{item.get('name')}: got {key}={shown(text)}, expected {count} numbers")
     return found
 
 

@@ -111,7 +111,8 @@ def model_of(design: Any, name: str = "ninedof", unit: str | None = None) -> Mod
     own = getattr(study or design, "unit", None)
     if own is None and unit is None:
         raise ValueError(f'unit: got none, expected the length unit of a {type(design).__name__}, "" for none')
-    if own and unit and unit_argument(unit) != own:
+    unit = None if unit is None else unit_argument(unit)
+    if own and unit and unit != own:
         raise ValueError(f"unit: got {unit}, expected {own}, the unit of the design")
     clean = "".join(x if x.isascii() and (x.isalnum() or x in "_-") else "_" for x in name) or "ninedof"
     return Model(g, c, length, unit_argument(own or unit or ""), clean, study, design)

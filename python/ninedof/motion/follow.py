@@ -93,7 +93,7 @@ def follow(
 
     """
     trajectory_argument(trajectory)
-    single(geometry, home)
+    single(geometry, home, "home")
     rule, bounds = rule_argument(internal_point), leg_limits(limits)
     for low, high in zip(*bounds, strict=True):
         if not 0.0 <= low <= high:

@@ -11,14 +11,15 @@ from ninedof.support.arguments import Vector, finite, shown, whole
 from ninedof.support.arrays import Floats
 
 TURNS = 3  # of a spiral
+SHORTEST = 1e-300  # of a motion: its times must differ
 MOST_POINTS = 10_000_000
 
 
 def times(duration: Any, points: Any) -> Floats:
     """Return evenly spaced times from 0 to the duration."""
     length = finite("duration", duration)
-    if not length > 0.0:
-        raise ValueError(f"duration: got {shown(duration)}, expected a number above 0")
+    if not length > SHORTEST:
+        raise ValueError(f"duration: got {shown(duration)}, expected a number above {SHORTEST:g}")
     return np.linspace(0.0, length, whole("points", points, 3, MOST_POINTS))
 
 

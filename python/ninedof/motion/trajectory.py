@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.motion.shapes import circle_positions, line_positions, spiral_positions, times
 from ninedof.motion.trajectory_file import FEWEST, read_trajectory
-from ninedof.robot.configuration import Configuration
+from ninedof.robot.configuration import Configuration, require_single
 from ninedof.support.arguments import finite, shown, vector
 from ninedof.support.arrays import as_floats, frozen
 
@@ -89,26 +89,30 @@ class Trajectory:
             Naming file, line and column.
 
         """
+        require_single("home", home)
         found = read_trajectory(path, unit)
         return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
 
     @classmethod
     def circle(cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001) -> Self:
         """Return a horizontal circle about the position of `home`, at constant speed and with its rotation."""
+        require_single("home", home)
         t = times(duration, points)
         return cls(t, home.position + circle_positions(t / t[-1], finite("radius", radius)), home.rotation)
 
     @classmethod
     def line(cls, home: Configuration, step: Any, duration: float = 1.0, points: int = 1001) -> Self:
         """Return a straight line from `home` by `step` (x, y, z), from rest to rest (polynomial of degree five)."""
+        require_single("home", home)
         t = times(duration, points)
-        return cls(t, home.position + line_positions(t / t[-1], vector("line", step)), home.rotation)
+        return cls(t, home.position + line_positions(t / t[-1], vector("step", step)), home.rotation)
 
     @classmethod
     def spiral(
         cls, home: Configuration, radius: float, height: float, duration: float = 1.0, points: int = 1001
     ) -> Self:
         """Return three turns from `home` outwards to `radius` and up by `height`, from rest to rest."""
+        require_single("home", home)
         t = times(duration, points)
         r, h = finite("radius", radius), finite("height", height)
         return cls(t, home.position + spiral_positions(t / t[-1], r, h), home.rotation)

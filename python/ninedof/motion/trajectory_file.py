@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
+from ninedof.support.arguments import path_argument, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.reading import TABLE, read_text
 
@@ -40,7 +41,7 @@ class Columns(NamedTuple):
 
 def read_trajectory(path: str | os.PathLike[str], unit: str) -> Columns:
     """Read a file; raise ValueError naming file, line and column, and where it names another unit of lengths."""
-    file = os.fspath(path)
+    file = str(path_argument("path", path))
     try:
         reader = csv.reader(read_text(path, TABLE).split("\n"))
         rows = [(reader.line_num, row) for row in reader if any(row) and not row[0].lstrip().startswith("#")]
@@ -91,7 +92,7 @@ def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
     known = {name for way in WAYS for name in way}
     for name in others:
         if name not in known:
-            raise ValueError(f"{where}, column {name!r}: not known, expected t x y z and one of {_ways()}")
+            raise ValueError(f"{where}, column {shown(name)}: not known, expected t x y z and one of {_ways()}")
     raise ValueError(f"{where}: got {' '.join(others)} as rotation, expected one of {_ways()}")
 
 
@@ -112,7 +113,7 @@ def _numbers(file: str, names: Sequence[str], body: Sequence[tuple[int, list[str
     for line, row in body:
         for name, text in zip(names, row, strict=True):
             if not _is_finite(text):
-                raise ValueError(f"{file}, line {line}, column {name}: got {text!r}, expected a finite number")
+                raise ValueError(f"{file}, line {line}, column {name}: got {shown(text)}, expected a finite number")
     raise AssertionError("unreachable")
 
 

@@ -17,6 +17,7 @@ from ninedof.proof.bounds import leg_length_bounds
 from ninedof.proof.machine_record import outward
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import instance
 from ninedof.support.short import short_repr
 
 HEXAGONAL_LIMIT = 2.5358420229115416
@@ -148,7 +149,7 @@ def applicable_bounds(result: Result) -> list[LowerBound]:
         If the result holds no design.
 
     """
-    best = result.best
+    best = instance("result", result, Result).best
     if best is None:
         raise ValueError(f"result: got one without a design ({result.status}), expected one with a design")
     found = [

@@ -14,6 +14,7 @@ from ninedof.optimize.result import Candidate, Result, Status, candidate_from, r
 from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, warm_starts
 from ninedof.proof.optimum import GAPS, left_out_of, prove_optimum
+from ninedof.support.arguments import choice, flag, instance
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
@@ -78,12 +79,11 @@ def optimize(
     True
 
     """
-    if not isinstance(study, Study):
-        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    instance("study", study, Study)
     progress_argument(progress)
     study = study.with_solver(starts, seed)
     count = thread_argument(threads)
-    if certify:
+    if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
         found = optimize(study, threads=threads, progress=progress, warm=warm)
         return found if found.best is None or found.interrupted else proved(found, threads, progress)
@@ -154,10 +154,15 @@ def trace(study: Study, start: Mapping[str, float], formulation: str = "minimax"
         "plain" minimizes log(objective) itself, as in the paper's SQP run; it stops early where singular values meet.
 
     """
-    if not isinstance(study, Study):
-        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
-    if formulation not in ("minimax", "plain"):
-        raise ValueError(f'formulation: got {formulation!r}, expected "minimax" or "plain"')
+    instance("study", study, Study)
+    choice("formulation", formulation, ("minimax", "plain"))
     problem = study.problem()
-    best, end = _core.trace(problem, study.vector(start), formulation)
+    best, end = _core.trace(problem, _start(study, start), formulation)
     return Trace(tuple(best), candidate_from(problem, end))
+
+
+def _start(study: Study, start: Mapping[str, float]) -> list[float]:
+    try:
+        return study.vector(start)
+    except ValueError as error:
+        raise ValueError(f"start: {error}") from None

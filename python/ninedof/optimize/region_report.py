@@ -8,6 +8,8 @@ from typing import Any
 
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
+from ninedof.support.arguments import items, table
+from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
 
 PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
@@ -99,11 +101,17 @@ class RegionReport:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
-        poses = tuple(Pose.from_dict(pose) for pose in data["poses"])
-        mean = RegionMean(**data["mean"]) if data.get("mean") else None
-        ranges = tuple((low, high) for low, high in data.get("leg_ranges", ()))
-        at = Pose.from_dict(data["objective_at"])
-        return cls(**{**data, "poses": poses, "objective_at": at, "mean": mean, "leg_ranges": ranges})
+        found = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
+        listed = items("region.poses", data.get("poses"), "a list of poses")
+        poses = tuple(_pose(f"region.poses[{k}]", pose) for k, pose in enumerate(listed))
+        return cls(**found, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
+
+
+def _pose(where: str, data: Any) -> Pose:
+    try:
+        return Pose.from_dict(table(where, data))
+    except ValueError as error:
+        raise ValueError(str(error) if str(error).startswith(where) else f"{where}: {error}") from None
 
 
 def posed(study: Study, poses: tuple[Pose, ...]) -> Study:

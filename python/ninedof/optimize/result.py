@@ -26,6 +26,9 @@ from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.sheet import Sheet, sheet
+from ninedof.support.arguments import choice, finite, instance, items
+from ninedof.support.fields import entries_of
+from ninedof.support.fixed import Fixed
 from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
 
@@ -52,6 +55,7 @@ class Status(StrEnum):
 
 
 DERIVED = {"derived": True}  # fields that follow from others
+ROBOT = ("geometry", "configuration", "configurations")  # those of a candidate
 
 
 @short_repr
@@ -84,6 +88,11 @@ class Candidate:
     """Largest negative margin; 0 if none."""
     reached: int
     """How many starts ended at this objective; warm starts are not counted."""
+
+    def __post_init__(self) -> None:
+        """Make what is there by name unchangeable, as all else is."""
+        for name in ("variables", "prices"):
+            object.__setattr__(self, name, Fixed(getattr(self, name)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field as plain values, but for the robot and its poses, which follow from the variables."""
@@ -260,6 +269,7 @@ class Result:
 
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""
+        instance("certificate", certificate, MachineCertificate)
         return self.best is not None and belongs(certificate, machine_digest(self.study, *self._machine()))
 
     def _machine(self) -> tuple[Geometry, Configuration, float]:
@@ -301,12 +311,17 @@ class Result:
         return "\n".join(lines)
 
 
-def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate:
+def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str = "candidate") -> Candidate:
     """Return the candidate of a mapping as the core or `Candidate.to_dict` makes it, with its robot and poses."""
-    x = [data["variables"][name] for name in problem.names]
+    known = entries_of(Candidate, data, where, skipped=ROBOT)
+    values = known["variables"]
+    missing = [name for name in problem.names if name not in values]
+    if missing:
+        raise ValueError(f"{where}.variables: got none of the name {missing[0]}, expected all of the study")
+    x = [finite(f"{where}.variables.{name}", values[name]) for name in problem.names]
     configurations = Configuration(*problem.configurations(x))
     return Candidate(
-        **_known(Candidate, data),
+        **known,
         geometry=problem.geometry(x),
         configuration=configurations[0],
         configurations=configurations,
@@ -315,15 +330,18 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any]) -> Candidate
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     """Return the result of a mapping as the core (with `seconds`) or `Result.to_dict` makes it."""
-    region = RegionReport.from_dict(data["region"]) if data.get("region") else None
+    known = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof"])
+    region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
     problem = (study if region is None else region.posed(study)).problem()
-    known = _known(Result, data) | {
-        "region": region,
-        "proof": OptimumProof.from_dict(data["proof"]) if data.get("proof") else None,
-        "status": Status(data["status"]),
-        "candidates": tuple(candidate_from(problem, entry) for entry in data["candidates"]),
-    }
-    return Result(**known, study=study)
+    listed = items("candidates", data.get("candidates"), "a list of candidates")
+    return Result(
+        **known,
+        region=region,
+        proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"], "proof"),
+        status=Status(choice("status", data.get("status"), list(Status))),
+        candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(listed)),
+        study=study,
+    )
 
 
 def _to_dict(found: Candidate | Result) -> dict[str, Any]:
@@ -335,10 +353,6 @@ def _plain(value: Any) -> Any:
         return str(value)
     if isinstance(value, RegionReport | OptimumProof):
         return value.to_dict()
+    if isinstance(value, Fixed):
+        return dict(value)
     return list(value) if isinstance(value, tuple) else value
-
-
-def _known(kind: type[Candidate | Result], data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of a mapping that are fields of a class, lists as tuples."""
-    names = [f.name for f in fields(kind) if not f.metadata.get("derived")]
-    return {n: tuple(data[n]) if isinstance(data[n], list) else data[n] for n in names if n in data}

@@ -29,7 +29,7 @@ def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | No
         return None
     expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
     given = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
-    if isinstance(given, str) or not isinstance(given, Iterable):
+    if isinstance(given, str | bytes | bytearray | memoryview | np.ndarray) or not isinstance(given, Iterable):
         raise ValueError(f"warm: got {shown(warm)}, expected {expected}")
     starts: list[Mapping[str, float]] = []
     for item in given:

@@ -57,14 +57,14 @@ def resolve(study: Study, against: str) -> tuple[Study, str]:
         return study, against
     index = study.objective.index
     indices = objectives()
-    if against in (CONDITION_LIMIT, *indices):
+    if isinstance(against, str) and against in (CONDITION_LIMIT, *indices):
         if against in (CONDITION_LIMIT, "condition_number") and index != "condition_number":
             return study, CONDITION_LIMIT
         if against in indices and index == "condition_number" and against != index:
             return replace(study, objective=replace(study.objective, index=against)), CONDITION_LIMIT
         raise ValueError(
-            f"against: got {against!r} for a study of the index {index!r}, expected one of the two to be the condition "
-            "number and the other another index"
+            f"against: got {shown(against)} for a study of the index {index!r}, expected one of the two to be the "
+            "condition number and the other another index"
         )
     hint = did_you_mean(against, [*labels, CONDITION_LIMIT, *indices]) if isinstance(against, str) else ""
     raise ValueError(

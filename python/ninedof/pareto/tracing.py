@@ -18,7 +18,7 @@ from ninedof.pareto.limited import resolve, with_degrees, without_degrees
 from ninedof.pareto.solving import Interrupted, Sweep
 from ninedof.pareto.span import span
 from ninedof.support.angles import degrees_of
-from ninedof.support.arguments import finite, items, shown, whole
+from ninedof.support.arguments import finite, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
 
@@ -96,8 +96,8 @@ def pareto(
     plain, degrees = without_degrees(against)
     posed, limit = resolve(study.with_solver(starts), plain)
     given = None if values is None else _values(values, limit, degrees)
-    if out is not None and not isinstance(out, str | os.PathLike):
-        raise ValueError(f"out: got {shown(out)}, expected a path")
+    if out is not None:
+        out = path_argument("out", out)
     begin, interrupted = perf_counter(), False
     wanted: list[float] | None = given
     question = {"study": posed.to_dict(), "against": limit, "values": given, "points": count}

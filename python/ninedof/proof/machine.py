@@ -17,7 +17,7 @@ from ninedof.proof.machine_search import ConditionSearch, extremes, met_at
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import finite, whole
+from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS
 from ninedof.support.progress import Progress, phase
 
@@ -83,6 +83,8 @@ def certify(
     if condition_number is not None:
         finite("condition_number", condition_number, 1.0)
     how = {"threads": whole("threads", threads, 0, MOST_THREADS), "seconds": seconds, "gap": gap, "condition": 0.0}
+    if resume is not None:
+        instance("resume", resume, MachineCertificate)
     only_neutral = region is None and len(configurations) == 1
     if resume is not None and resume.where != _where(study, only_neutral):
         raise ValueError(
@@ -177,7 +179,7 @@ def _rule(
         raise ValueError('rule: got none, expected one that says where O is: internal_point is "best" in the region')
     rule = earlier or (given() if callable(given) and not isinstance(given, PointRule) else given)
     if not isinstance(rule, PointRule):
-        raise ValueError(f"rule: got {rule!r}, expected a PointRule")
+        raise ValueError(f"rule: got {shown(rule)}, expected a PointRule")
     if not rule.about(neutral):
         raise ValueError("rule: got one about another neutral pose, expected that of the design")
     return rule

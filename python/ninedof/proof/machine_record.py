@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
+from ninedof.support.arguments import flag, known_keys, number, table, text, whole
+from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 
@@ -64,11 +66,11 @@ class LimitProof:
 
     def shown(self, value: float) -> float:
         """Return a value as it is shown: angles in degrees."""
-        return math.degrees(value) if self.kind == "angle" else value
+        return math.degrees(number("value", value)) if self.kind == "angle" else number("value", value)
 
     def unit(self, length: str) -> str:
         """Return the unit of shown values."""
-        return {"angle": "deg", "length": length}.get(self.kind, "")
+        return {"angle": "deg", "length": text("length", length)}.get(self.kind, "")
 
     def worded(self, digits: int = 6) -> str:
         """Return the bound that is proved, rounded to the safe side."""
@@ -77,6 +79,7 @@ class LimitProof:
     def outward(self, value: float, up: bool, digits: int) -> str:
         """Return a value as it is shown, rounded up or down."""
         shown = self.shown(value)
+        up, digits = flag("up", up), whole("digits", digits, 1, 400)
         if self.kind == "angle" and value != 0.0:  # less than two units in the last place from the exact degrees
             for _ in range(2):
                 shown = math.nextafter(shown, math.inf if up else -math.inf)
@@ -182,28 +185,13 @@ class MachineCertificate:
             If it is none, or not whole.
 
         """
-        if data.get("format") != FORMAT:
-            raise ValueError(f"got no {FORMAT!r} mark, expected a certificate written by ninedof")
-        known = {key: value for key, value in data.items() if key not in ("format", "proved")}
-        try:
-            limits = [
-                LimitProof(**{**one, "value": tuple(one["value"]), "at": tuple(_met(met) for met in one["at"])})
-                for one in known.pop("limits")
-            ]
-            return cls(
-                **{
-                    **known,
-                    "limits": tuple(limits),
-                    "lengths": tuple((float(a), float(b)) for a, b in known["lengths"]),
-                    "condition": tuple(float(x) for x in known["condition"]),
-                    "condition_at": _met(known["condition_at"]),
-                    "left": tuple(tuple(map(float, box)) for box in known["left"]),
-                    "target": float(known["target"]),
-                    "rule": PointRule.from_dict(known["rule"]) if known.get("rule") else None,
-                }
-            )
-        except (KeyError, TypeError) as error:
-            raise ValueError(f"got a certificate without {error}, expected a whole one") from None
+        form = table("certificate", data).get("format")
+        if not isinstance(form, str) or form != FORMAT:
+            raise ValueError(f"certificate: got no {FORMAT!r} mark, expected one written by ninedof")
+        names = [field.name for field in fields(cls)]
+        known_keys("certificate", data, [*names, "format", "proved"])
+        found = entries_of(cls, data, skipped=["rule"])
+        return cls(**found, rule=PointRule.from_dict(data["rule"]) if data.get("rule") is not None else None)
 
     def __str__(self) -> str:
         """Return the sentences."""
@@ -212,12 +200,6 @@ class MachineCertificate:
     def leg_table(self) -> dict[str, tuple[float, float]]:
         """Return the proved lengths by leg."""
         return dict(zip(LEGS, self.lengths, strict=True))
-
-
-def _met(data: Mapping[str, Any]) -> Met:
-    x, y, z = data["shift"]
-    a, b, c = data["tilt"]
-    return Met((x, y, z), (a, b, c), data["yaw"], data["listed"])
 
 
 def outward(value: float, up: bool, digits: int = 6) -> str:

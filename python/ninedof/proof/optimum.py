@@ -11,8 +11,9 @@ from typing import Any
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.support.arguments import finite
+from ninedof.support.arguments import finite, instance, path_argument
 from ninedof.support.arrays import thread_argument
+from ninedof.support.fields import entries_of
 from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
 from ninedof.support.reading import PROOF, read_file
@@ -63,7 +64,7 @@ class OptimumProof:
 
     def gap(self, condition_number: float) -> float:
         """Return what is left open below a condition number, as a fraction of it."""
-        return max(0.0, 1.0 - self.lower_bound / condition_number)
+        return max(0.0, 1.0 - self.lower_bound / finite("condition_number", condition_number, 1.0))
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the certificate.
@@ -76,16 +77,16 @@ class OptimumProof:
         """
         if not self.certificate:
             raise ValueError("certificate: got a proof that did not come to its end, expected a complete one")
-        return write_whole(Path(path), self.certificate)
+        return write_whole(path_argument("path", path), self.certificate)
 
     def to_dict(self) -> dict[str, Any]:
         """Return every field but the certificate as plain values."""
         return {name: getattr(self, name) for name in PLAIN} | {"left_out": list(self.left_out)}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:
+    def from_dict(cls, data: Mapping[str, Any], where: str = "proof") -> OptimumProof:
         """Return the proof of a mapping as `to_dict` makes it, without its certificate."""
-        return cls(**{name: data[name] for name in PLAIN if name in data}, left_out=tuple(data["left_out"]))
+        return cls(**entries_of(cls, data, where, skipped=["certificate"]))
 
 
 def prove_optimum(
@@ -153,7 +154,7 @@ def prove_optimum(
     progress_argument(progress)
     target = best * (1.0 - aim)
     if not target > 1.0:
-        raise ValueError(f"condition_number: got {best!r} and a gap of {aim!r}, expected more than 1 to be proved")
+        raise ValueError(f"condition_number: got {best:g} and a gap of {aim:g}, expected more than 1 to be proved")
     return _proved(problem, target, thread_argument(threads), MOST_BOXES, limit, progress)
 
 
@@ -163,8 +164,7 @@ def left_out_of(study: Study) -> tuple[str, ...]:
 
 
 def _problem(study: Study) -> _core.Problem:
-    if not isinstance(study, Study):
-        raise ValueError(f"study: got {type(study).__name__}, expected a Study")
+    instance("study", study, Study)
     if study.objective.region is not None:
         raise ValueError("objective: got a region of poses, expected the neutral pose alone for a proof")
     return study.problem()
@@ -216,6 +216,7 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
         If the file cannot be read.
 
     """
+    path_argument("path", path)
     try:
         data = read_file(path, PROOF)
     except OSError as error:

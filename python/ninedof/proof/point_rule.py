@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
+from ninedof.support.arguments import table
 from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
 
@@ -125,6 +126,7 @@ class PointRule:
             If it is not whole, or has been changed: what was proved does not hold for another rule.
 
         """
+        table("rule", data)
         try:
             out = cls(
                 _three(data["position"]),
@@ -134,7 +136,7 @@ class PointRule:
                 tuple(tuple(int(n) for n in row) for row in data["powers"]),
                 tuple(_three(row) for row in data["coefficients"]),
             )
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, OverflowError, IndexError) as error:
             raise ValueError(f"rule: got one without {error}, expected a whole one") from None
         if not out._whole():
             raise ValueError("rule: got terms that do not fit each other, expected a whole one")

@@ -31,7 +31,7 @@ STUDY_RULES = ("shifted", "held", "best")
 
 def study_rule(rule: str) -> str:
     """Return a rule for O in a study; earlier studies said "carried" where they meant "shifted"."""
-    if rule == "carried":
+    if isinstance(rule, str) and rule == "carried":
         raise ValueError(
             f"internal_point: got 'carried', expected one of {', '.join(STUDY_RULES)}; what studies called 'carried' "
             f"before, {MEANING['shifted']}, is now 'shifted'"

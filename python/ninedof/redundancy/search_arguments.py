@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.robot.configuration import Configuration, require_geometry
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice
+from ninedof.support.arguments import choice, shown
 from ninedof.support.arrays import Floats, as_floats, as_number
 
 CRITERIA = ("condition_number", "singularity", "leg_centring")
@@ -50,7 +50,7 @@ def leg_limits(limits: Any, name: str = "limits") -> tuple[Floats, Floats]:
     if limits is None:
         return np.zeros(9), np.full(9, np.inf)
     if not isinstance(limits, tuple | list) or len(limits) != 2:
-        raise ValueError(f"{name}: got {limits!r}, expected (low, high), each a number or nine")
+        raise ValueError(f"{name}: got {shown(limits)}, expected (low, high), each a number or nine")
     ends = []
     for side, end in zip(("low", "high"), limits, strict=True):
         values = as_floats(f"{name} ({side})", end, ())

@@ -24,7 +24,7 @@ from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import Record, load_record
 from ninedof.runs.machine_file import certificate_file, load_certificate
 from ninedof.runs.objects import load, split
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import path_argument, shown
 from ninedof.support.files import write_whole
 from ninedof.workspace import WorkspaceMap
 
@@ -65,8 +65,10 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     'report.html'
 
     """
-    if path is not None and not Path(path).absolute().parent.is_dir():
+    if path is not None and not path_argument("path", path).absolute().parent.is_dir():
         raise ValueError(f"path: got {os.fspath(path)}, expected a file in a folder that exists")
+    if not isinstance(run, Result | Front):
+        path_argument("run", run)
     if isinstance(run, Result | Front):
         if path is None:
             raise ValueError("path: got none, expected the file to write for a result in memory")

@@ -99,7 +99,9 @@ class Configuration:
             against the configuration.
 
         """
-        shape, flat, t = broadcast_flat(self, tangent=(as_floats("tangent", tangent, (9,)), 1))
+        shape, flat, t = broadcast_flat(
+            self, tangent=(without_infinity("tangent", as_floats("tangent", tangent, (9,))), 1)
+        )
         return Configuration(*(a.reshape(shape + a.shape[1:]) for a in _core.moved(*flat, t[0].reshape(-1, 9))))
 
     @property
@@ -197,6 +199,13 @@ def require_configuration(name: str, configuration: Any) -> None:
         raise ValueError(f"{name}: got {type(configuration).__name__}, expected a Configuration")
 
 
+def require_single(name: str, configuration: Any) -> None:
+    """Raise ValueError, naming the argument, unless it is one Configuration and no stack."""
+    require_configuration(name, configuration)
+    if configuration.shape:
+        raise ValueError(f"{name}: got a stack of shape {configuration.shape}, expected a single one")
+
+
 def operands(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core: the geometry, and arrays (n, 3), (n, 3, 3), (n, 3)."""
     require_geometry(geometry)
@@ -223,9 +232,8 @@ def operands_with(
     return shape, (geometry, *flat), [a.reshape(-1, a.shape[-1]) for a in rest]
 
 
-def single(geometry: Geometry, configuration: Configuration) -> Operands:
+def single(geometry: Geometry, configuration: Configuration, name: str = "configuration") -> Operands:
     """Return the operands of the core for a single configuration; a stack raises ValueError."""
-    flat = operands(geometry, configuration)
-    if configuration.shape:
-        raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
+    flat = operands(geometry, configuration, name)
+    require_single(name, configuration)
     return flat

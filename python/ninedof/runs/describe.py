@@ -14,6 +14,8 @@ from ninedof.paper import published
 from ninedof.paper.comparison import Comparison, Row
 from ninedof.pareto import Front
 from ninedof.pareto.limited import limited, without_degrees
+from ninedof.support.arguments import items, number, table
+from ninedof.support.fields import entries_of
 
 
 def describe_front(front: Front) -> dict[str, Any]:
@@ -23,13 +25,21 @@ def describe_front(front: Front) -> dict[str, Any]:
 
 def front_from(study: Study, data: Mapping[str, Any]) -> Front:
     """Return the front of a study."""
-    against = data["against"]
-    limits = tuple(float(row["limit"]) for row in data["rows"])
-    plain, degrees = without_degrees(against)
-    values = (math.radians(limit) if degrees else limit for limit in limits)
-    studies = (limited(study, plain, value if np.isfinite(value) else None) for value in values)
-    results = tuple(result_from(each, found) for each, found in zip(studies, data["results"], strict=True))
-    return Front(study, against, limits, results, data["interrupted"], float(data["seconds"]))
+    rows = items("rows", table("front", data).get("rows"), "a list of rows")
+    given = items("results", data.get("results"), "a list of results")
+    if len(given) != len(rows):
+        raise ValueError(f"results: got {len(given)} of them and {len(rows)} rows, expected as many of both")
+    limits = tuple(number(f"rows[{k}].limit", table(f"rows[{k}]", row).get("limit")) for k, row in enumerate(rows))
+    known = entries_of(Front, data, skipped=["study", "limits", "results"])
+    plain, degrees = without_degrees(known["against"])
+    results = []
+    for k, (limit, found) in enumerate(zip(limits, given, strict=True)):
+        value = math.radians(limit) if degrees else limit
+        try:
+            results.append(result_from(limited(study, plain, value if np.isfinite(value) else None), found))
+        except ValueError as error:
+            raise ValueError(f"results[{k}]: {error}") from None
+    return Front(study, **known, limits=limits, results=tuple(results))
 
 
 def describe_comparison(c: Comparison) -> dict[str, Any]:

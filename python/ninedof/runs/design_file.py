@@ -17,7 +17,7 @@ from ninedof.design.study_file import read_toml, require_unit_at_top, write_toml
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
-from ninedof.support.arguments import is_number, known_keys, number, table
+from ninedof.support.arguments import is_number, known_keys, number, path_argument, table
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_argument, unit_entry
 
@@ -77,7 +77,7 @@ def load_design(path: str | os.PathLike[str]) -> Design:
         Naming the file and the entry.
 
     """
-    file = Path(path)
+    file = path_argument("path", path)
     try:
         return _from_tables(read_toml(file))
     except ValueError as error:

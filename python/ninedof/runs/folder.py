@@ -20,7 +20,9 @@ from ninedof.paper.comparison import Comparison
 from ninedof.pareto import Front
 from ninedof.proof.optimum import FILE as CERTIFICATE
 from ninedof.runs.describe import describe_comparison, describe_front, front_from
+from ninedof.support.arguments import choice, table
 from ninedof.support.command import command_line
+from ninedof.support.fields import entries_of
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.reading import JSON, read_text
@@ -36,6 +38,8 @@ FILE = "record.json"
 
 Run = Result | Comparison | Front | WorkspaceMap | SweepResult
 CERTIFIED = "certified.npz"  # beside the map of a workspace
+KINDS = ("optimization", "comparison", "front", "workspace", "sweep", "atlas", "motion", "paper")
+OF_A_STUDY = ("optimization", "comparison", "front")
 ARRAYS = {"workspace": "map.npz", "sweep": "sweep.npz", "atlas": "atlas.npz"}
 
 
@@ -147,22 +151,28 @@ def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepR
 
     """
     record = load_record(path)
+    if record.kind in ARRAYS:
+        return _arrays(record, Path(path))
+    name = "front" if record.kind == "front" else "optimization"
+    if name not in record.results:
+        raise ValueError(f"{os.fspath(path)}: results: got a {record.kind} without {name}, expected a whole one")
+    found = table(f"{os.fspath(path)}: results.{name}", record.results[name])
     try:
-        if record.kind in ARRAYS:
-            place = Path(path)
-            folder = place if place.is_dir() else place.parent
-            if record.kind != "workspace":
-                return SweepResult.load(folder / ARRAYS[record.kind])
-            found = WorkspaceMap.load(folder / ARRAYS[record.kind])
-            certified = CertifiedWorkspace.load(folder / CERTIFIED) if CERTIFIED in record.files else None
-            if certified is not None and certified.estimate not in (None, (found.volume, found.error)):
-                raise ValueError(f"{folder / CERTIFIED}: got what is proved of another map, expected that of this run")
-            return replace(found, certified=certified)
-        if record.kind == "front":
-            return front_from(record.study, record.results["front"])
-        return result_from(record.study, record.results["optimization"])
-    except (KeyError, TypeError) as error:
-        raise ValueError(f"{os.fspath(path)}: got a {record.kind} without {error}, expected a whole one") from None
+        return front_from(record.study, found) if name == "front" else result_from(record.study, found)
+    except ValueError as error:
+        raise ValueError(f"{os.fspath(path)}: results.{name}: {error}") from None
+
+
+def _arrays(record: Record, place: Path) -> WorkspaceMap | SweepResult:
+    """Return a run whose numbers lie in files beside its record."""
+    folder = place if place.is_dir() else place.parent
+    if record.kind != "workspace":
+        return SweepResult.load(folder / ARRAYS[record.kind])
+    found = WorkspaceMap.load(folder / ARRAYS[record.kind])
+    certified = CertifiedWorkspace.load(folder / CERTIFIED) if CERTIFIED in record.files else None
+    if certified is not None and certified.estimate not in (None, (found.volume, found.error)):
+        raise ValueError(f"{folder / CERTIFIED}: got what is proved of another map, expected that of this run")
+    return replace(found, certified=certified)
 
 
 def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
@@ -203,17 +213,23 @@ def load_record(path: str | os.PathLike[str]) -> Record:
         raise ValueError(f"{file}: got no {FORMAT!r} mark, expected a record written by ninedof")
     data = unsealed(data, file, required=data["format"] == FORMAT)
     try:
-        if data["format"] == WORKSPACES_1:
-            data |= {"kind": "workspace", "question": data["asked"], "results": {"workspace": data["workspace"]}}
-        elif data["format"] == STUDIES_1:
-            data["kind"] = _kind(data["results"])
-        asked = Study.from_dict(data["study"]) if "study" in data else data["question"]
-        files, command = tuple(data["files"]), str(data.get("command", ""))
-        return Record(data["kind"], asked, data["results"], data["versions"], data["created"], files, command)
-    except (KeyError, TypeError) as error:
-        raise ValueError(f"{file}: got a record without {error}, expected a whole one") from None
+        return _record(data)
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
+
+
+def _record(data: dict[str, Any]) -> Record:
+    """Return the record of plain values, those of earlier releases too; raise ValueError naming the entry."""
+    if data["format"] == WORKSPACES_1:
+        data |= {"kind": "workspace", "question": data.get("asked"), "results": {"workspace": data.get("workspace")}}
+    elif data["format"] == STUDIES_1:
+        data["kind"] = _kind(table("results", data.get("results")))
+    asked = Study.from_dict(data["study"]) if "study" in data else table("question", data.get("question"))
+    known = entries_of(Record, data, skipped=["asked", "results"])
+    choice("kind", known["kind"], KINDS)
+    if known["kind"] in OF_A_STUDY and not isinstance(asked, Study):
+        raise ValueError(f"study: got none, expected that of a record of kind {known['kind']}")
+    return Record(**known, asked=asked, results=table("results", data.get("results")))
 
 
 def _kind(results: Mapping[str, Any]) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.runs.objects import split
+from ninedof.support.arguments import path_argument
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.reading import JSON, read_text
@@ -43,7 +44,7 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
         If there is none, or it is not whole; the message names the file.
 
     """
-    file = Path(run)
+    file = path_argument("run", run)
     if not file.name.startswith("certify") and not split(os.fspath(run))[0].exists():
         raise ValueError(f"{os.fspath(run)}: cannot be read (No such file or directory)")
     if not file.name.startswith("certify"):

@@ -14,7 +14,7 @@ from ninedof.runs import folder
 from ninedof.runs.design_file import Design, load_design, save_design
 from ninedof.runs.directory import run_directory
 from ninedof.runs.motion_folder import load_motion, write_motion
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import path_argument, shown
 from ninedof.sweep import SweepResult
 from ninedof.workspace import WorkspaceMap
 
@@ -60,6 +60,7 @@ def load(path: str | os.PathLike[str]) -> Kept:
     <SweepResult condition_number(x_p: 5)>
 
     """
+    path_argument("path", path)
     place, point = split(os.fspath(path))
     if place.suffix == ".toml" or place.suffix.lower() in READERS:
         if point:
@@ -96,6 +97,7 @@ def save(kept: Kept, path: str | os.PathLike[str]) -> Path:
     load : the reverse, with an example.
 
     """
+    path_argument("path", path)
     if isinstance(kept, Design):
         if Path(path).is_dir():
             raise ValueError(f"path: got the folder {os.fspath(path)}, expected a file name for a design")

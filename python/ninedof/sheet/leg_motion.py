@@ -13,9 +13,10 @@ from ninedof.kinematics.acceleration import inverse_acceleration
 from ninedof.kinematics.velocity import internal_velocity, inverse_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice, finite
-from ninedof.support.arrays import Floats
+from ninedof.support.arguments import choice, finite, shown
+from ninedof.support.arrays import Floats, as_floats
 
+FASTEST = 1e100  # speeds: their squares must be numbers
 INTERNAL = ("least", "held", "shifted", "carried")
 
 
@@ -44,11 +45,14 @@ class Motion(NamedTuple):
         twist_rate: ArrayLike | None = None,
     ) -> Motion:
         """Return the motion of valid arguments."""
-        speeds = finite("linear_speed", linear_speed, 0.0), finite("angular_speed", angular_speed, 0.0)
+        speeds = (
+            finite("linear_speed", linear_speed, 0.0, FASTEST),
+            finite("angular_speed", angular_speed, 0.0, FASTEST),
+        )
         rule = choice("internal", internal, INTERNAL)
         if twist is None:
             if twist_rate is not None:
-                raise ValueError(f"twist_rate: got {twist_rate!r} without a twist, expected a twist too")
+                raise ValueError(f"twist_rate: got {shown(twist_rate)} without a twist, expected a twist too")
             return cls(*speeds, rule)
         rate = (0.0,) * 6 if twist_rate is None else _six("twist_rate", twist_rate)
         return cls(*speeds, rule, _six("twist", twist), rate)
@@ -154,7 +158,7 @@ def _velocity_of_o(g: Geometry, c: Configuration, internal: str, omega: Floats, 
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:
-    found = np.asarray(value, dtype=np.float64)
+    found = as_floats(name, value, (6,))
     if found.shape != (6,) or not np.isfinite(found).all():
-        raise ValueError(f"{name}: got {value!r}, expected six finite numbers, rotation first")
+        raise ValueError(f"{name}: got {shown(value)}, expected six finite numbers, rotation first")
     return tuple(found.tolist())

@@ -15,6 +15,7 @@ from ninedof.motion.followed import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
 from ninedof.sheet.limit_rows import margin_words
 from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
+from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -96,8 +97,9 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     <PathLimits: 1001 poses, breaks base_cone l1 max, base_cone l2 max, base_cone r1 max, base_cone r3 max>
 
     """
-    g = followed.geometry
-    single(g, home)
+    instance("study", study, Study)
+    g = instance("followed", followed, Followed).geometry
+    single(g, home, "home")
     every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
     return PathLimits(followed.time, tuple(one for one in every if one.name not in OF_LENGTHS))
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
+from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
@@ -29,8 +30,8 @@ from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES, error_bounds
-from ninedof.support.arguments import whole
-from ninedof.support.arrays import Floats
+from ninedof.support.arguments import shown, whole
+from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.html import html_table
 from ninedof.support.units import per, unit_argument, with_unit
 
@@ -295,7 +296,8 @@ def sheet(
     """
     g, c, own_length = _robot(design, poses)
     given = own_length if characteristic_length is None else characteristic_length
-    length = float(length_of(g, c[0], given)) if isinstance(given, str) else float(given)
+    given = length_argument(given)
+    length = float(length_of(g, c[0], given)) if isinstance(given, str) else given
     kind_without_value = isinstance(given, str) and not np.isfinite(length)
     weight = Weight.checked(mass, centre, gravity)
     wrenches = _loads(np.zeros((1, 6)) if loads is None and weight is not None else loads)
@@ -345,7 +347,7 @@ def sheet(
 
 def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configuration, float | str]:
     if poses is not None and (not isinstance(poses, Configuration) or len(poses.shape) != 1 or not len(poses)):
-        raise ValueError(f"poses: got {poses!r}, expected a stack of configurations of shape (n,)")
+        raise ValueError(f"poses: got {shown(poses)}, expected a stack of configurations of shape (n,)")
     if isinstance(design, Geometry):
         if poses is None:
             raise ValueError("poses: got none, expected configurations for a Geometry, the neutral one first")
@@ -364,9 +366,9 @@ def _robot(design: Any, poses: Configuration | None) -> tuple[Geometry, Configur
 
 
 def _loads(loads: ArrayLike | None) -> Floats:
-    found = np.zeros((0, 6)) if loads is None else np.atleast_2d(np.asarray(loads, dtype=np.float64))
-    if found.ndim != 2 or found.shape[1] != 6 or not np.isfinite(found).all():
-        raise ValueError(f"loads: got {loads!r}, expected rows of six finite numbers, moment and force")
+    found = np.zeros((0, 6)) if loads is None else np.atleast_2d(as_floats("loads", loads, (6,)))
+    if found.ndim != 2 or not np.isfinite(found).all():
+        raise ValueError(f"loads: got {shown(loads)}, expected rows of six finite numbers, moment and force")
     return found
 
 

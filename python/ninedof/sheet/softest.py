@@ -20,6 +20,7 @@ def softest(g: Geometry, c: Configuration, leg_stiffness: ArrayLike) -> tuple[Fl
 
 def _least_of_block(kept: Floats, mixed: Floats, freed: Floats) -> Floats:
     """Return the least stiffness of one block where the other coordinates settle: of the Schur complement."""
-    settled = np.swapaxes(mixed, -1, -2) @ np.linalg.pinv(freed, rcond=1e-13, hermitian=True) @ mixed
+    with np.errstate(over="ignore", invalid="ignore"):  # of stiffnesses near the smallest number
+        settled = np.swapaxes(mixed, -1, -2) @ np.linalg.pinv(freed, rcond=1e-13, hermitian=True) @ mixed
     values = np.linalg.eigvalsh(kept - settled)
     return np.asarray(np.maximum(values[..., 0], 0.0))

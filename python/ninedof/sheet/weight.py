@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof.robot.configuration import Configuration
-from ninedof.support.arguments import Vector, finite, vector
-from ninedof.support.arrays import Floats
+from ninedof.support.arguments import Vector, finite, shown, vector
+from ninedof.support.arrays import Floats, as_floats
 
 STANDARD = (0.0, 0.0, -9.81)
 
@@ -29,13 +29,13 @@ class Weight(NamedTuple):
         if mass is None:
             for name, value in (("centre", centre), ("gravity", gravity)):
                 if value is not None:
-                    raise ValueError(f"{name}: got {value!r} without a mass, expected a mass too")
+                    raise ValueError(f"{name}: got {shown(value)} without a mass, expected a mass too")
             return None
-        at = vector("centre", (0.0, 0.0, 0.0) if centre is None else np.asarray(centre).tolist())
+        at = vector("centre", (0.0, 0.0, 0.0) if centre is None else as_floats("centre", centre, (3,)).tolist())
         return cls(
             finite("mass", mass, 0.0),
             at,
-            vector("gravity", STANDARD if gravity is None else np.asarray(gravity).tolist()),
+            vector("gravity", STANDARD if gravity is None else as_floats("gravity", gravity, (3,)).tolist()),
         )
 
     def wrench(self, rotation: Floats) -> Floats:

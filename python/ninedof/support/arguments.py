@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
+import unicodedata
 from collections.abc import Iterable, Mapping
-from typing import Any
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
 LONGEST = 200  # characters of a value that a message repeats
+LONGEST_NAME, LONGEST_PATH = 255, 3500  # bytes: what systems take, with room for the names of parts in a folder
+TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # the direction of what follows them
 LARGEST = 2**63 - 1  # what the core's integers hold
 
 Vector = tuple[float, float, float]
+T = TypeVar("T")
 
 
 def shown(value: Any) -> str:
@@ -37,6 +43,21 @@ def did_you_mean(slip: object, known: Iterable[str]) -> str:
     """Return a suggestion in brackets, or nothing."""
     close = difflib.get_close_matches(str(slip)[:LONGEST].lower(), list(known), n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""
+
+
+def instance(name: str, value: Any, kind: type[T]) -> T:
+    """Return a value that is of a class."""
+    if not isinstance(value, kind):
+        expected = f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}"
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    return value
+
+
+def text(name: str, value: Any) -> str:
+    """Return a text."""
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: got {shown(value)}, expected text")
+    return value
 
 
 def known_keys(where: str, given: Any, known: Iterable[str]) -> None:
@@ -108,6 +129,21 @@ def choice(name: str, value: Any, known: Iterable[str]) -> str:
         hint = did_you_mean(value, words) if isinstance(value, str) else ""
         raise ValueError(f"{name}: got {shown(value)}, expected one of {', '.join(words)}{hint}")
     return value
+
+
+def path_argument(name: str, value: Any) -> Path:
+    """Return a path that the system can name, and a line of text too."""
+    expected = "a path"
+    if not isinstance(value, str | os.PathLike) or isinstance(found := os.fspath(value), bytes):
+        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+    try:
+        parts = [len(os.fsencode(part)) for part in Path(found).parts]
+    except UnicodeError:
+        parts = []
+    odd = any(unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in TURNING for c in found)
+    if not found or not parts or odd or max(parts) > LONGEST_NAME or sum(parts) > LONGEST_PATH:
+        raise ValueError(f"{name}: got {shown(found)}, expected {expected} of ordinary characters and length")
+    return Path(found)
 
 
 def executor_argument(executor: Any) -> None:

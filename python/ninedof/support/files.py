@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ninedof.support.arguments import path_argument
 from ninedof.support.npz import DAMAGE, read_npz
 from ninedof.support.system import sync_folder
 
@@ -127,7 +128,7 @@ class Saved(ABC):
             The suffix .npz is added if it is missing.
 
         """
-        file = Path(path)
+        file = path_argument("path", path)
         file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
         return write_whole(file, npz_bytes(self._contents(), compressed=self.COMPRESSED))
 
@@ -145,6 +146,7 @@ class Saved(ABC):
             Naming the file, if it cannot be read, is damaged, or has another format.
 
         """
+        path_argument("path", path)
         try:
             contents = read_npz(Path(path))
             return cls._made(contents)

@@ -118,7 +118,7 @@ def _axis(name: str, values: Any) -> Axis:
         if count == 1 and low != high:
             raise ValueError(f"over[{name!r}]: got {shown(values)}, expected a count of 2 at least, or low = high")
         return Axis(name, count, low, high)
-    explicit = as_floats(f"over[{name!r}]", values if not isinstance(values, Iterable) else np.asarray(values), ())
+    explicit = as_floats(f"over[{name!r}]", values, ())
     if explicit.ndim != 1 or not explicit.size or not np.isfinite(explicit).all():
         raise ValueError(f"over[{name!r}]: got {shown(values)}, expected finite values of shape (n,)")
     return Axis(name, explicit.size, explicit=explicit)

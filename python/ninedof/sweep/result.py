@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.design.indices import size_of
+from ninedof.support.arguments import choice, items, shown, whole
 from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.html import html_table
@@ -85,7 +86,12 @@ class SweepResult(Saved):
         position : tuple of int
 
         """
-        return {d: self.coords[d][k].item() for d, k in zip(self.dims[name], position, strict=True)}
+        shape = self.arrays[choice("name", name, self.arrays)].shape
+        given = items("position", position, f"{len(shape)} whole numbers")
+        if len(given) != len(shape):
+            raise ValueError(f"position: got {shown(position)}, expected {len(shape)} whole numbers")
+        each = zip(self.dims[name], given, shape, strict=True)
+        return {d: self.coords[d][whole("position", k, -size, size - 1)].item() for d, k, size in each}
 
     def least(self, name: str) -> tuple[float, dict[str, Any]]:
         """Return the least value of an index that is not NaN, and where it is; of a signed index that of least modulus.
@@ -101,7 +107,7 @@ class SweepResult(Saved):
             If all of it is NaN.
 
         """
-        array = self.arrays[name]
+        array = self.arrays[choice("name", name, self.arrays)]
         if np.isnan(array).all():
             raise ValueError(f"{name}: got NaN everywhere, expected at least one number")
         position = np.unravel_index(int(np.nanargmin(size_of(name, array))), array.shape)

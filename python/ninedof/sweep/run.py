@@ -15,7 +15,7 @@ from ninedof.design.index_argument import What, indices_of
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import Geometry
 from ninedof.support.angles import DEG, in_radians, plain_name
-from ninedof.support.arguments import choice, finite, known_keys
+from ninedof.support.arguments import choice, finite, flag, known_keys, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress
 from ninedof.support.units import unit_argument
@@ -111,7 +111,8 @@ def sweep(
     [6.7289, 4.8289, 3.9071, 4.7669, 6.5228]
 
     """
-    single(geometry, home)
+    single(geometry, home, "home")
+    relative = flag("relative", relative)
     grid = axes_of(over, COORDINATES, ROTATION)
     named = unit_argument(unit)
     rule = choice("internal_point", internal_point, RULES)
@@ -121,9 +122,9 @@ def sweep(
         where = "displaced from home" if rule == "best" else "displacements"
         raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
     if rule == "best" and isinstance(length, str):
-        raise ValueError(f'characteristic_length: got {length!r} with internal_point="best", expected a number')
+        raise ValueError(f'characteristic_length: got {shown(length)} with internal_point="best", expected a number')
     points = chunk_argument(chunk, POSES)
-    poses = Poses(geometry, home, bool(relative), rule, length)
+    poses = Poses(geometry, home, relative, rule, length)
     if rule == "best":
         block = best_block(grid.shape)
         poses, size = replace(poses, block=block), math.prod(block)

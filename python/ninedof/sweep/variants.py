@@ -75,7 +75,8 @@ class Variants:
         for name in HEXAGONAL[:4]:
             if columns[name].min() < 0.0:
                 raise ValueError(f"{name}: got {columns[name].min():g}, expected a side of 0 at least")
-        a1, a2, b1, b2, zp, zs = (column / self.length for column in columns.values())
+        with np.errstate(over="ignore"):  # lengths beyond all numbers are refused by what follows
+            a1, a2, b1, b2, zp, zs = (column / self.length for column in columns.values())
         return np.asarray(hexagonal_condition_number(a1, a2, b1, b2, zp, zs, threads=threads))
 
     def _fill(self, out: dict[str, Floats], at: dict[str, Floats], indices: list[Index]) -> None:

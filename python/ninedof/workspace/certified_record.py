@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.proof.machine_record import outward
-from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
@@ -120,7 +120,11 @@ class CertifiedWorkspace(Saved):
 
     def with_estimate(self, volume: float, error: float, unit: str = "") -> CertifiedWorkspace:
         """Return the same beside the estimate of a map."""
-        return replace(self, estimate=(float(volume), float(error)), unit=unit or self.unit)
+        return replace(
+            self,
+            estimate=(finite("volume", volume, 0.0), finite("error", error, 0.0)),
+            unit=text("unit", unit) or self.unit,
+        )
 
     def __repr__(self) -> str:
         """Show the bounds."""

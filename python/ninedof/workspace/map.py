@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.redundancy.redundancy_map import MapAudit
-from ninedof.support.arguments import choice, finite, whole
+from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.html import html_table
@@ -154,6 +154,7 @@ class WorkspaceMap(Saved):
             Shares that sum to one; "box" is the part on the faces of the box. Empty for a sample.
 
         """
+        grouped = flag("grouped", grouped)
         total = float(self.limit_area.sum())
         found: dict[str, float] = {}
         for name, area in zip(LIMITS, self.limit_area.tolist(), strict=True):
@@ -191,6 +192,7 @@ class WorkspaceMap(Saved):
         fixed = self.coordinates.index(choice("axis", axis, self.coordinates))
         finite("at", at, float(self.low[fixed]), float(self.high[fixed]))
         whole("pixels", pixels, 2, 10_000)
+        smooth = flag("smooth", smooth)
         if self.method == "sample":
             raise ValueError("slice: got a sample, expected a map of cells")
         if smooth:

@@ -369,7 +369,7 @@ def test_text_is_escaped_wherever_it_is_put():
     [
         ("nowhere", "nowhere: cannot be read"),
         ("design.toml", "expected a run folder"),
-        (3, "run: got 3, expected a run folder"),
+        (3, "run: got 3, expected a path"),
     ],
 )
 def test_bad_input_is_one_line(run, said):

@@ -61,7 +61,7 @@ def test_a_failed_write_leaves_the_old_front(front, tmp_path, monkeypatch):
 
 def test_a_front_that_is_not_whole_is_refused(tmp_path):
     write_record(Record("front", PAPER, {"front": {"against": "radius_ratio"}}), tmp_path)
-    with pytest.raises(ValueError, match="got a front without 'rows'"):
+    with pytest.raises(ValueError, match="rows: got None, expected a list of rows"):
         load(tmp_path)
 
 

@@ -15,6 +15,7 @@ import traceback
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 from bad_values import ANY, OTHER, SAME
@@ -23,6 +24,7 @@ import ninedof as nd
 
 LONGEST_CALL = 30  # seconds until a call counts as one that hangs: no measure of speed
 LONGEST_WORDS = 1500  # characters of a message
+CALLED = ("progress", "index", "rule", "executor")  # what is wrong with a function of the caller is the caller's
 HUGE = {"2^31", "2^62", "1e300"}
 
 
@@ -97,7 +99,8 @@ def attacks(row):
     """Path, what is there instead, and how to make it; last whether it is the same numbers in another form."""
     for path, value in places(row.arguments()):
         for label, make in ANY.items():
-            if not (label in HUGE and (path[0] in row.huge)):
+            called = label in ("a class", "a function") and path[0] in CALLED
+            if not called and not (label in HUGE and path[0] in row.huge):
                 yield path, label, make, None
         array = numbers(value)
         if array is None:
@@ -192,13 +195,22 @@ def named(words, text):
     return any(re.search(rf"(?<![A-Za-z0-9]){re.escape(word)}(?![A-Za-z0-9])", text) for word in words)
 
 
+def words_of(error):
+    try:
+        return str(error)
+    except Exception:
+        return "no words"
+
+
 def fault_of(error, words):
     """What is wrong with an exception; "" for bad input, said in one line that names the argument."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return ""  # the system does not write there, and says where
     if not isinstance(error, ValueError) or isinstance(error, UnicodeError):
         frames = traceback.extract_tb(error.__traceback__)
         last = next((f for f in reversed(frames) if f"{os.sep}ninedof{os.sep}" in f.filename), frames[-1])
         where = f"{last.filename.rpartition('ninedof' + os.sep)[2]}:{last.lineno}"
-        return f"{type(error).__name__} ({where}): {str(error)[:150]!r}"
+        return f"{type(error).__name__} ({where}): {words_of(error)[:150]!r}"
     text = str(error)
     if not named(words, text):
         return f"does not name it: {text[:200]!r}"
@@ -226,6 +238,8 @@ def attack(name, row, sample=None):
         arguments[path[0]] = put(arguments[path[0]], path[1:], bad)
         before = {key: fingerprint(value) for key, value in arguments.items() if key != "out"}
         words = {path[0], *(str(key) for key in path if isinstance(key, str)), *row.words.get(path[0], ())}
+        if isinstance(bad, str | Path) and str(bad).isprintable():
+            words |= {str(bad)}  # a file by its name
         words |= {"out"} & set(arguments)  # which has another shape than the result, then
         fault, found = "", None
         try:

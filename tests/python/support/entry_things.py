@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import ninedof as nd
+from ninedof.runs.machine_file import save_certificate
 
 _PLACES = itertools.count()
 
@@ -50,11 +51,6 @@ def result():
 
 
 @functools.cache
-def certified_result():
-    return nd.optimize(nd.Study.paper(), starts=2, certify=True)
-
-
-@functools.cache
 def region_result():
     region = {"region": {"box": [0.1, 0.1, 0.1], "tilt_deg": 2.0}}
     limits = {"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)}
@@ -68,7 +64,7 @@ def certificate():
 
 @functools.cache
 def proof():
-    return certified_result().proof
+    return nd.prove_optimum(nd.Study.paper(), 3.7626590785960, gap=0.5)
 
 
 @functools.cache
@@ -101,7 +97,7 @@ BOX = ((-0.5, -0.5, 3.5), (0.5, 0.5, 4.5))
 
 @functools.cache
 def certified():
-    return nd.certified_workspace(g(), (BOX[0], BOX[1]), gap=0.9, most_boxes=100)
+    return nd.certified_workspace(g(), BOX, criteria={"leg_limits": (0.5, 6.0)}, gap=0.9, most_boxes=100)
 
 
 @functools.cache
@@ -122,7 +118,9 @@ def fresh(suffix=""):
 @functools.cache
 def run():
     """A run folder with certificate and figures' data."""
-    return nd.save(region_result(), fresh()).parent
+    folder = nd.save(region_result(), fresh()).parent
+    save_certificate(certificate(), folder / "certify.json")
+    return folder
 
 
 @functools.cache
@@ -143,10 +141,15 @@ def saved(thing):
 
 @functools.cache
 def path_file():
-    lines = ["x,y,z", "0,0,3.9", "0.1,0,3.9", "0.1,0.1,3.9", "0,0.1,3.95", "0,0,3.9"]
+    lines = ["t,x,y,z", "0,0,0,3.9", "1,0.1,0,3.9", "2,0.1,0.1,3.9", "3,0,0.1,3.95", "4,0,0,3.9"]
     (path := fresh(".csv")).write_text("\n".join(lines) + "\n")
     return path
 
 
 def zeros(*shape):
     return np.zeros(shape)
+
+
+@functools.cache
+def proof_file():
+    return proof().save(fresh(".certificate"))

@@ -308,7 +308,7 @@ def test_bad_options_are_named(words, tmp_path):
 
 
 def test_a_stack_as_home_is_refused():
-    with pytest.raises(ValueError, match="configuration: got a stack"):
+    with pytest.raises(ValueError, match="home: got a stack"):
         nd.sweep(G, nd.Configuration.neutral(4.0, [2.0, 2.1]), {"x_p": [0.0]})
     with pytest.raises(ValueError, match="geometry: got Configuration"):
         nd.sweep(HOME, G, {"x_p": [0.0]})
