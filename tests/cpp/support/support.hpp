@@ -37,7 +37,7 @@ constexpr double pi = std::numbers::pi;
 
 /// How many random cases to take: an eighth under sanitizers, which find in a few what they find in many.
 constexpr int cases(int n) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return (n + 7) / 8;
 #else
   return n;

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Runs every fuzz target from its corpus: tests/fuzz/run.sh BUILD [SECONDS EACH] [FOLDER FOR WHAT IS FOUND]
+# The seed is fixed. A failure leaves its input beside the new inputs, and ends the run with an error.
+set -euo pipefail
+build=$(realpath "$1")
+seconds=${2:-20}
+found=${3:-$build/found}
+corpus=$(dirname "$(realpath "$0")")/corpus
+targets=("$build"/tests/fuzz/fuzz_*)
+[[ -x ${targets[0]} ]] || { echo "no fuzz targets in $build: cmake --build --preset fuzz"; exit 1; }
+for target in "${targets[@]}"; do
+  name=$(basename "$target") && name=${name#fuzz_}
+  mkdir -p "$found/$name"
+  # Bytes are few: a robot takes 130, a certificate with a tree some thousands.
+  longest=256
+  if [[ $name == certificate ]]; then longest=2500; fi
+  "$target" -seed=1 -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2000 -max_len=$longest -print_final_stats=1 \
+    -artifact_prefix="$found/$name-" "$found/$name" "$corpus/$name" >"$found/$name.log" 2>&1 || {
+    tail -n 40 "$found/$name.log"
+    echo "fuzz target $name failed: its input is $found/$name-*"
+    exit 1
+  }
+  awk -v name="$name" '/stat::number_of_executed_units/ { runs = $2 } /stat::average_exec_per_sec/ { speed = $2 }
+    END { printf "%s: %d inputs, %d a second, nothing found\n", name, runs, speed }' "$found/$name.log"
+done
