@@ -73,9 +73,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Certain that there is none, where there is one.
   if (modes.count == 0 && modes.status == PositionStatus::infeasible) EXPECT(!modes.certain);
 
-  // Where rounding of the lengths moves the pose further than that, the mode tracked may be as far away.
+  // Where rounding of the lengths moves the pose further than that, the mode tracked may be as far away; of a leg of
+  // almost no length the tracker cannot tell where it goes.
   const Tracked tracked = track(r->geometry, lengths, r->pose);
-  if (regular) {
+  if (regular && lengths.minCoeff() > 1e-2 * unit) {
     EXPECT(tracked.status == TrackStatus::tracked);
     EXPECT(distance(tracked.configuration, r->pose, unit) < 1e-5);
   }

@@ -183,6 +183,70 @@ TEST_SUITE("forward_position") {
       }
   }
 
+  TEST_CASE("each mode says on which sides of the internal joints O is") {
+    Random random(8);
+    const auto side = [](const Triple& t, const Vec3& point) {
+      return (t[1] - t[0]).cross(t[2] - t[0]).dot(point - t[0]) > 0.0 ? 1 : -1;
+    };
+    for (int n = 0; n < 60; ++n) {
+      const auto [g, c] = any_robot(random, n % 2 == 0);
+      for (const AssemblyMode& m : forward_position(g, leg_lengths(g, c))) {
+        const Configuration& at = m.configuration;
+        CHECK(m.base_side == side(g.base_internal(), at.internal_point));
+        CHECK(m.platform_side ==
+              side(g.platform_internal(), at.rotation.transpose() * (at.internal_point - at.position)));
+      }
+    }
+  }
+
+  TEST_CASE("two planar plates, O in the plane of one: the modes that are their own mirror images in it") {
+    Random random(9);
+    for (int n = 0; n < 40; ++n) {
+      auto [g, c] = any_robot(random, true);
+      c.rotation = random.rotation(0.5);
+      c.internal_point[2] = 0.0;
+      const AssemblyModes modes = forward_position(g, leg_lengths(g, c));
+      CHECK(modes.status == PositionStatus::tangent);
+      CHECK(nearest(modes, c) < 1e-5);
+    }
+  }
+
+  TEST_CASE("one plate planar, the other not: no mirror images, all lengths kept by every mode") {
+    Random random(11);
+    for (int n = 0; n < 60; ++n) {
+      const auto [flat, c] = any_robot(random, true);
+      const Geometry bent = random_robot(random).geometry;
+      const Geometry g = n % 2 == 0 ? Geometry(flat.base_external(), flat.base_internal(), bent.platform_external(),
+                                               bent.platform_internal())
+                                    : Geometry(bent.base_external(), bent.base_internal(), flat.platform_external(),
+                                               flat.platform_internal());
+      const Vec9 lengths = leg_lengths(g, c);
+      const AssemblyModes modes = forward_position(g, lengths),
+                          other = forward_position(g, lengths, RotationMethod::null_space);
+      CHECK(nearest(modes, c) < 1e-5);
+      CHECK(worst_length(g, modes, lengths) < 1e-9);
+      CHECK(other.null_space_branches > 0);
+      if (modes.certain && other.certain) CHECK(modes.count == other.count);
+    }
+  }
+
+  TEST_CASE("in a unit that makes the robot huge or tiny: the same modes, each of them") {
+    Random random(10);
+    for (const double unit : {0x1p300, 0x1p-300})
+      for (int n = 0; n < 20; ++n) {
+        const Robot r = any_robot(random, false), other = scaled(r, unit);
+        const AssemblyModes modes = forward_position(r.geometry, leg_lengths(r.geometry, r.configuration)),
+                            same = forward_position(other.geometry, leg_lengths(other.geometry, other.configuration));
+        REQUIRE(same.count == modes.count);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(modes.count); ++k) {
+          const Configuration &a = modes.mode[k].configuration, &b = same.mode[k].configuration;
+          CHECK(b.rotation == a.rotation);
+          CHECK(b.position == unit * a.position);
+          CHECK(b.internal_point == unit * a.internal_point);
+        }
+      }
+  }
+
   TEST_CASE("lengths without a list of modes have a status and a reason") {
     Random random(5);
     const auto [g, home] = any_robot(random, false);

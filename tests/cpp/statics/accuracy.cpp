@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/oracle.hpp"
 #include "support/singular.hpp"
@@ -131,5 +132,25 @@ TEST_SUITE("accuracy") {
     CHECK(all_nan(error_map(g, c)));
     CHECK(all_nan(error_bounds(g, c, {}).covariance));
     CHECK(all_nan(error_sample(g, c, {}, 0, 0)));
+  }
+
+  TEST_CASE("errors of joints fill a ball evenly: no mean, a fifth of the squared radius along every line") {
+    Random random(7);
+    constexpr int samples = 4000;
+    constexpr double radius = 1e-5;
+    for (int n = 0; n < 6; ++n) {
+      const auto [g, c] = random_robot(random);
+      Tolerances t;
+      t.joints[0] = radius;  // r_1: what counts is the component along leg 1
+      const Vec6 per_length = jacobian(g, c).col(0);
+      double sum = 0.0, squares = 0.0;
+      for (unsigned k = 0; k < samples; ++k) {
+        const double moved = error_sample(g, c, t, 1, k).head<6>().dot(per_length) / per_length.squaredNorm() / radius;
+        sum += moved;
+        squares += moved * moved;
+      }
+      CHECK(std::abs(sum / samples) < 0.03);
+      CHECK(std::abs(squares / samples - 0.2) < 0.02);
+    }
   }
 }
