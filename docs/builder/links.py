@@ -7,7 +7,12 @@ import re
 from pathlib import Path
 
 # Pages of the folder `project`: files that lie outside docs/.
-OUTSIDE = {"contributing": "CONTRIBUTING.md", "benchmarks": "bench/README.md", "changes": "CHANGELOG.md"}
+OUTSIDE = {
+    "contributing": "CONTRIBUTING.md",
+    "security": "SECURITY.md",
+    "benchmarks": "bench/README.md",
+    "changes": "CHANGELOG.md",
+}
 LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)")
 
 
