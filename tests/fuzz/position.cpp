@@ -35,7 +35,8 @@ AssemblyModes modes_of(const Geometry& g, const Vec9& lengths, RotationMethod me
   for (const AssemblyMode& mode : out) {
     validate(mode.configuration);
     EXPECT(mode.separation >= 0.0 && mode.separation <= 1.7321);
-    EXPECT(misfit(g, mode.configuration, lengths, unit) <= 1e-9);
+    // Where two modes meet, half the digits, and fewer of a thin plate: O is put into its plane.
+    EXPECT(misfit(g, mode.configuration, lengths, unit) <= (out.status == PositionStatus::found ? 1e-9 : 1e-4));
   }
   return out;
 }

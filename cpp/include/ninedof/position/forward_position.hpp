@@ -10,8 +10,9 @@
 
 namespace ninedof {
 
-/// Every real assembly mode for lengths l1 l2 l3 q1 q2 q3 r1 r2 r3. Modes satisfy all nine lengths to rounding. The
-/// error of a leg much shorter than the robot is larger in proportion, because the equations contain squared lengths.
+/// Every real assembly mode for lengths l1 l2 l3 q1 q2 q3 r1 r2 r3. Modes satisfy all nine lengths to rounding, with
+/// the status tangent to half the digits. The error of a leg much shorter than the robot is larger in proportion,
+/// because the equations contain squared lengths.
 /// If base and platform are both planar, half the modes are mirror images of the other half.
 ///
 /// The length unit does not matter: in one that is larger or smaller by a power of two the bits are the same, unless a
