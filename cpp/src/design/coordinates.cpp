@@ -16,7 +16,7 @@ constexpr double order_gap = 1e-10;
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// Half range of the starts of an angle without bounds.
-constexpr double turn = 0.625 * full_turn;
+constexpr double beyond_turn = 0.625 * full_turn;
 
 /// Bounds this much less than a turn apart are a turn apart, but for rounding.
 constexpr double rounding = 1e-9;
@@ -67,8 +67,8 @@ Coordinates::Coordinates(const Problem& problem, double size_limit, int auxiliar
     const bool cut_high =
         free && !fraction &&
         (angle ? !std::isfinite(b.high) : !is_effective_bound(problem, b.high) && size_limit < b.high);
-    x_low_[k] = !cut_low ? b.low : !angle ? -size_limit : cut_high ? -turn : b.high - 2.0 * turn;
-    x_high_[k] = !cut_high ? b.high : angle ? x_low_[k] + 2.0 * turn : size_limit;
+    x_low_[k] = !cut_low ? b.low : !angle ? -size_limit : cut_high ? -beyond_turn : b.high - 2.0 * beyond_turn;
+    x_high_[k] = !cut_high ? b.high : angle ? x_low_[k] + 2.0 * beyond_turn : size_limit;
     fixed_[k] = x_low_[k];
     if (!free) continue;
     free_.push_back(static_cast<int>(i));
@@ -133,7 +133,7 @@ double Coordinates::to_x(int variable, double y) const {
 
 double Coordinates::within_turn(int k, double y) const {
   double low = x_low_[variable(k)], high = x_high_[variable(k)];
-  if (low == -turn && high == turn) {
+  if (low == -beyond_turn && high == beyond_turn) {
     // Without bounds every value is as good: the one a reader expects.
     low = -0.5 * full_turn;
     high = 0.5 * full_turn;
