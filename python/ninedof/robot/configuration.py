@@ -160,7 +160,7 @@ class Configuration:
     def __setstate__(self, state: tuple[None, dict[str, Any]]) -> None:
         """Restore a copied stack, or one pickled by protocol 2 or later; its arrays become read-only again."""
         for name, value in state[1].items():
-            setattr(self, name, frozen(value))
+            setattr(self, name, frozen(value) if name in Configuration.__slots__ else value)
 
     def _arrays(self) -> tuple[Floats, Floats, Floats]:
         return self._position, self._rotation, self._internal_point
