@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ninedof/batch/batch.hpp"
+#include "ninedof/conditioning/axis_spectrum.hpp"
 #include "ninedof/conditioning/characteristic_length.hpp"
-#include "ninedof/conditioning/symmetric.hpp"
 #include "support/arrays.hpp"
 #include "support/lengths.hpp"
 #include "support/module.hpp"
@@ -84,7 +84,7 @@ void bind_conditioning(py::module_& m) {
               Eigen::Map<Vec6>{out} = sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
               return;
             }
-            const AxisSpectrum<double> a = axis_spectrum(axis_design(g, pose), lc[i]);
+            const AxisSpectrum<double> a = axis_spectrum_of_any_size(axis_design(g, pose), lc[i]);
             sigma << a.axial_max, a.axial_min, a.transverse_max, a.transverse_max, a.transverse_min, a.transverse_min;
             sigma = sigma.cwiseInverse().eval();
             if (!sigma.hasNaN()) std::sort(sigma.begin(), sigma.end(), std::greater<>());

@@ -1,11 +1,13 @@
 #include "ninedof/batch/batch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "batch/kernels/dispatch.hpp"
 #include "math/numbers.hpp"
-#include "ninedof/conditioning/symmetric.hpp"
+#include "ninedof/conditioning/axis_spectrum.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/robot/hexagon.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "ninedof/singularity/singularity.hpp"
@@ -44,7 +46,7 @@ kernels::Block block(const Geometry& g, const Configurations& c, const Lengths& 
 
 void require_lengths(const Lengths& lc, long count) {
   for (long k = 0; k < (lc.step == 0 ? std::min(count, 1L) : count); ++k)
-    require_positive("characteristic_length", lc.value[k * lc.step]);
+    require_length("characteristic_length", lc.value[k * lc.step]);
 }
 
 /// Calls accurate(k, row) for the rows that a kernel has marked as unsure.
@@ -58,6 +60,8 @@ void recompute_unsure(long count, long width, double* out, const Accurate& accur
 
 void leg_lengths(const Geometry& g, const Configurations& c, double* out) {
   kernels::table().leg_lengths(block(g, c), out);
+  recompute_unsure(c.count, 9, out,
+                   [&](long k, double* to) { Eigen::Map<Vec9>{to} = ninedof::leg_lengths(g, at(c, k)); });
 }
 
 void condition_numbers(const Geometry& g, const Configurations& c, const Lengths& lc, Norm norm, double* out) {
@@ -90,9 +94,14 @@ void hexagonal_condition_numbers(const double* designs, long count, double* out)
   kernels::table().hexagonal_condition_numbers(designs, count, out);
   recompute_unsure(count, 1, out, [&](long k, double* to) {
     const double* x = designs + 6 * k;
+    // Beyond the range a side or a height is so large beside the characteristic length that no design is regular.
+    if (std::any_of(x, x + 6, [](double length) { return std::abs(length) > most_length; })) {
+      *to = std::any_of(x, x + 6, [](double length) { return std::isnan(length); }) ? not_a_number : infinity;
+      return;
+    }
     const Xyz<double> base = hexagon_joint_1(x[0], x[1]), platform = hexagon_joint_1(x[2], x[3]);
-    const AxisSpectrum<double> s =
-        axis_spectrum(AxisDesign<double>{base, mirrored(base), platform, mirrored(platform), x[4], x[5]}, 1.0);
+    const AxisSpectrum<double> s = axis_spectrum_of_any_size(
+        AxisDesign<double>{base, mirrored(base), platform, mirrored(platform), x[4], x[5]}, 1.0);
     const double high = std::max(s.axial_max, s.transverse_max), low = std::min(s.axial_min, s.transverse_min);
     *to = low <= negligible * high ? infinity : high / low;
   });

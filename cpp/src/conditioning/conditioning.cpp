@@ -8,12 +8,13 @@
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {
 
 Mat6 conditioning_matrix(const Geometry& g, const Configuration& c, double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   const double inverse_lc = 1.0 / characteristic_length;
   const Legs k = legs(g, c);
   Mat6 e;  // rows of A, then rows of E

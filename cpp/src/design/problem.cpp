@@ -6,6 +6,7 @@
 #include "design/design_state.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 
 namespace ninedof {
 namespace {
@@ -54,12 +55,13 @@ void Problem::validate() const {
   const auto& info = f.variables();
   using Choice = StudyLength::Choice;
   if (characteristic_length.choice == Choice::number)
-    require_positive("characteristic_length", characteristic_length.value);
+    require_length("characteristic_length", characteristic_length.value);
   if (characteristic_length.choice == Choice::free) {
     const Bounds& b = characteristic_length.bounds;
     require_bounds("characteristic_length", VariableKind::length, b);
     if (!(b.low > 0.0) || !std::isfinite(b.high))
       throw InvalidArgument("characteristic_length", format_interval(b.low, b.high), "0 < low <= high, both finite");
+    for (const double end : {b.low, b.high}) require_length("characteristic_length", end);
   }
   if (variables.size() != info.size())
     throw InvalidArgument("variables", std::to_string(variables.size()) + " bounds",

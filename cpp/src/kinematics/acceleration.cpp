@@ -5,6 +5,7 @@
 #include "kinematics/closure.hpp"
 #include "kinematics/jacobian_blocks.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/robot/legs.hpp"
 
@@ -76,7 +77,7 @@ Vec9 inverse_acceleration(const Geometry& g, const Configuration& c, const Veloc
 }
 
 Mat69 jacobian_rate(const Geometry& g, const Configuration& c, const Velocity& v, double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   const ClosureSolver solver(g, c);
   const Closure& legs = solver.legs;
   const ClosureMatrices m(solver);

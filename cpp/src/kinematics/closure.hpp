@@ -10,6 +10,7 @@
 ///
 /// The second derivatives have the same matrices, for sddot, k = sddot - a_O and alpha, and other right sides.
 
+#include <algorithm>
 #include <array>
 
 #include "math/linear/cramer.hpp"
@@ -29,6 +30,18 @@ struct Closure {
   std::array<Lanes, 3> internal_length;  ///< r_i and q_i
 };
 
+/// Whether a leg, or the way from O to an external joint, is so short that rounding has eaten its digits.
+EIGEN_ALWAYS_INLINE bool has_short_vector(const Closure& k, const Lanes& two, double third) {
+  const auto& rq = k.internal_length;
+  const Lanes low = rq[0].min(rq[1]).min(rq[2]), high = rq[0].max(rq[1]).max(rq[2]);
+  const double w = std::min({dot(k.w[0], k.w[0]), dot(k.w[1], k.w[1]), dot(k.w[2], k.w[2])});
+  const double longest = high.maxCoeff();
+  return std::min({low.square().minCoeff(), two.minCoeff(), third, w}) <= short_leg * (longest * longest);
+}
+
+/// Forms the short ones again, with all their digits.
+void mend_short_vectors(const Geometry& g, const Configuration& c, Closure& k);
+
 EIGEN_ALWAYS_INLINE Closure closure(const Geometry& g, const Configuration& c) {
   Closure k;
   const Vec3& s = c.internal_point;
@@ -44,8 +57,13 @@ EIGEN_ALWAYS_INLINE Closure closure(const Geometry& g, const Configuration& c) {
                      Lanes(s[2], y[2]) - Lanes(r_hat[2], u_tilde[2])};
     k.internal_length[i] = dot(k.internal[i], k.internal[i]).sqrt();
   }
-  const Lanes two(dot(k.x[0], k.x[0]), dot(k.x[1], k.x[1]));
-  const double third = dot(k.x[2], k.x[2]);
+  Lanes two(dot(k.x[0], k.x[0]), dot(k.x[1], k.x[1]));
+  double third = dot(k.x[2], k.x[2]);
+  if (has_short_vector(k, two, third)) [[unlikely]] {
+    mend_short_vectors(g, c, k);
+    two = {dot(k.x[0], k.x[0]), dot(k.x[1], k.x[1])};
+    third = dot(k.x[2], k.x[2]);
+  }
   k.per_area = 1.0 / (two.sum() + third);
   const Lanes roots = two.sqrt();
   k.length = {roots[0], roots[1], std::sqrt(third)};

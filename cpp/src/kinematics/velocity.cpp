@@ -12,6 +12,7 @@
 #include "math/numbers.hpp"
 #include "math/rows_of.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/robot/legs.hpp"
 
 namespace ninedof {
@@ -30,7 +31,7 @@ Mat3 inverse_or_nan(const Mat3& m) {
 }  // namespace
 
 VelocityMatrices velocity_matrices(const Geometry& g, const Configuration& c, double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   const Legs k = legs(g, c);
   VelocityMatrices v;
   v.A << row_cross(k.u, k.e) / characteristic_length, rows_of(k.e);
@@ -47,7 +48,7 @@ VelocityMatrices velocity_matrices(const Geometry& g, const Configuration& c, do
 }
 
 Mat69 jacobian(const Geometry& g, const Configuration& c, double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   const ClosureSolver solver(g, c);
   const JacobianBlocks blocks = jacobian_blocks(solver.legs, ClosureMatrices(solver));
   return all_or_nothing(assembled(blocks, vec3(solver.legs.y), characteristic_length));

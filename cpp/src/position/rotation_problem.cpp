@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 
 namespace ninedof {
 
@@ -11,6 +12,7 @@ void require_leg_lengths(const Vec9& lengths) {
   for (const double length : lengths)
     if (!(length >= 0.0) || !std::isfinite(length))
       throw InvalidArgument("leg_lengths", format_number(length), "nine finite lengths >= 0");
+  for (const double length : lengths) require_coordinate("leg_lengths", length);
   if (lengths.isZero(0.0)) throw InvalidArgument("leg_lengths", "nine zeros", "at least one positive length");
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "redundancy/search/pose_search.hpp"
 
 namespace ninedof {
@@ -50,7 +51,7 @@ void validate(const InternalPointProblem& problem) {
   if (problem.criterion == Criterion::leg_centring)
     for (int k = 3; k < 9; ++k)
       require_limits(std::isfinite(l.high[k]), l, k, "a finite range, since leg_centring is about its middle");
-  require_positive("characteristic_length", problem.characteristic_length);
+  require_length("characteristic_length", problem.characteristic_length);
   require_positive("clearance", problem.clearance);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/robot/hexagon.hpp"
 
@@ -19,9 +20,13 @@ void require_triangle(const std::string& name, const Triple& t) {
   for (std::size_t i = 0; i < 3; ++i)
     if (!t[i].allFinite())
       throw InvalidArgument(name, "a non-finite coordinate in joint " + std::to_string(i + 1), "three finite points");
+  for (const Vec3& joint : t) require_coordinates(name.c_str(), joint);
   const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[2] - t[1];
   const double longest = std::max({a.norm(), b.norm(), c.norm()});
   if (longest == 0.0) throw InvalidArgument(name, "three coincident joints", "joints that span a triangle");
+  if (longest < least_length)
+    throw InvalidArgument(name, "a triangle of size " + format_number(longest),
+                          "one of at least " + format_number(least_length));
   // Divided first: the cross product of very short or very long sides would underflow or overflow.
   const double height = (a / longest).cross(b / longest).norm();
   if (!(height > collinear_tolerance))
@@ -31,6 +36,7 @@ void require_triangle(const std::string& name, const Triple& t) {
 
 void require_side(const std::string& name, double side) {
   if (!std::isfinite(side) || side < 0.0) throw InvalidArgument(name, format_number(side), "a finite length >= 0");
+  require_coordinate(name.c_str(), side);
 }
 
 /// Joints 2 and 3 from joint 1: eqs. (37)-(38) number the joints clockwise.

@@ -13,6 +13,44 @@ double split(const Vec3& leg, Vec3& direction) {
   return length;
 }
 
+/// Of a short leg: its squares may underflow.
+double split_short(const Vec3& leg, Vec3& direction) {
+  const double length = leg.stableNorm();
+  if (length == 0.0) direction.setZero();
+  else direction = leg / length;
+  return length;
+}
+
+bool has_short_leg(double shortest, double longest) {
+  return shortest * shortest <= short_leg * (longest * longest);
+}
+
+/// Leg i of the external, upper and lower ones: those that are short again, with all their digits.
+Vec3 external_again(const Geometry& g, const Configuration& c, std::size_t i) {
+  return -exact_leg(g.base_external()[i], c.position, c.rotation, g.platform_external()[i]);
+}
+Vec3 upper_again(const Geometry& g, const Configuration& c, std::size_t i) {
+  return exact_leg(c.internal_point, c.position, c.rotation, g.platform_internal()[i]);
+}
+
+[[gnu::noinline]] void mend_short_legs(const Geometry& g, const Configuration& c, double longest, Legs& out) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (has_short_leg(out.l[k], longest)) out.l[k] = split_short(external_again(g, c, i), out.e[i]);
+    if (has_short_leg(out.q[k], longest)) out.q[k] = split_short(upper_again(g, c, i), out.e_tilde[i]);
+    if (has_short_leg(out.r[k], longest)) out.r[k] = split_short(lower_leg(c, g.base_internal()[i]), out.e_hat[i]);
+  }
+}
+
+[[gnu::noinline]] void mend_short_lengths(const Geometry& g, const Configuration& c, double longest, Vec9& out) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (has_short_leg(out[k], longest)) out[k] = external_again(g, c, i).stableNorm();
+    if (has_short_leg(out[k + 3], longest)) out[k + 3] = upper_again(g, c, i).stableNorm();
+    if (has_short_leg(out[k + 6], longest)) out[k + 6] = lower_leg(c, g.base_internal()[i]).stableNorm();
+  }
+}
+
 }  // namespace
 
 Legs legs(const Geometry& g, const Configuration& c) {
@@ -25,6 +63,9 @@ Legs legs(const Geometry& g, const Configuration& c) {
     out.q[k] = split(upper_leg(c, out.u_tilde[i]), out.e_tilde[i]);
     out.r[k] = split(lower_leg(c, g.base_internal()[i]), out.e_hat[i]);
   }
+  const double shortest = out.l.cwiseMin(out.q).cwiseMin(out.r).minCoeff();
+  const double longest = out.l.cwiseMax(out.q).cwiseMax(out.r).maxCoeff();
+  if (has_short_leg(shortest, longest)) mend_short_legs(g, c, longest, out);
   return out;
 }
 
@@ -36,6 +77,8 @@ Vec9 leg_lengths(const Geometry& g, const Configuration& c) {
     out[k + 3] = upper_leg(c, c.rotation * g.platform_internal()[i]).norm();
     out[k + 6] = lower_leg(c, g.base_internal()[i]).norm();
   }
+  const double longest = out.maxCoeff();
+  if (has_short_leg(out.minCoeff(), longest)) mend_short_lengths(g, c, longest, out);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
@@ -42,7 +43,7 @@ void require_cone(const char* name, const std::optional<ConeLimit>& cone) {
 }
 
 void require_criteria(const WorkspaceCriteria& c) {
-  require_positive("characteristic_length", c.characteristic_length);
+  require_length("characteristic_length", c.characteristic_length);
   if (c.legs) {
     InternalPointProblem limits;
     limits.limits = *c.legs;

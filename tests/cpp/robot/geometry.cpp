@@ -103,7 +103,7 @@ TEST_SUITE("geometry") {
   TEST_CASE("the test for a triangle does not depend on size and position") {
     for (const Place& place : places) {
       CAPTURE(place.name);
-      for (const double scale : {1e-140, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e140}) {
+      for (const double scale : {1e-95, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e95}) {
         CAPTURE(scale);
         CHECK_NOTHROW(place.with(scaled(good, scale)));
         Triple far = scaled(good, scale);

@@ -51,12 +51,12 @@ TEST_SUITE("legs") {
     for (Eigen::Index k = 0; k < 9; ++k) CHECK(lengths[k] == doctest::Approx(k < 3 ? side : 1.0).epsilon(4.0 * eps));
   }
 
-  TEST_CASE("lengths scale with the robot from 1e-140 to 1e140, directions do not change") {
+  TEST_CASE("lengths scale with the robot from 1e-99 to 1e99, directions do not change") {
     Random random(53);
     for (int n = 0; n < 50; ++n) {
       const Robot robot = random_robot(random);
       const Legs one = legs(robot.geometry, robot.configuration);
-      for (const double scale : {0x1p-465, 0x1p-40, 0x1p40, 0x1p465}) {  // powers of two: no rounding
+      for (const double scale : {0x1p-328, 0x1p-40, 0x1p40, 0x1p328}) {  // powers of two: no rounding
         const Robot other = scaled(robot, scale);
         const Legs k = legs(other.geometry, other.configuration);
         CHECK(matrix_error(k.l, scale * one.l) <= 4.0 * eps);

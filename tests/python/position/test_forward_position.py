@@ -243,9 +243,9 @@ def test_anisotropic_robots(far):
 JOINTS = ("base_external", "base_internal", "platform_external", "platform_internal")
 
 
-@pytest.mark.parametrize("exponent", [-498, -400, -266, -101, 99, 101, 266, 400, 490])
+@pytest.mark.parametrize("exponent", [-300, -266, -101, 99, 101, 266, 300])
 def test_a_power_of_two_changes_nothing(exponent):
-    """From 1e-150 to 1e147: the same bits, and the same verdicts for lengths that fit and lengths that do not."""
+    """From 1e-90 to 1e90: the same bits, and the same verdicts for lengths that fit and lengths that do not."""
     rng = np.random.default_rng(23)
     for k in range(20):
         g, c = any_pose(rng, hexagonal=k % 2 == 0) if k % 3 else anisotropic_robot(rng, far=True)
@@ -259,7 +259,7 @@ def test_a_power_of_two_changes_nothing(exponent):
         assert_array_equal(np.ldexp(a.internal_point, exponent), b.internal_point)
 
 
-@pytest.mark.parametrize("unit", [1e-120, 1e-80, 1e80, 1e120])
+@pytest.mark.parametrize("unit", [1e-99, 1e-80, 1e80, 1e99])
 def test_units_far_from_one(unit):
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124 * unit, b1=2.9062 * unit, b2=0.0)
     modes = nd.forward_position(g, nd.leg_lengths(g, nd.Configuration.neutral(3.9828 * unit, 2.4432 * unit)))
@@ -267,12 +267,12 @@ def test_units_far_from_one(unit):
 
 
 def test_mixed_scales_are_not_certain_to_be_infeasible():
-    """Triples from 1e-140 to 1e140, with a configuration that has the lengths."""
+    """Triples from 1e-98 to 1e98, with a configuration that has the lengths."""
     rng = np.random.default_rng(24)
     for _ in range(size(300, 6000)):
-        sizes = 10.0 ** rng.uniform(-140.0, 140.0, size=4)
+        sizes = 10.0 ** rng.uniform(-98.0, 98.0, size=4)
         if rng.random() < 0.5:
-            sizes = np.clip(sizes[0] * 10.0 ** rng.uniform(-20.0, 20.0, size=4), 1e-140, 1e140)
+            sizes = np.clip(sizes[0] * 10.0 ** rng.uniform(-20.0, 20.0, size=4), 1e-98, 1e98)
         g = nd.Geometry(*(rng.normal(size=(4, 3, 3)) * sizes[:, None, None]))
         p, s = rng.normal(size=(2, 3)) * rng.choice(sizes, size=(2, 1))
         modes = nd.forward_position(g, nd.leg_lengths(g, nd.Configuration(p, np.eye(3), s)))

@@ -52,13 +52,15 @@ NINEDOF_INLINE void conditioning_matrix(const Joints& g, const Poses<P>& c, cons
     upper[i] = legs.upper(i);
     lower[i] = legs.lower(i);
   }
-  normalize(upper);
-  normalize(lower);
-  normalize(external);
+  SquaredLengths<P> lengths;
+  normalize(upper, lengths);
+  normalize(lower, lengths);
+  normalize(external, lengths);
+  const P factor = select(lengths.clear(), inverse_lc, P(__builtin_nan("")));  // makes the row unsure
 #pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) set_row(m[i], inverse_lc * cross(u[i], external[i]), external[i]);
+  for (int i = 0; i < 3; ++i) set_row(m[i], factor * cross(u[i], external[i]), external[i]);
   shared_rows(upper, lower, w);
-  const Xyz<P> lever = inverse_lc * legs.y;
+  const Xyz<P> lever = factor * legs.y;
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) set_row(m[i + 3], cross(lever, w[i]), w[i]);
 }

@@ -82,13 +82,15 @@ void leg_lengths(const Block& b, double* out) {
     for (long k = 0; k < chunk; k += Lanes::lanes) {
       const Poses<Lanes> pose = c.poses<Lanes>(k);
       const LegVectors<Lanes> legs(b.robot, pose);
+      SquaredLengths<Lanes> squared;
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
         const Xyz<Lanes> l = legs.external(i, legs.u(i)), q = legs.upper(i), r = legs.lower(i);
-        store(sqrt(dot(l, l)), length[i] + k);
-        store(sqrt(dot(q, q)), length[3 + i] + k);
-        store(sqrt(dot(r, r)), length[6 + i] + k);
+        store(sqrt(squared.of(l)), length[i] + k);
+        store(sqrt(squared.of(q)), length[3 + i] + k);
+        store(sqrt(squared.of(r)), length[6 + i] + k);
       }
+      store(select(squared.clear(), Lanes::load(length[0] + k), unsure), length[0] + k);
     }
     scatter<9>(length, rows, out + 9 * first);
   });

@@ -12,10 +12,25 @@ NINEDOF_INLINE Xyz<P> operator-(const Xyz<P>& a, const double (&b)[3]) {
   return {a.x - b[0], a.y - b[1], a.z - b[2]};
 }
 
+/// The least and the greatest squared length of legs.
+template <class P>
+struct SquaredLengths {
+  P least = 1e300, greatest = 0.0;
+
+  NINEDOF_INLINE P of(const Xyz<P>& leg) {
+    const P squared = dot(leg, leg);
+    least = min(squared, least);
+    greatest = max(squared, greatest);
+    return squared;
+  }
+  /// Whether no leg is so short that rounding has eaten its digits; short_leg of robot/leg_vectors.hpp.
+  NINEDOF_INLINE typename P::Mask clear() const { return least > 1e-14 * greatest; }
+};
+
 /// The unit vectors along three legs, with three square roots and one division.
 template <class P>
-NINEDOF_INLINE void normalize(Xyz<P> (&legs)[3]) {
-  const P a = sqrt(dot(legs[0], legs[0])), b = sqrt(dot(legs[1], legs[1])), c = sqrt(dot(legs[2], legs[2]));
+NINEDOF_INLINE void normalize(Xyz<P> (&legs)[3], SquaredLengths<P>& lengths) {
+  const P a = sqrt(lengths.of(legs[0])), b = sqrt(lengths.of(legs[1])), c = sqrt(lengths.of(legs[2]));
   const P ab = a * b;
   const P inverse = 1.0 / (ab * c);
   const P by_ab = inverse * c;

@@ -25,7 +25,7 @@ constexpr double unsure = -2.0;
 struct Table {
   const char* level;
   int lanes;
-  void (*leg_lengths)(const Block& block, double* out);                    ///< 9 per row; never unsure
+  void (*leg_lengths)(const Block& block, double* out);                    ///< 9 per row
   void (*condition_numbers)(const Block& block, double* out);              ///< 1 per row
   void (*frobenius_condition_numbers)(const Block& block, double* out);    ///< 1 per row
   void (*singular_values)(const Block& block, double* out);                ///< of J', descending, 6 per row

@@ -6,6 +6,7 @@
 
 #include "conditioning/null_space.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "proof/numbers/condition_bounds.hpp"
 #include "proof/numbers/leg_bounds.hpp"
 #include "proof/numbers/matrix_ball.hpp"
@@ -71,7 +72,7 @@ ConditioningBall conditioning_ball(const LegBounds& k, double characteristic_len
 /// The singular values of M, descending; those of J' are their reciprocals.
 std::array<Interval, 6> inverse_singular_value_bounds(const Geometry& g, const Configuration& c,
                                                       double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   require_sound_arithmetic();
   const ConditioningBall m = conditioning_ball(leg_bounds(g, c), characteristic_length);
   return verified_singular_values(m.middle, m.radius);

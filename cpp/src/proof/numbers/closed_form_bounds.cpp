@@ -2,6 +2,7 @@
 
 #include "ninedof/conditioning/symmetric.hpp"
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "proof/numbers/condition_bounds.hpp"
 #include "proof/numbers/leg_bounds.hpp"
@@ -9,7 +10,7 @@
 namespace ninedof {
 
 Interval axis_condition_number_bounds(const Geometry& g, const Configuration& c, double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   require_sound_arithmetic();
   const AxisDesign<double> d = axis_design(g, c);  // for its checks
   const auto exact = [](const Xyz<double>& v) { return Xyz<Interval>{v.x, v.y, v.z}; };

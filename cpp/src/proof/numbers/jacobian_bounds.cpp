@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ninedof/math/error.hpp"
+#include "ninedof/math/length_range.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "proof/numbers/leg_bounds.hpp"
 
@@ -66,7 +67,7 @@ bool verified(const Rows3& inverse) {
 
 std::array<std::array<Interval, 9>, 6> jacobian_bounds(const Geometry& g, const Configuration& c,
                                                        double characteristic_length) {
-  require_positive("characteristic_length", characteristic_length);
+  require_length("characteristic_length", characteristic_length);
   require_sound_arithmetic();
   const LegBounds k = leg_bounds(g, c);
   const auto unit = [&](std::size_t leg) -> const Xyz<Interval>& { return k.legs[leg].unit; };
