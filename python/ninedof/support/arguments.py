@@ -49,7 +49,7 @@ def instance(name: str, value: Any, kind: type[T]) -> T:
     """Return a value that is of a class."""
     if not isinstance(value, kind):
         expected = f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}"
-        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
+        raise ValueError(f"{name}: got {type(value).__name__}, expected {expected}")
     return value
 
 
