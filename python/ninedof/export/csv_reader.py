@@ -16,7 +16,7 @@ from ninedof.export.points import JOINTS, O, P
 from ninedof.export.reading import Read
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
-from ninedof.support.arguments import did_you_mean, shown
+from ninedof.support.arguments import cleaned, did_you_mean, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.reading import TOML, read_text
 from ninedof.support.units import unit_argument
@@ -70,7 +70,7 @@ def read(path: str | os.PathLike[str]) -> Read:
 def _lines(file: str) -> list[Row]:
     try:
         reader = csv.reader(read_text(file, TOML).split("\n"))
-        rows = [Row(f"{file}, line {reader.line_num}", [entry.strip() for entry in row]) for row in reader]
+        rows = [Row(f"{file}, line {reader.line_num}", [cleaned(entry.strip()) for entry in row]) for row in reader]
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None
     except (UnicodeDecodeError, csv.Error) as error:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
-from ninedof.support.arguments import path_argument, shown
+from ninedof.support.arguments import cleaned, path_argument, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.reading import TABLE, read_text
 
@@ -52,7 +52,7 @@ def read_trajectory(path: str | os.PathLike[str], unit: str) -> Columns:
     if not rows:
         raise ValueError(f"{file}: got an empty file, expected a line with the names of the columns")
     (line, header), *body = rows
-    named = [name.strip().partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
+    named = [cleaned(name.strip()).partition(" (") for name in header]  # "x (mm)", as `ninedof path` writes it
     names = [name for name, _, _ in named]
     _require_unit(f"{file}, line {line}", unit, {name: end.rstrip(")") for name, _, end in named if name in PLACE[1:]})
     way = _way(f"{file}, line {line}", names)
@@ -82,7 +82,9 @@ def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
             raise ValueError(f"{where}, column {name}: got it twice, expected each column once")
     missing = [name for name in PLACE if name not in names]
     if missing:
-        raise ValueError(f"{where}: got columns {', '.join(names)}, no {', '.join(missing)}; expected t, x, y, z")
+        raise ValueError(
+            f"{where}: got columns {cleaned(', '.join(names))}, no {', '.join(missing)}; expected t, x, y, z"
+        )
     others = [name for name in names if name not in PLACE]
     if not others:
         return ()
@@ -93,7 +95,7 @@ def _way(where: str, names: Sequence[str]) -> tuple[str, ...]:
     for name in others:
         if name not in known:
             raise ValueError(f"{where}, column {shown(name)}: not known, expected t x y z and one of {_ways()}")
-    raise ValueError(f"{where}: got {' '.join(others)} as rotation, expected one of {_ways()}")
+    raise ValueError(f"{where}: got {cleaned(' '.join(others))} as rotation, expected one of {_ways()}")
 
 
 def _ways() -> str:
@@ -103,7 +105,9 @@ def _ways() -> str:
 def _numbers(file: str, names: Sequence[str], body: Sequence[tuple[int, list[str]]]) -> Floats:
     for line, row in body:
         if len(row) != len(names):
-            raise ValueError(f"{file}, line {line}: got {len(row)} entries, expected {len(names)} ({', '.join(names)})")
+            raise ValueError(
+                f"{file}, line {line}: got {len(row)} entries, expected {len(names)} ({cleaned(', '.join(names))})"
+            )
     try:
         table = np.array([[float(text) for text in row] for _, row in body])
         if np.isfinite(table).all():

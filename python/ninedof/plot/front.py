@@ -147,7 +147,7 @@ def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
         axes.set_xscale("log")
         style.one_two_five(axes.xaxis)
     else:
-        margin = 0.035 * max(high - low, 0.1 * abs(high))
+        margin = max(0.035 * max(high - low, 0.1 * abs(high)), 1e-9)  # a denormal limit has a place too
         view = (low - margin, high + margin)
     axes.set_xlim(view)
     first = min((row["limit"] for row in rows if row["objective"] is not None), default=None)

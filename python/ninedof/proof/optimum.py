@@ -221,4 +221,9 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
         data = read_file(path, PROOF)
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
-    return Checked(*_core.check_certificate(data, progress_argument(progress)))
+    progress_argument(progress)
+    try:
+        proved, words, boxes, recut = _core.check_certificate(data, progress)
+    except UnicodeDecodeError:  # the reason repeats bytes of the file
+        return Checked(False, "the certificate has bytes that are no text where names and numbers belong", 0, 0)
+    return Checked(proved, "".join(c if c.isprintable() or c == "\n" else "?" for c in words), boxes, recut)

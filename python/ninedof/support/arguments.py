@@ -30,7 +30,12 @@ def shown(value: Any) -> str:
     except Exception:  # lists in lists in lists, an object whose own words fail
         return f"a {type(value).__name__}"
     text = " ".join(text.split()) if "\n" in text else text  # numpy's arrays have a line for each row
-    text = text if text.isprintable() else "".join(c if c.isprintable() else "?" for c in text)
+    return cleaned(text)
+
+
+def cleaned(text: str) -> str:
+    """Return text of a file for a message as it stands: no control characters, cut where it is long."""
+    text = "".join(c if c.isprintable() else "?" for c in text)
     return text if len(text) <= LONGEST else text[:LONGEST] + "..."
 
 

@@ -129,6 +129,11 @@ def npz_mutant(data, pick):
         return torn(data, pick)
     with np.load(io.BytesIO(data)) as found:
         arrays = dict(found)
+    with np.errstate(all="ignore"):
+        return _packed(_changed_array(arrays, pick), data, pick)
+
+
+def _changed_array(arrays, pick):
     name = pick.choice(sorted(arrays))
     array = arrays[name]
     how = pick.randrange(8)
@@ -152,6 +157,10 @@ def npz_mutant(data, pick):
         arrays[name] = np.array(json_mutant(str(array).encode(), pick).decode("utf-8", "replace"))
     else:
         arrays[name] = np.array(pick.choice(TEXTS))
+    return arrays
+
+
+def _packed(arrays, data, pick):
     buffer = io.BytesIO()
     try:
         np.savez(buffer, **arrays)
