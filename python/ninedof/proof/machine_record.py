@@ -187,7 +187,7 @@ class MachineCertificate:
         """
         form = table("certificate", data).get("format")
         if not isinstance(form, str) or form != FORMAT:
-            raise ValueError(f"certificate: got no {FORMAT!r} mark, expected one written by ninedof")
+            raise ValueError(f"certificate: got no {FORMAT!r} mark, expected a certificate written by ninedof")
         names = [field.name for field in fields(cls)]
         known_keys("certificate", data, [*names, "format", "proved"])
         found = entries_of(cls, data, skipped=["rule"])
