@@ -258,7 +258,7 @@ void bind_optimize(py::module_& m) {
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },
-        [](const Result& r) { return r.interrupted; });
+        [](Result& r) { return r.interrupted = true; });
     return fields_of(problem, result);
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {

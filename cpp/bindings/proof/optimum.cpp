@@ -17,9 +17,10 @@ namespace {
 py::dict proved(const Problem& study, double target, int threads, long box_limit, double time_limit, bool keep_tree,
                 const py::object& progress) {
   const OptimumSettings settings{target, threads, box_limit, time_limit, keep_tree};
+  bool interrupted = false;
   const OptimumProof found = interruptible(
       progress, [&](const Control& control) { return prove_optimum(study, settings, control); },
-      [](const OptimumProof& proof) { return !proof.complete; });
+      [&](const OptimumProof&) { return interrupted = true; });
   py::dict out;
   out["lower_bound"] = found.lower_bound;
   out["complete"] = found.complete;
@@ -27,6 +28,7 @@ py::dict proved(const Problem& study, double target, int threads, long box_limit
   out["open"] = found.open;
   out["better"] = std::isfinite(found.better) ? py::object(py::float_(found.better)) : py::none();
   out["seconds"] = found.seconds;
+  out["interrupted"] = interrupted;
   out["left_out"] = found.left_out;
   out["certificate"] = py::bytes(found.certificate);
   return out;

@@ -25,9 +25,10 @@ namespace py = pybind11;
 /// Returns work(control), called on a new thread and without the GIL. The calling thread meanwhile checks for signals
 /// and calls `progress`, None or a Python callable, as progress(done, total, value) with None for a value of NaN. An
 /// exception of `progress` or of a signal handler stops the work and goes on to the caller. After Ctrl-C, though, a
-/// partial result is returned: is_partial(result) tells whether it is one.
-template <class Work, class IsPartial>
-auto interruptible(const py::object& progress, const Work& work, const IsPartial& is_partial) {
+/// result that can show the interruption is returned, also one that was complete by then: mark(result) marks it and
+/// returns whether it could.
+template <class Work, class Mark>
+auto interruptible(const py::object& progress, const Work& work, const Mark& mark) {
   struct {
     std::mutex guard;
     std::condition_variable changed;
@@ -80,8 +81,7 @@ auto interruptible(const py::object& progress, const Work& work, const IsPartial
     } catch (const py::error_already_set& error) {
       worker.request_stop();
       join();
-      // A complete result cannot show that there was an interruption, so the exception is raised.
-      const bool returned = failure || (result && is_partial(*result));
+      const bool returned = failure || (result && mark(*result));
       if (!error.matches(PyExc_KeyboardInterrupt) || !returned) throw;
       break;
     }

@@ -71,7 +71,10 @@ void bind_certified_workspace(py::module_& m) {
           const std::optional<Configuration> at_home = home_from(home);
           return dict_of_certified(interruptible(
               progress, [&](const Control& control) { return certified_workspace(g, d, rule, c, s, at_home, control); },
-              [](const CertifiedWorkspace& found) { return found.end == CertifiedWorkspace::End::stopped; }));
+              [](CertifiedWorkspace& found) {
+                found.end = CertifiedWorkspace::End::stopped;
+                return true;
+              }));
         });
 }
 

@@ -94,7 +94,10 @@ void bind_workspace(py::module_& m) {
           const std::optional<Configuration> at_home = home_from(home);
           return dict_of(interruptible(
               progress, [&](const Control& control) { return workspace(g, d, rule, c, s, at_home, control); },
-              [](const WorkspaceMap& map) { return map.status == WorkspaceStatus::stopped; }));
+              [](WorkspaceMap& map) {
+                map.status = WorkspaceStatus::stopped;
+                return true;
+              }));
         });
   m.def("spread_rotations", [](int count, double angle) {
     const std::vector<Mat3> rotations = spread_rotations(count, angle);

@@ -174,9 +174,7 @@ def _proved(
     problem: _core.Problem, target: float, threads: int, boxes: int, limit: float, progress: Progress | None
 ) -> OptimumProof:
     found = _core.prove_optimum(problem, target, threads, boxes, limit, True, progress)
-    at_limit = found["boxes"] >= boxes or 0.0 < limit <= found["seconds"]
-    interrupted = not found["complete"] and found["better"] is None and not at_limit
-    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), interrupted=interrupted, **found)
+    return OptimumProof(target=target, left_out=tuple(found.pop("left_out")), **found)
 
 
 @short_repr
