@@ -3,11 +3,12 @@
 Figures are in `ninedof.plot`, which is loaded, with matplotlib, when it is first used.
 """
 
+from ninedof.support import starting as _starting  # noqa: F401  # first: signals while the rest is loaded
+
+# isort: split
 from importlib import import_module as _import_module
 from typing import TYPE_CHECKING
 from typing import Any as _Any
-
-from ninedof.support import starting as _starting  # noqa: F401  # first: Ctrl-C while the rest is loaded
 
 try:
     from ninedof import _core

@@ -1,4 +1,4 @@
-"""Ctrl-C while the command `ninedof` is being loaded: it ends at once with status 130, without a traceback.
+"""Signals while the command `ninedof` is being loaded: status 130, 143 or 129 at once, no traceback.
 
 `ninedof` imports this first, before what takes time; `ninedof.cli.app.main` takes over. Programs that use the package
 are left alone.
@@ -11,9 +11,14 @@ import signal
 import sys
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
 
-INTERRUPTED = 130
+SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+"""Those that end a run: Ctrl-C, the end of a job, a terminal that was closed (unknown to Windows)."""
+
+
+def status_of(number: int) -> int:
+    """Return the exit status of a process that a signal ended, as a shell shows it."""
+    return 128 + number
 
 
 def is_command(argv: Sequence[str], orig_argv: Sequence[str]) -> bool:
@@ -23,10 +28,16 @@ def is_command(argv: Sequence[str], orig_argv: Sequence[str]) -> bool:
     return module or name in ("ninedof", "ninedof.exe")
 
 
-def ending(*_: Any) -> None:
-    """End the process: the handler of SIGINT until the command runs."""
-    os._exit(INTERRUPTED)
+def ending(number: int, *_: object) -> None:
+    """End the process: the handler of signals until the command runs, and once it has ended."""
+    os._exit(status_of(number))
 
 
-if is_command(sys.argv, sys.orig_argv) and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, ending)
+def unclaimed(number: int) -> bool:
+    """Return whether nobody handles or ignores a signal: jobs in the background and of nohup ignore some."""
+    return signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler)
+
+
+if is_command(sys.argv, sys.orig_argv):
+    for _number in filter(unclaimed, SIGNALS):
+        signal.signal(_number, ending)
