@@ -13,6 +13,7 @@ import typer
 from ninedof.cli import commands
 from ninedof.cli.ending import ended
 from ninedof.cli.interruption import interruptible
+from ninedof.cli.remembered import remembering
 from ninedof.support.command import running
 
 PROGRAM = "ninedof"
@@ -64,5 +65,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
     own_option = bool(given) and given[0] in ("-h", "--help", "--version")
     if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")
-    with interruptible(), running(PROGRAM, given):
+    with interruptible(), remembering(given), running(PROGRAM, given):
         raise SystemExit(ended(lambda: app(given, prog_name=PROGRAM, standalone_mode=False), given))

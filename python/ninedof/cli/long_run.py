@@ -8,16 +8,20 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from ninedof.chunks.store import Store
 from ninedof.cli.job_report import report_words, told, with_report
+from ninedof.cli.remembered import remember
 from ninedof.cli.screen import Screen, bold
+from ninedof.runs.command_file import FILE, Input
 from ninedof.runs.directory import run_directory, used_directory
 from ninedof.runs.folder import write_run
 from ninedof.support.arguments import LONGEST
 from ninedof.support.extras import MissingExtra
 from ninedof.sweep import SweepResult
 from ninedof.sweep.cluster import dask_executor, is_of_cluster
+from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,18 +30,42 @@ CHUNKS = "chunks"
 
 
 @contextmanager
-def run_folder(out: Path | None, resume: bool) -> Iterator[Path]:
-    """Yield a new run folder, or that of an interrupted run."""
+def run_folder(out: Path | None, resume: bool, reads: Input | None = None) -> Iterator[Path]:
+    """Yield a new run folder, or that of an interrupted run, with the command and the file that it reads."""
     if not resume:
         with run_directory(out) as directory:
+            remember(directory, reads)
             yield directory
         return
     if out is None:
         raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
-    if not (out / CHUNKS).is_dir():
+    if not (out / CHUNKS).is_dir() and not (out / FILE).is_file():
         raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
     with used_directory(out):
+        remember(out, reads, keep=True)
         yield out
+
+
+S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)
+
+
+class Finished:
+    """Results of one run in its folder, each as soon as it is finished; an interrupted one is none."""
+
+    def __init__(self, folder: Path, question: dict[str, Any]) -> None:
+        """Make the folder, or open that of an interrupted run."""
+        self._folder, self._question = folder, question
+        Store(folder, question, 1).close()
+
+    def result(self, number: int, kind: type[S], compute: Callable[[], S]) -> S:
+        """Return a result that was kept, or compute and keep it."""
+        with Store(self._folder, self._question, 1) as store:
+            if (found := store.read(number)) is not None:
+                return kind._made(found)
+            result = compute()
+            if not result.interrupted:
+                store.write(number, result._contents())
+            return result
 
 
 def compute(

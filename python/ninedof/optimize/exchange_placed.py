@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.exchange import DENSE, MOST_ROUNDS, QUICK, SAME, At, Solve, first_poses, optimize_region
 from ninedof.optimize.leg_ranges import Range, common_range, leg_ranges
+from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import PASSED, RegionReport, posed
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.optimize.warm import Warm
@@ -71,7 +73,8 @@ class Look:
 class _Program:
     """What stays the same in all rounds."""
 
-    def __init__(self, study: Study, threads: int) -> None:
+    def __init__(self, study: Study, threads: int, pieces: Pieces) -> None:
+        self.pieces = pieces
         region = study.objective.region
         assert region is not None
         self.study, self.region, self.threads = study, region, threads
@@ -110,8 +113,13 @@ class _Program:
     def solve(self, ruling: Sequence[Place], given: Sequence[Design], starts: int) -> list[Design]:
         """Return the feasible ends of the quick solver, best first."""
         entries = [(list(d.x), [list(s) for s in d.shifts]) for d in given]
-        found = _core.optimize_placed(self.posed(ruling).problem(), entries, starts, self.study.seed, self.threads)
-        ends = [Design(tuple(x), tuple(shifts), index) for x, shifts, index, violation in found if violation <= NEARLY]
+        how = (starts, self.study.seed, self.threads)
+        found = self.pieces.plain(lambda: _core.optimize_placed(self.posed(ruling).problem(), entries, *how))
+        ends = [
+            Design(tuple(x), tuple(_shifted_by(shift) for shift in shifts), index)
+            for x, shifts, index, violation in found
+            if violation <= NEARLY
+        ]
         return sorted(ends, key=lambda d: d.log_objective)
 
     def ranges(self, ruling: Sequence[Place], design: Design) -> tuple[Range, ...]:
@@ -122,18 +130,20 @@ class _Program:
         known = self.placed(ruling, design)
         ranges = self.ranges(ruling, design)
         region = self.region.for_core()
-        found = _core.search_region_placed(
-            self.plain, region, design.x, design.log_objective, ranges, known, samples, seed, self.threads
+        found = self.pieces.plain(
+            lambda: _core.search_region_placed(
+                self.plain, region, design.x, design.log_objective, ranges, known, samples, seed, self.threads
+            )
         )
         ends = sorted(found["ends"], key=lambda end: -end[2])
         worst = max(ends, key=lambda end: end[3])
         margin, limit = min(((end[4], end[5]) for end in ends), default=(math.inf, ""))
         return Look(
-            tuple((end[0], end[1]) for end in ends if end[2] > passed),
+            tuple(_place(end) for end in ends if end[2] > passed),
             tuple(found["at_known"]),
             found["poses"],
             worst[3],
-            (worst[0], worst[1]),
+            _place(worst),
             margin,
             limit,
         )
@@ -193,14 +203,16 @@ class _Program:
         return np.asarray(leg_lengths(point.geometry, point.configurations[1:]))
 
 
-def optimize_placed(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
-    """Solve a region study with O placed at every pose; `solve` as in `exchange.optimize_region`.
+def optimize_placed(
+    study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int, pieces: Pieces
+) -> Result:
+    """Solve a region study with O placed at every pose: `solve` as in `exchange.optimize_region`, `pieces` kept.
 
     The start is the optimum with O shifted, so that the result is not worse than that. While poses join, a quick solver
     is used that places O inside; at the end `solve` has O at the ruling poses as variables, and its checks decide.
     """
     begin = perf_counter()
-    program = _Program(study, threads)
+    program = _Program(study, threads, pieces)
     shifted = _shifted(study, solve, warm, threads)
     if shifted.interrupted:
         return shifted
@@ -379,6 +391,15 @@ def _first(program: _Program, shifted: Result) -> tuple[list[Place], list[Design
     ruling = [(at, program.shifted(at, x)) for at in every]
     listed = [_shift(best.variables, k) for k in range(program.listed)]
     return ruling, [Design(x, (*listed, *(shift for _, shift in ruling)))]
+
+
+def _place(end: Sequence[Any]) -> Place:
+    return tuple(end[0]), _shifted_by(end[1])
+
+
+def _shifted_by(shift: Sequence[float]) -> Shift:
+    x, y, z = shift
+    return x, y, z
 
 
 def _shift(variables: Mapping[str, float], k: int) -> Shift:

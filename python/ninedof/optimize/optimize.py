@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
+from typing import Any
 
 from ninedof import _core
+from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.exchange import optimize_region
 from ninedof.optimize.exchange_placed import optimize_placed
+from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.result import Candidate, Result, Status, candidate_from, result_from
 from ninedof.optimize.rounds import Rounds
-from ninedof.optimize.warm import Warm, warm_starts
-from ninedof.proof.optimum import GAPS, left_out_of, prove_optimum
-from ninedof.support.arguments import choice, flag, instance
+from ninedof.optimize.warm import Warm, listed, warm_starts
+from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
+from ninedof.support.arguments import choice, flag, instance, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
@@ -31,6 +36,7 @@ def optimize(
     warm: Warm | Iterable[Warm] | None = None,
     *,
     certify: bool = False,
+    out: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Minimize the objective of a study: by default, the condition number.
 
@@ -58,6 +64,10 @@ def optimize(
         Whether to prove afterwards how much better a design of the study can be at most, see `prove_optimum`:
         `Result.lower_bound` and `Result.proof`. Of hexagons to 1e-12 in a second or two, of other symmetric designs to
         3 per cent in minutes.
+    out : path, optional
+        Folder that keeps what is finished, made if it is missing: of a region study every round, of any study the
+        result before its proof, and the proof. The same call with the same folder goes on there, however the last one
+        ended, and gives the same result.
 
     Returns
     -------
@@ -67,7 +77,7 @@ def optimize(
     Raises
     ------
     ValueError
-        If an argument does not fit; with `certify`, if no proof is known for the study.
+        If an argument does not fit; with `certify`, if no proof is known for the study; if `out` holds something else.
 
     Examples
     --------
@@ -85,13 +95,28 @@ def optimize(
     count = thread_argument(threads)
     if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
-        found = optimize(study, threads=threads, progress=progress, warm=warm)
-        return found if found.best is None or found.interrupted else proved(found, threads, progress)
+    if out is not None and not isinstance(out, str | os.PathLike):
+        raise ValueError(f"out: got {shown(out)}, expected a path")
+    given = listed(warm)
+    question = {"kind": "optimize", "study": study.to_dict(), "warm": [dict(one) for one in given], "proof": certify}
+    with nullcontext() if out is None else Store(out, question, 1) as store:
+        pieces = Pieces(store)
+        found = _optimized(study, count, progress, given, pieces)
+        return (
+            found if not certify or found.best is None or found.interrupted else _proved(found, count, progress, pieces)
+        )
 
+
+def _optimized(
+    study: Study, threads: int, progress: Progress | None, warm: Sequence[Mapping[str, float]], pieces: Pieces
+) -> Result:
     rounds = Rounds(progress, study.starts) if study.objective.region is not None and progress is not None else None
 
     def solve(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
-        settings = _core.Settings(starts=starts, seed=study.seed, threads=count, warm=warm_starts(posed, warm))
+        return pieces.result(posed, lambda: anew(posed, starts, warm))
+
+    def anew(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
+        settings = _core.Settings(starts=starts, seed=study.seed, threads=threads, warm=warm_starts(posed, warm))
         begin = perf_counter()
         report = progress if rounds is None else rounds.begin(starts, len(posed.objective.poses))
         found = _core.optimize(posed.problem(), settings, report)
@@ -100,13 +125,14 @@ def optimize(
         return result_from(posed, found | {"seconds": perf_counter() - begin})
 
     region = study.objective.region
-    if region is not None:
-        exchange = optimize_placed if region.internal_point == "best" else optimize_region
-        return exchange(study, solve, warm, count)
-    return solve(study, study.starts, warm)
+    if region is None:
+        return solve(study, study.starts, warm)
+    if region.internal_point == "best":
+        return optimize_placed(study, solve, warm, threads, pieces)
+    return optimize_region(study, solve, warm, threads)
 
 
-def proved(result: Result, threads: int | None = None, progress: Progress | None = None) -> Result:
+def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pieces) -> Result:
     """Return a result with a proof of how much better a design of its study can be at most.
 
     Where the proof leaves limits out, the optimum of the study without them is what it can come up to. After Ctrl-C the
@@ -116,19 +142,24 @@ def proved(result: Result, threads: int | None = None, progress: Progress | None
     left_out = {label.removesuffix(" at neutral").removesuffix(".min") for label in left_out_of(study)}
     if left_out:
         kept = {name: limit for name, limit in study.constraints.items() if name not in left_out}
-        relaxed = optimize(replace(study, constraints=kept), threads=threads, progress=progress, warm=result)
+        relaxed = _optimized(replace(study, constraints=kept), threads, progress, listed(result), pieces)
         if relaxed.interrupted:
             return replace(result, interrupted=True)
         known = min(known, relaxed.condition_number or known)
     if progress is not None:
         phase(progress, "proving that no design is better")
+
+    def prove(known: float, gap: float) -> OptimumProof:
+        how: dict[str, Any] = {"time_limit": LONGEST, "threads": threads or None, "progress": progress}
+        return pieces.proof(lambda: prove_optimum(study, known, gap=gap, **how))
+
     gap = GAPS[study.family]
-    proof = prove_optimum(study, known, gap=gap, time_limit=LONGEST, threads=threads, progress=progress)
-    while proof.better is not None:  # one that keeps what the proof sees of the bounds, and perhaps no more
+    proof = prove(known, gap)
+    while proof.better is not None and not proof.interrupted:  # one that keeps what the proof sees of the bounds
         known, gap = proof.better, min(max(10.0 * gap, 1e-3), 0.5)
         if known * (1.0 - gap) <= 1.0:
             break  # what was proved so far is all that can be aimed at
-        proof = prove_optimum(study, known, gap=gap, time_limit=LONGEST, threads=threads, progress=progress)
+        proof = prove(known, gap)
     return replace(result, proof=proof, interrupted=proof.interrupted)
 
 

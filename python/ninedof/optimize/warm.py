@@ -25,8 +25,16 @@ def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | No
     Fixed variables keep the study's value. A characteristic length or an offset of O that is not free in this study is
     ignored, so that the result of one study may start another.
     """
+    starts = listed(warm)
+    names = set(study.problem().names)
+    rows = [_row(study, names, start) for start in starts]
+    return np.array(rows) if rows else None
+
+
+def listed(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, float]]:
+    """Return the values of each start by name: a result stands for its best candidates."""
     if warm is None:
-        return None
+        return []
     expected = "a Result, a Candidate, a mapping of names to values, or a sequence of them"
     given = [warm] if isinstance(warm, Result | Candidate | Mapping) else warm
     if isinstance(given, str | bytes | bytearray | memoryview | np.ndarray) or not isinstance(given, Iterable):
@@ -41,9 +49,7 @@ def warm_starts(study: Study, warm: Warm | Iterable[Warm] | None) -> Floats | No
             starts.append(item)
         else:
             raise ValueError(f"warm: got {shown(item)}, expected {expected}")
-    names = set(study.problem().names)
-    rows = [_row(study, names, start) for start in starts]
-    return np.array(rows) if rows else None
+    return starts
 
 
 def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -71,16 +72,20 @@ class Comparison:
 
 
 def compare(
-    starts: int | None = None, seed: int | None = None, threads: int | None = None, progress: Progress | None = None
+    starts: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **others: Any,
 ) -> Comparison:
     """Solve the paper's design problem and put the answers beside the published one.
 
-    Parameters as in `optimize`; `starts`, `seed` and `progress` are those of the largest of the studies.
+    Parameters as in `optimize`; all but `threads` are those of the largest of the studies.
     """
     below, above, best_zs = published_zs()
     printed = solved("as printed", threads)
     same = solved("same base and height", threads)
-    result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress)
+    result = optimize(Study.paper(), starts=starts, seed=seed, threads=threads, progress=progress, **others)
     return Comparison(
         reproduced=_published("published, read so that it gives 3.9110", below),
         crossings=(below, above),

@@ -16,6 +16,7 @@ from ninedof.support.files import is_part, why_not_writable
 from ninedof.support.lock import LOCK, FolderLock
 
 RUNS = Path("runs")
+COMMAND = "command.json"  # what the run was asked: written before the work
 LONGEST = "n" * 80  # no name that a run writes into its folder is longer, a folder of chunks between counted
 
 
@@ -119,7 +120,7 @@ def _is_nothing(path: Path) -> bool:
 
 
 def _is_preparation(path: Path) -> bool:
-    return _is_nothing(path) or path.name == MANIFEST
+    return _is_nothing(path) or path.name in (MANIFEST, COMMAND)
 
 
 def _of_now() -> tuple[Path, list[Path]]:

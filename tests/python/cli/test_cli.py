@@ -48,12 +48,13 @@ def test_main_job(capsys, tmp_path):
     names = {path.name for path in (tmp_path / "run").iterdir()}
     stems = ("mechanism", "condition")
     drawn = {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg", "pdf")}
-    assert names == {"record.json", "report.html"} | drawn
+    kept = {"command.json", "chunks"}
+    assert names == {"record.json", "report.html"} | kept | drawn
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["study"]["solver"] == {"starts": 64, "seed": 0}
     assert {"ninedof", "python", "numpy"} <= set(record["versions"])
     assert record["results"]["optimization"]["status"] == "optimal"
-    assert set(record["files"]) == names - {"record.json"}
+    assert set(record["files"]) == names - kept - {"record.json"}
 
 
 def test_standard_output_is_json_only(capsys):
@@ -278,7 +279,7 @@ def starts(bar, done, total, best):
     report(bar, done, total, best)
     if done < total:
         sys.stderr.write("working\\n")
-ninedof.cli.screen.Bar.show = starts
+ninedof.cli.screen.Bar.show = ninedof.cli.screen.Bar.__call__ = starts
 ninedof.cli.app.main({arguments})
 """
     command = [sys.executable, "-c", script]

@@ -1,6 +1,7 @@
 """Ctrl-C at any time: exit status 130, no traceback, and what is finished stays."""
 
 import gc
+import os
 import shlex
 import signal
 import subprocess
@@ -23,23 +24,33 @@ sys.argv = {argv}
 class Loaded:
     def find_spec(self, name, path=None, target=None):
         if name == {name!r}:
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal({number})
 sys.meta_path.insert(0, Loaded())
 {code}
 """
 
 
-@pytest.mark.parametrize("name", ["ninedof._core", "ninedof.design.study", "ninedof.cli.commands.optimize"])
-def test_an_interruption_while_the_command_is_loaded(name):
+SIGNALS = [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "status"),
+    [
+        *((name, signal.SIGINT, 130) for name in ("typing", "ninedof._core", "ninedof.cli.commands.optimize")),
+        *(("ninedof.design.study", number, status) for number, status in SIGNALS),
+    ],
+)
+def test_an_interruption_while_the_command_is_loaded(name, number, status):
     """As the installed script does: it has its own name and imports `main`."""
     code = "from ninedof.cli.app import main; main()"
-    script = LOADING.format(argv=["/usr/bin/ninedof", "--version"], name=name, code=f"sys.path[:] = {sys.path}\n{code}")
+    code = f"sys.path[:] = {sys.path}\nsys.modules.pop('typing', None)\n{code}"
+    script = LOADING.format(argv=["/usr/bin/ninedof", "--version"], name=name, number=int(number), code=code)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+    assert (done.returncode, done.stdout, done.stderr) == (status, "", "")
 
 
 def test_a_program_that_uses_the_package_keeps_its_handler():
-    script = LOADING.format(argv=["plan.py"], name="none", code=f"sys.path[:] = {sys.path}\nimport ninedof")
+    script = LOADING.format(argv=["plan.py"], name="none", number=2, code=f"sys.path[:] = {sys.path}\nimport ninedof")
     script += "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
     assert is_command(["-m"], ["python3", "-X", "dev", "-m", "ninedof", "sheet"])
@@ -91,3 +102,63 @@ def test_an_interruption_of_the_figures_of_the_paper(tmp_path, monkeypatch):
         main(["paper", "--figures", "--out", "drawn"])
     assert ended.value.code == 130
     assert [file.name for file in (tmp_path / "drawn").iterdir()] == ["record.json"]
+
+
+@pytest.mark.parametrize(("number", "status"), SIGNALS)
+def test_every_signal_ends_a_command_alike(tmp_path, monkeypatch, capsys, number, status):
+    """The end of a job and a closed terminal: what is finished stays, nothing half-written does."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("ninedof.support.files.os.replace", _replace_and(number, ".svg"))
+    before = signal.getsignal(number)
+    with pytest.raises(SystemExit) as ended:
+        main(shlex.split("sweep --over x_p=-1:1:9 --out run"))
+    assert ended.value.code == status
+    assert signal.getsignal(number) is before
+    assert "`ninedof resume run` continues the run" in capsys.readouterr().err
+    assert isinstance(nd.load("run"), nd.SweepResult)
+    assert not [file for file in (tmp_path / "run").iterdir() if file.name.startswith(".part-")]
+
+
+def _replace_and(number, suffix):
+    """Return os.replace that first sends a signal for files of a suffix."""
+    replace = os.replace
+
+    def replaced(part, path):
+        if str(path).endswith(suffix):
+            signal.raise_signal(number)
+        replace(part, path)
+
+    return replaced
+
+
+def test_a_second_ctrl_c_ends_at_once_and_an_echo_of_the_first_does_not():
+    script = LOADING.format(argv=["plan.py"], name="none", number=2, code=f"sys.path[:] = {sys.path}") + SECOND
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "saving\n", "")
+
+
+SECOND = """
+import time
+from ninedof.cli import interruption
+with interruption.interruptible():
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        interruption.ONE_PRESS = 1000.0
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGTERM)
+        print("saving", flush=True)
+        interruption.ONE_PRESS = -1.0
+        signal.raise_signal(signal.SIGINT)
+        print("still here")
+"""
+
+
+def test_a_job_of_nohup_does_not_hear_its_terminal():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with interruptible():
+            assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+            signal.raise_signal(signal.SIGHUP)
+    finally:
+        signal.signal(signal.SIGHUP, before)

@@ -80,7 +80,7 @@ def test_the_command_prints_and_records(tmp_path, capsys):
     for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
         assert words in out
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    assert names == {"record.json", "report.html", "front.png", "front.svg", "front.pdf", "chunks"}
+    assert names == {"record.json", "command.json", "report.html", "front.png", "front.svg", "front.pdf", "chunks"}
     assert load(tmp_path / "run").limits == (1.5, 2.0)
 
 
@@ -89,7 +89,7 @@ def test_the_command_prints_json(tmp_path, capsys):
     data = json.loads(capsys.readouterr().out)
     assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
     assert data["record"].endswith("record.json")
-    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "chunks"}
+    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "command.json", "chunks"}
 
 
 def test_the_command_reports_an_infeasible_study(tmp_path, capsys):

@@ -42,7 +42,8 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
     )
     assert_allclose(numbers["volume"], expected.volume, rtol=1e-12)
     figures = {f"{stem}.{kind}" for stem in ("workspace", "workspace_body") for kind in ("png", "svg", "pdf")}
-    assert {p.name for p in (tmp_path / "run").iterdir()} == {"record.json", "map.npz", "report.html"} | figures
+    kept = {"command.json", "chunks"}
+    assert {p.name for p in (tmp_path / "run").iterdir()} == {"record.json", "map.npz", "report.html"} | kept | figures
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["results"]["workspace"]["volume"] == numbers["volume"]
     assert record["question"]["criteria"]["leg_limits"] == [2.5, 6.5]

@@ -10,13 +10,16 @@ from rich.table import Column, Table
 
 from ninedof.cli.job_report import told
 from ninedof.cli.options import Json, Threads
+from ninedof.cli.remembered import given, remember, resumed
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import MachineCertificate, outward
 from ninedof.robot.leg_names import LEGS
+from ninedof.runs.command_file import FILE as COMMAND
+from ninedof.runs.command_file import Input
 from ninedof.runs.directory import used_directory
 from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
-from ninedof.runs.objects import load
+from ninedof.runs.objects import load, split
 from ninedof.support.arguments import finite
 from ninedof.support.units import with_unit
 
@@ -45,15 +48,17 @@ def certify(
     finite("--time", time, 0.0)
     if condition is not None:
         finite("--condition", condition, 1.0)
+    run = given(run)
     found = load(run)
     if not isinstance(found, Result):
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     file = certificate_file(run)
-    earlier = load_certificate(run) if resume else None
+    earlier = load_certificate(run) if resume and (file.exists() or not resumed()) else None
     try:
         with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
+            remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
             certificate = found.certify(
                 condition_number=condition,
                 gap=gap,

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 
 from ninedof.cli.comparison_table import comparison_table, comparison_words
 from ninedof.cli.job_report import report_words, told, with_report
-from ninedof.cli.options import Figures, Json, Out, Report, Starts, StudyFile, Threads
+from ninedof.cli.long_run import CHUNKS, run_folder
+from ninedof.cli.options import Figures, Json, Out, Report, Resume, Starts, StudyFile, Threads
+from ninedof.cli.remembered import given
 from ninedof.cli.result_table import price_text, proof_words, result_table
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
-from ninedof.optimize.optimize import proved
 from ninedof.optimize.result import Result
 from ninedof.paper.comparison import Comparison, compare
 from ninedof.proof.optimum import FILE as CERTIFICATE
 from ninedof.proof.optimum import left_out_of
+from ninedof.runs.command_file import Input
 from ninedof.runs.describe import describe_comparison
-from ninedof.runs.directory import new_directory
 from ninedof.runs.figures import figures_of
 from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
@@ -44,6 +45,7 @@ EXAMPLES = """[bold]Examples[/bold]
 def optimize(
     study: StudyFile = None,
     out: Out = None,
+    resume: Resume = False,
     starts: Starts = None,
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
@@ -64,24 +66,28 @@ def optimize(
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = Screen(json)
     thread_argument(threads)
+    reads = Input.of(None if study is None else str(study))
+    study = None if study is None else Path(given(str(study)))
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
     if convergence and not figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
     if certify:
         left_out_of(chosen)  # raises where no proof is known, before the work
-    directory = new_directory(out)
-    run: Comparison | Result
-    if study is None:
-        run = _solve_paper(chosen, threads, certify, screen)
-    else:
-        run = _solve_study(chosen, study.name, threads, certify, screen)
+    with run_folder(out, resume, reads) as directory:
+        how = {"threads": threads, "certify": certify, "out": directory / CHUNKS}
+        run: Comparison | Result
+        if study is None:
+            run = _solve_paper(chosen, how, screen)
+        else:
+            run = _solve_study(chosen, study.name, how, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
-    draw = figures_of(run, screen.say, convergence) if figures else None
+    drawn_now = figures and not result.interrupted
+    draw = figures_of(run, screen.say, convergence) if drawn_now else None
     words = partial(_comparison_words if isinstance(run, Comparison) else _result_words, run, screen)  # type: ignore[arg-type]
     with told(screen, words, {**unit_entry(chosen.unit), **data}) as once:
-        record = write_run(run, directory, with_report(draw, figures and report, screen, once))
-    if check and result.best is not None:
+        record = write_run(run, directory, with_report(draw, drawn_now and report, screen, once))
+    if check and result.best is not None and not result.interrupted:
         verdict = examine(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
@@ -93,12 +99,9 @@ def optimize(
     raise typer.Exit(exit_status(result))
 
 
-def _solve_paper(study: Study, threads: int | None, certify: bool, screen: Screen) -> Comparison:
+def _solve_paper(study: Study, how: dict[str, Any], screen: Screen) -> Comparison:
     with screen.progress("the paper's problem") as bar:
-        comparison = compare(study.starts, study.seed, threads, bar.show)
-        if certify and comparison.result.best is not None and not comparison.result.interrupted:
-            comparison = replace(comparison, result=proved(comparison.result, threads, bar))
-    return comparison
+        return compare(study.starts, study.seed, progress=bar, **how)
 
 
 def _comparison_words(comparison: Comparison, screen: Screen) -> None:
@@ -110,13 +113,13 @@ def _comparison_words(comparison: Comparison, screen: Screen) -> None:
         screen.print(bold(comparison.result.status, f": {comparison.result.reason}"))
 
 
-def _solve_study(study: Study, name: str, threads: int | None, certify: bool, screen: Screen) -> Result:
+def _solve_study(study: Study, name: str, how: dict[str, Any], screen: Screen) -> Result:
     for variable in study.defaulted:
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
-        return solve(study, threads=threads, progress=bar, certify=certify)
+        return solve(study, progress=bar, **how)
 
 
 def _result_words(result: Result, screen: Screen) -> None:

@@ -15,6 +15,7 @@ from ninedof.cli.chosen_design import named_design
 from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.long_run import CHUNKS, run_folder
 from ninedof.cli.options import Figures, Json, Out, Report, Resume, Starts, Threads
+from ninedof.cli.remembered import given
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
@@ -23,6 +24,7 @@ from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import row_words
 from ninedof.pareto.limited import with_degrees
+from ninedof.runs.command_file import Input
 from ninedof.runs.folder import write_run
 from ninedof.runs.objects import split
 from ninedof.support.arrays import thread_argument
@@ -78,13 +80,15 @@ def pareto(
     """Compute the least condition number for each value of a limit."""
     screen = Screen(json)
     thread_argument(threads)
+    reads = Input.of(None if study is None else str(study))
+    study = None if study is None else Path(given(str(study)))
     asked, run = _asked(study)
     chosen = asked.with_solver(starts)
     if against is None:
         against = "radius_ratio" if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if study is None else study.name
-    with run_folder(out, resume) as directory, screen.limits(f"{name}, {against}") as bar:
+    with run_folder(out, resume, reads) as directory, screen.limits(f"{name}, {against}") as bar:
         front = trace_front(
             chosen, against, value or None, points, threads=threads, progress=bar.show, out=directory / CHUNKS
         )

@@ -13,10 +13,12 @@ import typer
 from ninedof.cli import options
 from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
 from ninedof.cli.long_run import compute, run_folder, write
+from ninedof.cli.remembered import given
 from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
+from ninedof.runs.command_file import Input
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import thread_argument
@@ -90,6 +92,8 @@ def sweep(
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     screen = Screen(json)
     thread_argument(threads)
+    reads = Input.of(what)
+    what = what and given(what)
     sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
     of_poses = {"absolute": absolute, "internal_point": internal_point, "threads": threads}
     if what in FIGURES:
@@ -121,7 +125,7 @@ def sweep(
             family, held, length, unit = swept_design(what, sides, theta_z_deg, grid, lc)
             of_family = partial(sweep_designs, family=family, characteristic_length=length, unit=unit)
             asked = partial(of_family, held, grid, indices, chunk=chunk)
-    with run_folder(out, resume) as directory:
+    with run_folder(out, resume, reads) as directory:
         result = compute(asked, title, directory, scheduler, screen)
     if result is None:
         raise typer.Exit(INTERRUPTED)

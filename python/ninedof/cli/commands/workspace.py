@@ -12,7 +12,9 @@ import typer
 
 from ninedof.cli.chosen_design import named_design, with_length
 from ninedof.cli.job_report import report_words, told, with_report
-from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report, Threads
+from ninedof.cli.long_run import CHUNKS, Finished, run_folder
+from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report, Resume, Threads
+from ninedof.cli.remembered import given as given_file
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen
 from ninedof.cli.workspace_limits import compare_poses, criteria_asked, rule_asked
 from ninedof.cli.workspace_summary import draw, region_words, sentences, workspace_table
@@ -21,11 +23,11 @@ from ninedof.design.indices import computed
 from ninedof.design.region_stack import places_o
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.directory import run_directory
+from ninedof.runs.command_file import Input
 from ninedof.runs.folder import write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
-from ninedof.workspace import certified_workspace
+from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.certified import GAPS, require_certifiable
 from ninedof.workspace.question_words import asked_lines
@@ -122,6 +124,7 @@ def workspace(
     ] = None,
     time: Annotated[float | None, typer.Option(help="Seconds for the proof; 60 by default.")] = None,
     out: Out = None,
+    resume: Resume = False,
     threads: Threads = None,
     figures: Figures = True,
     report: Report = True,
@@ -134,7 +137,8 @@ def workspace(
     """
     screen = Screen(json)
     thread_argument(threads)
-    given = with_length(named_design(design), lc)
+    reads = Input.of(design)
+    given = with_length(named_design(design and given_file(design)), lc)
     options = {
         "leg_length": legs,
         "external_length": external,
@@ -197,9 +201,15 @@ def workspace(
         name, value = next(iter(proof.items()))
         raise ValueError(f"--{name.removesuffix('_limit')}: got {value:g} without --certify, expected both")
     asked = _given(others) | _place(home, archetype, {"x": x, "y": y, "z": z}, position, about)
-    with run_directory(out) as directory, screen.poses(archetype.replace("_", " ")) as bar:
-        found = find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
     question = {"geometry": triples(given.geometry), "home": arrays_of(home), **asked}
+    with run_folder(out, resume, reads) as directory:
+        kept = Finished(directory / CHUNKS, {**question, "proof": proof if certify else None})
+
+        def search() -> WorkspaceMap:
+            with screen.poses(archetype.replace("_", " ")) as bar:
+                return find_workspace(given.geometry, **asked, home=home, threads=threads, progress=bar.show)
+
+        found = kept.result(0, WorkspaceMap, search)
 
     def words() -> None:
         for line in asked_lines(asked, home, own, left, given.unit):
@@ -212,15 +222,19 @@ def workspace(
         write_run(found, directory, None, question)  # at once: an interruption of what follows does not lose the map
         once()
     if certify and not found.interrupted:
-        with screen.boxes("proving") as bar:
-            proved = certified_workspace(
-                given.geometry,
-                **{name: value for name, value in asked.items() if name not in OF_THE_MAP},
-                **proof,
-                home=home,
-                threads=threads,
-                progress=bar,
-            )
+
+        def prove() -> CertifiedWorkspace:
+            with screen.boxes("proving") as bar:
+                return certified_workspace(
+                    given.geometry,
+                    **{name: value for name, value in asked.items() if name not in OF_THE_MAP},
+                    **proof,
+                    home=home,
+                    threads=threads,
+                    progress=bar,
+                )
+
+        proved = kept.result(1, CertifiedWorkspace, prove)
         if found.method != "sample" and not found.interrupted:
             proved = proved.with_estimate(found.volume, found.error)
         found = replace(found, certified=proved)
@@ -229,7 +243,7 @@ def workspace(
             write_run(found, directory, None, question)
             once()
     share = None
-    if region_asked is not None and places_o(region_asked):
+    if region_asked is not None and places_o(region_asked) and not found.interrupted:
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
         screen.print(region_words(region_asked, share, given.unit))
     drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"

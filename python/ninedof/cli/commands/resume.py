@@ -1,0 +1,70 @@
+"""`ninedof resume`: go on with a run that was interrupted or killed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Annotated
+
+import typer
+
+from ninedof.cli.remembered import resuming
+from ninedof.runs.command_file import FILE, Asked, read_command
+from ninedof.support.arguments import shown
+from ninedof.support.command import running
+
+WITH_FOLDER = ("optimize", "pareto", "sweep", "atlas", "workspace")  # those with --out and --resume
+CERTIFY = "certify"
+PLACE = 6
+EXAMPLES = """[bold]Examples[/bold]
+
+  ninedof resume runs/20260101-120000      after Ctrl-C, a kill or a loss of power: goes on with the same command"""
+
+
+def resume(
+    context: typer.Context,
+    run: Annotated[Path, typer.Argument(help="The folder of a run that was interrupted or killed.")],
+) -> None:
+    """Go on with an interrupted run: the command that began it, with the study it had then. Nothing is done twice."""
+    found = _unfinished(run)
+    if found is None:
+        typer.echo(f"{run}: the run has ended, there is nothing to resume")
+        return
+    name = found.arguments[0]
+    command = getattr(context.find_root().command, "commands", {}).get(name)
+    if command is None or name not in (*WITH_FOLDER, CERTIFY):
+        raise ValueError(f"{run / FILE}: got the command {shown(name)}, expected one that can be resumed")
+    rest = list(without_folder(found.arguments[1:]))
+    own = ["--resume"] if name == CERTIFY else [f"--out={run}", "--resume"]
+    with TemporaryDirectory(prefix="ninedof-") as beside:
+        stands_for = None if found.input is None else found.input.write(Path(beside))
+        if name == CERTIFY:  # its folder is what it reads
+            stands_for = f"{run}#{found.input.point}" if found.input is not None and found.input.point else str(run)
+        with (
+            resuming(found, stands_for),
+            running("ninedof", found.arguments),
+            command.make_context(name, [*own, *rest], parent=context) as inner,
+        ):
+            command.invoke(inner)
+
+
+def _unfinished(run: Path) -> Asked | None:
+    """Return what is left to do in a run folder; None if all has ended."""
+    files = [file for file in (run / FILE, *sorted(run.glob(f"{CERTIFY}*.{FILE}"))) if file.is_file()]
+    if not files:
+        what = "no folder" if not run.is_dir() else f"a folder without {FILE}"
+        raise ValueError(f"run: got {run}, {what}, expected the folder of an interrupted run")
+    return next((found for found in map(read_command, files) if found.status is None), None)
+
+
+def without_folder(arguments: tuple[str, ...]) -> Iterator[str]:
+    """Yield arguments without --out and --resume."""
+    skip = False
+    for word in arguments:
+        if skip:
+            skip = False
+        elif word == "--out":
+            skip = True
+        elif word != "--resume" and not word.startswith("--out="):
+            yield word

@@ -1,0 +1,175 @@
+"""`ninedof resume`: a run that was interrupted or killed goes on with the command and the study that it had."""
+
+import json
+import os
+import shlex
+import shutil
+import signal
+
+import pytest
+from killing import COMMANDS, Killer
+
+import ninedof as nd
+from ninedof.chunks import Store
+from ninedof.cli.app import main
+
+LONG = "NINEDOF_LONG" in os.environ
+STUDY = """
+[variables]
+zp = [1.0, 6.0]
+[constraints]
+radius_ratio = { max = 2.0 }
+[objective.region]
+box = [0.4, 0.0, 0.0]
+[solver]
+starts = 2
+"""
+
+
+@pytest.fixture(autouse=True)
+def _elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def run(line):
+    with pytest.raises(SystemExit) as ended:
+        main(shlex.split(line))
+    return ended.value.code or 0
+
+
+def interrupted(monkeypatch, line, piece=0, number=signal.SIGTERM):
+    """Run a command that a signal ends as it keeps a piece; the piece is lost."""
+    write = Store.write
+
+    def ending(store, k, arrays):
+        if k == piece:
+            signal.raise_signal(number)
+        write(store, k, arrays)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Store, "write", ending)
+        return run(line)
+
+
+@pytest.mark.parametrize("kind", COMMANDS if LONG else ["sweep"])
+def test_killed_at_random_moments(kind, tmp_path):
+    killer = Killer(tmp_path, seed=5)
+    whole, seconds = killer.undisturbed(kind)
+    got, kills = killer.killed(kind, seconds, 20 if LONG else 3)
+    assert got == whole
+    assert kills == killer.kills
+
+
+@pytest.mark.parametrize(
+    ("line", "piece"),
+    [
+        ("sweep --over x_p=-1:1:40 --chunk 10", 2),
+        ("pareto --against radius_ratio --value 2 --value 3 --starts 4", 1),
+        ("optimize study.toml", 1),
+        ("optimize --starts 4 --certify", 1),
+        ("workspace design.toml --legs 2.5 6.5 --tolerance 0.1 --certify --gap 0.5", 1),
+    ],
+)
+def test_what_a_signal_ended_goes_on_to_the_same_record(monkeypatch, tmp_path, capsys, line, piece):
+    (tmp_path / "study.toml").write_text(STUDY)
+    published = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
+    nd.save(nd.Design(published, nd.Configuration.neutral(3.9828, 2.4432)), "design.toml")
+    assert run(f"{line} --no-figures --out whole") == 0
+    assert interrupted(monkeypatch, f"{line} --no-figures --out run", piece) == 143
+    assert "`ninedof resume run` continues the run" in capsys.readouterr().err
+    for file in ("study.toml", "design.toml"):  # the run has its own
+        (tmp_path / file).write_text("something = else")
+    kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "run" / "chunks").glob("chunk-*")}
+    assert len(kept) == piece
+    assert run("resume run") == 0
+    assert kept.items() <= {file: file.stat().st_mtime_ns for file in kept}.items()
+    records = [json.loads((tmp_path / name / "record.json").read_text()) for name in ("whole", "run")]
+    assert records[1]["command"] == f"ninedof {line} --no-figures --out run"
+    assert [untimed(record) for record in records[:1]] == [untimed(record) for record in records[1:]]
+    assert run("resume run") == 0
+    assert "the run has ended, there is nothing to resume" in capsys.readouterr().out
+
+
+def untimed(value):
+    if isinstance(value, dict):
+        return {k: untimed(v) for k, v in value.items() if k not in ("seconds", "created", "command")}
+    return [untimed(v) for v in value] if isinstance(value, list) else value
+
+
+def test_a_certificate_goes_on_where_its_run_now_lies(monkeypatch, tmp_path, capsys):
+    assert run("optimize --starts 2 --no-figures --out made") == 0
+    assert run("certify made --gap 0.3") == 0
+    whole = json.loads((tmp_path / "made" / "certify.json").read_text())
+    for file in (tmp_path / "made").glob("certify*"):
+        file.unlink()
+    with monkeypatch.context() as patch:
+        patch.setattr(nd.Result, "certify", lambda *_, **__: signal.raise_signal(signal.SIGTERM))
+        assert run("certify made --gap 0.3") == 143
+    shutil.move("made", "moved")
+    assert run("resume moved") == 0
+    got = json.loads((tmp_path / "moved" / "certify.json").read_text())
+    assert {**whole, "seconds": 0, "seal": ""} == {**got, "seconds": 0, "seal": ""}
+    assert run("resume moved") == 0
+    assert "nothing to resume" in capsys.readouterr().out
+
+
+def edited(**entries):
+    return lambda text: json.dumps(json.loads(text) | entries)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda text: text[: len(text) // 2], "not a JSON file"),
+        (lambda _: "[]", "got no whole 'ninedof-command-1' file"),
+        (edited(format="else"), "got no whole"),
+        (edited(arguments=[]), "got no whole"),
+        (edited(arguments=["sweep", 3]), "got no whole"),
+        (edited(arguments="sweep"), "got no whole"),
+        (edited(input={"name": "a"}), "got no whole"),
+        (edited(status="ended"), "got no whole"),
+        (edited(arguments=["view", "--port", "1"]), "got the command 'view', expected one that can be resumed"),
+        (edited(arguments=["resume", "run"]), "got the command 'resume', expected one that can be resumed"),
+        (edited(arguments=["rm\x1b[2J", "-rf"]), "expected one that can be resumed"),
+    ],
+)
+def test_a_foreign_or_damaged_command_is_one_line(monkeypatch, tmp_path, capsys, change, words):
+    interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run")
+    file = tmp_path / "run" / "command.json"
+    file.write_text(change(file.read_text()))
+    capsys.readouterr()
+    assert run("resume run") == 2
+    said = capsys.readouterr().err.strip()
+    assert said.startswith("ninedof: run/command.json: ")
+    assert words in said
+    assert len(said.splitlines()) == 1
+
+
+def test_a_remembered_command_writes_into_its_own_folder_alone(monkeypatch, tmp_path):
+    interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run")
+    file = tmp_path / "run" / "command.json"
+    found = json.loads(file.read_text())
+    found["arguments"] += ["--out", "elsewhere", "--out=elsewhere"]
+    found["input"] = {"name": "../../elsewhere", "text": "", "point": ""}
+    file.write_text(json.dumps(found))
+    assert run("resume run") == 0
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["run"]
+    assert isinstance(nd.load("run"), nd.SweepResult)
+
+
+def test_a_folder_without_a_command_is_named(tmp_path, capsys):
+    (tmp_path / "empty").mkdir()
+    for name, words in (("empty", "a folder without command.json"), ("none", "no folder")):
+        assert run(f"resume {name}") == 2
+        assert (
+            capsys.readouterr().err == f"ninedof: run: got {name}, {words}, expected the folder of an interrupted run\n"
+        )
+
+
+def test_bad_input_leaves_no_folder(tmp_path):
+    assert run("pareto --against radius_ratio --value -1 --out run") == 2
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "killed").mkdir()
+    (tmp_path / "killed" / ".part-command.json-0a1b2c3d").write_text("{")  # of a run killed as it began
+    assert run("sweep --over x_p=-1:1:4 --no-figures --out killed") == 0
+    assert not list((tmp_path / "killed").glob(".part-*"))
