@@ -76,10 +76,7 @@ def optimize(
     with run_folder(out, resume, reads) as directory:
         how = {"threads": threads, "certify": certify, "out": directory / CHUNKS}
         run: Comparison | Result
-        if study is None:
-            run = _solve_paper(chosen, how, screen)
-        else:
-            run = _solve_study(chosen, study.name, how, screen)
+        run = _solve_paper(chosen, how, screen) if study is None else _solve_study(chosen, study.name, how, screen)
     result = run if isinstance(run, Result) else run.result
     data = {"optimization": result.to_dict()} if isinstance(run, Result) else describe_comparison(run)
     drawn_now = figures and not result.interrupted

@@ -101,10 +101,12 @@ def pareto(
             kept = f"{_count(front)} solved so far and kept in {directory}"
             screen.print(bold("interrupted", f": {kept}; the same command with {again} continues the run"))
 
-    drawn = figures and any(math.isfinite(limit) for limit in front.limits)
+    drawn = figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
     with told(screen, words, {"front": front.to_dict()}) as once:
-        record = write_run(front, directory, with_report(draw, figures and report, screen, once))
+        record = write_run(
+            front, directory, with_report(draw, figures and report and not front.interrupted, screen, once)
+        )
     figure = ", figure front (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {record.parent}: {record.name}{figure}{report_words(directory)}")
     screen.data({"front": front.to_dict(), "record": str(record)})

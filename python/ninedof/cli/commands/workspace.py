@@ -246,18 +246,19 @@ def workspace(
     if region_asked is not None and places_o(region_asked) and not found.interrupted:
         share = region_share(region_asked, given.geometry, home, criteria, float(length))
         screen.print(region_words(region_asked, share, given.unit))
-    drawn = figures and found.volume > 0.0 and not found.interrupted and found.method != "sample"
+    stopped = found.interrupted or (found.certified is not None and found.certified.interrupted)
+    drawn = figures and found.volume > 0.0 and not stopped and found.method != "sample"
     outlined = None if archetype == "orientation" else region_asked
     drawing = partial(draw, found, screen, home, outlined) if drawn else None
     data = {"workspace": found.to_dict()} | ({} if share is None else {"region": share._asdict()})
     with told(screen, lambda: None, data):
-        record = write_run(found, directory, with_report(drawing, figures and report, screen), question)
+        record = write_run(found, directory, with_report(drawing, figures and report and not stopped, screen), question)
     arrays = "map.npz" if found.certified is None else "map.npz, certified.npz"
     names = sorted(path.stem for path in directory.glob("*.png"))
     figure = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if drawn else ""
     screen.print(f"run folder {directory}: {record.name}, {arrays}{figure}{report_words(directory)}")
     screen.data(data | {"record": str(record)})
-    if found.interrupted or (found.certified is not None and found.certified.interrupted):
+    if stopped:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if found.volume > 0.0 else NO_RESULT)
 
