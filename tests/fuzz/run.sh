@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Runs every fuzz target from its corpus: tests/fuzz/run.sh BUILD [SECONDS EACH] [FOLDER FOR WHAT IS FOUND]
-# The seed is fixed. A failure leaves its input beside the new inputs, and ends the run with an error.
+# Runs every fuzz target from its corpus: tests/fuzz/run.sh BUILD [LENGTH] [FOLDER FOR WHAT IS FOUND]
+# The length is an option of libFuzzer: -max_total_time=SECONDS, or -runs=INPUTS, the same inputs in every run, as the
+# seed is fixed. A failure leaves its input beside the new inputs, and ends the run with an error.
 set -euo pipefail
 build=$(realpath "$1")
-seconds=${2:-20}
+length=${2:--max_total_time=20}
 found=${3:-$build/found}
 corpus=$(dirname "$(realpath "$0")")/corpus
 targets=("$build"/tests/fuzz/fuzz_*)
@@ -14,7 +15,7 @@ for target in "${targets[@]}"; do
   # Bytes are few: a robot takes 130, a certificate with a tree some thousands.
   longest=256
   if [[ $name == certificate ]]; then longest=2500; fi
-  "$target" -seed=1 -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2000 -max_len=$longest -print_final_stats=1 \
+  "$target" -seed=1 "$length" -timeout=120 -rss_limit_mb=2000 -max_len=$longest -print_final_stats=1 \
     -artifact_prefix="$found/$name-" "$found/$name" "$corpus/$name" >"$found/$name.log" 2>&1 || {
     tail -n 40 "$found/$name.log"
     echo "fuzz target $name failed: its input is $found/$name-*"
