@@ -148,7 +148,7 @@ def test_characters_that_act_are_shown():
     assert tag("p", "a\x1b[2J\u202eb\ud800\x00", title="\x9b\u2066") == (
         '<p title="\\x9b\\u2066">a\\x1b[2J\\u202eb\\ud800\\x00</p>'
     )
-    assert tag("p", "é 中 \t\n") == "<p>é 中 \t\n</p>"
+    assert tag("p", "é 中 \n") == "<p>é 中 \n</p>"
 
 
 def test_a_figure_is_a_file_of_its_folder(runs, tmp_path, monkeypatch):
