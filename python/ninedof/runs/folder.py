@@ -225,6 +225,8 @@ def _record(data: dict[str, Any]) -> Record:
     elif data["format"] == STUDIES_1:
         data["kind"] = _kind(table("results", data.get("results")))
     asked = Study.from_dict(data["study"]) if "study" in data else table("question", data.get("question"))
+    if missing := [name for name in ("kind", "versions", "created", "files") if name not in data]:
+        raise ValueError(f"{missing[0]}: got none, expected that of the run")  # not that of the program that reads it
     known = entries_of(Record, data, skipped=["asked", "results"])
     choice("kind", known["kind"], KINDS)
     if known["kind"] in OF_A_STUDY and not isinstance(asked, Study):
