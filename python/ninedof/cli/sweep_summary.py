@@ -10,6 +10,7 @@ from rich.table import Table
 
 from ninedof.design.indices import INDICES, size_of
 from ninedof.support.angles import degrees_of, plain_name
+from ninedof.support.blocks import blocks
 from ninedof.support.units import amount
 from ninedof.sweep import SweepResult
 
@@ -22,18 +23,22 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
     The extremes of a signed index are those of its modulus, with their signs.
     """
     values = result[name]
-    size = size_of(name, values)
-    finite = np.isfinite(values)
-    out: dict[str, Any] = {
-        "points": int(values.size),
-        "infinite": int(np.isinf(values).sum()),
-        "missing": int(np.isnan(values).sum()),
-    }
-    if finite.any():
-        for word, pick in (("least", np.argmin), ("greatest", np.argmax)):
-            fill = np.inf if word == "least" else -np.inf
-            at = np.unravel_index(int(pick(np.where(finite, size, fill))), values.shape)
-            out[word] = {"value": float(values[at]), "at": result.at(name, at)}
+    out: dict[str, Any] = {"points": int(values.size), "infinite": 0, "missing": 0}
+    ends: dict[str, tuple[float, int]] = {}  # the size that is least or greatest so far, and where
+    for first, piece in blocks(values):
+        missing, infinite = np.isnan(piece), np.isinf(piece)
+        out["infinite"] += int(infinite.sum())
+        out["missing"] += int(missing.sum())
+        known = np.flatnonzero(~(missing | infinite))
+        if known.size:
+            size = size_of(name, piece[known])
+            for word, sign, pick in (("least", 1.0, np.argmin), ("greatest", -1.0, np.argmax)):
+                at = int(pick(size))
+                if word not in ends or sign * size[at] < sign * ends[word][0]:
+                    ends[word] = float(size[at]), first + int(known[at])
+    for word, (_, number) in ends.items():
+        place = np.unravel_index(number, values.shape)
+        out[word] = {"value": float(values[place]), "at": result.at(name, place)}
     return out
 
 

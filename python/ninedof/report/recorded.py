@@ -15,6 +15,7 @@ from ninedof.support.units import per, with_unit
 
 SHOWN = 24  # lines of a table
 PAPER = "paper"
+FROM_RECORD = (PAPER, "sweep", "atlas")  # kinds whose arrays, which may be large, no page shows
 
 
 def of_recorded(record: Any, name: str) -> Page:

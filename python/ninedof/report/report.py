@@ -18,7 +18,7 @@ from ninedof.report.markup import Section, joined
 from ninedof.report.other_pages import of_comparison, of_workspace
 from ninedof.report.page import page
 from ninedof.report.pages import Page, of_result
-from ninedof.report.recorded import PAPER, of_recorded
+from ninedof.report.recorded import FROM_RECORD, of_recorded
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import Record, load_record
@@ -86,7 +86,7 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
     with named(place):
         record = load_record(place)
-        found = None if record.kind == PAPER and not point else load(run)
+        found = None if record.kind in FROM_RECORD and not point else load(run)
         whole = load(place) if point else None
         certificate = _certificate_of(found, run) if isinstance(found, Result) else None
         made = _page_of(found, record, name, point, whole, certificate)

@@ -7,16 +7,15 @@ import os
 import re
 import secrets
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import IO, Any, ClassVar, Self
 
-import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import path_argument
-from ninedof.support.npz import DAMAGE, read_npz
+from ninedof.support.npz import DAMAGE, read_npz, write_npz
 from ninedof.support.system import sync_folder
 
 Arrays = dict[str, NDArray[Any]]
@@ -38,8 +37,10 @@ def is_part(name: str) -> bool:
     return _PART.fullmatch(name) is not None
 
 
-def write_whole(path: Path, data: bytes) -> Path:
+def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
     """Write a file that appears whole or not at all, even if the power fails; return its path.
+
+    In the place of its bytes there may be a function that writes them to a file that is open.
 
     Raises
     ------
@@ -50,7 +51,10 @@ def write_whole(path: Path, data: bytes) -> Path:
     part = path.with_name(part_name(path.name))  # in the same folder: renaming is atomic there
     try:
         with part.open("wb") as file:
-            file.write(data)
+            if callable(data):
+                data(file)
+            else:
+                file.write(data)
             file.flush()
             os.fsync(file.fileno())
         os.replace(part, path)
@@ -109,7 +113,7 @@ def is_plain_name(name: object) -> bool:
 def npz_bytes(arrays: Mapping[str, Any], *, compressed: bool = False) -> bytes:
     """Return the bytes of a .npz file."""
     buffer = io.BytesIO()
-    (np.savez_compressed if compressed else np.savez)(buffer, **arrays)
+    write_npz(buffer, arrays, compressed=compressed)
     return buffer.getvalue()
 
 
@@ -130,7 +134,8 @@ class Saved(ABC):
         """
         file = path_argument("path", path)
         file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
-        return write_whole(file, npz_bytes(self._contents(), compressed=self.COMPRESSED))
+        contents = self._contents()
+        return write_whole(file, lambda opened: write_npz(opened, contents, compressed=self.COMPRESSED))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:

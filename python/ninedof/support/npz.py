@@ -6,6 +6,7 @@ import errno
 import io
 import os
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from struct import error as StructError
 from typing import IO, Any
@@ -13,6 +14,8 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ninedof.support.blocks import blocks
 
 SUFFIX = ".npy"
 KINDS = "biufcSU"  # of numbers and text: nothing that would run code
@@ -55,6 +58,20 @@ def read_npz(source: Path | bytes) -> dict[str, NDArray[Any]]:
                 with archive.open(entry) as member:
                     out[name] = _array(member, entry.file_size)
             return out
+
+
+def write_npz(file: IO[bytes], arrays: Mapping[str, Any], *, compressed: bool = False) -> None:
+    """Write arrays to an open file as numpy does, byte for byte; one that is mapped from a file in pieces."""
+    with ZipFile(file, "w", ZIP_DEFLATED if compressed else ZIP_STORED) as archive:
+        for name, value in arrays.items():
+            array = np.asanyarray(value)
+            with archive.open(name + SUFFIX, "w", force_zip64=True) as member:
+                if not isinstance(array, np.memmap) or not array.flags.c_contiguous:
+                    np.lib.format.write_array(member, array, allow_pickle=False)
+                    continue
+                np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
+                for _, piece in blocks(array):
+                    member.write(piece.tobytes())
 
 
 def _array(member: IO[bytes], size: int) -> NDArray[Any]:

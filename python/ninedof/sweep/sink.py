@@ -15,7 +15,7 @@ from ninedof.chunks import Arrays
 from ninedof.design.indices import Index
 from ninedof.support.files import PART, is_plain_name, naming
 
-IN_MEMORY = 2**28  # bytes of all arrays; more go to files, if there is a folder
+IN_MEMORY = 2**26  # bytes of all arrays; more go to files, if there is a folder
 
 
 class Sink:
