@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,12 @@ class Sink:
             else:
                 part.reshape(-1, *values.shape[1:])[first:last] = values
 
+    def discard(self) -> None:
+        """Remove the files that are not whole: the chunks stay, and another run makes them anew."""
+        for part in self._parts.values():
+            if isinstance(part, _File):
+                part.discard()
+
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Return everything."""
         return {name: part.whole() if isinstance(part, _File) else part for name, part in self._parts.items()}
@@ -76,6 +83,12 @@ class _File:
             self._file.write(data.tobytes())
         except OSError as error:
             raise naming(error, self._path) from None
+
+    def discard(self) -> None:
+        with suppress(OSError):
+            self._file.close()
+        with suppress(OSError):
+            self._part.unlink(missing_ok=True)
 
     def whole(self) -> NDArray[Any]:
         try:

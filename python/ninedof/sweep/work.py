@@ -87,7 +87,11 @@ class GridWork:
         `unit` is the name of the length unit, in the place of "length".
         """
         sink = Sink(self.indices, self.grid.shape)
-        run(self, sink.begin, **options)
+        try:
+            run(self, sink.begin, **options)
+        except BaseException:
+            sink.discard()
+            raise
         swept = tuple(axis.name for axis in self.grid.axes)
         labelled = {name: "deg" if name.endswith(DEG) else units[name] for name in swept}
         labelled |= {i.name: i.unit for i in self.indices}

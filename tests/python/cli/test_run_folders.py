@@ -107,3 +107,39 @@ def test_rejected_arguments_of_pareto_leave_no_folder(tmp_path, capsys, argument
     assert code == 2
     assert sum(line.startswith("ninedof: ") for line in said.err.splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ("link.csv", "it is a link to nothing"),
+        ("n" * 252 + ".csv", "File name too long"),
+        ("folder.csv", "it is a folder"),
+        ("pipe.csv", "was not written by ninedof"),
+        ("mine.csv", "was not written by ninedof"),
+        ("none/s.csv", "expected a file in a folder that exists"),
+    ],
+)
+def test_a_file_that_cannot_be_written_is_told_before_the_work(tmp_path, capsys, monkeypatch, place, words):
+    (tmp_path / "link.csv").symlink_to(tmp_path / "nothing")
+    (tmp_path / "folder.csv").mkdir()
+    os.mkfifo(tmp_path / "pipe.csv")
+    (tmp_path / "mine.csv").write_text("mine")
+    before = sorted(tmp_path.iterdir())
+    (tmp_path / "design.toml").write_text("")
+    code, said = ran(capsys, "sheet", str(tmp_path / "design.toml"), "--csv", str(tmp_path / place))
+    assert code == 2
+    assert said.err.startswith(f"ninedof: --csv: got {tmp_path / place}, ")
+    assert words in said.err
+    (tmp_path / "design.toml").unlink()
+    assert sorted(tmp_path.iterdir()) == before
+    assert (tmp_path / "mine.csv").read_text() == "mine"
+    assert not (tmp_path / "nothing").exists()
+
+
+def test_a_name_of_the_full_length_is_written(tmp_path):
+    """The name of the part that is written first is not longer."""
+    path = tmp_path / ("ü" * 125 + ".npz")
+    found = nd.atlas(100)
+    assert nd.SweepResult.load(found.save(path))["histogram"].sum() == 100
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
