@@ -92,7 +92,7 @@ def test_what_a_signal_ended_goes_on_to_the_same_record(monkeypatch, tmp_path, c
 
 def untimed(value):
     if isinstance(value, dict):
-        return {k: untimed(v) for k, v in value.items() if k not in ("seconds", "created", "command")}
+        return {k: untimed(v) for k, v in value.items() if k not in ("seconds", "created", "command", "digest")}
     return [untimed(v) for v in value] if isinstance(value, list) else value
 
 
@@ -108,7 +108,7 @@ def test_a_certificate_goes_on_where_its_run_now_lies(monkeypatch, tmp_path, cap
     shutil.move("made", "moved")
     assert run("resume moved") == 0
     got = json.loads((tmp_path / "moved" / "certify.json").read_text())
-    assert {**whole, "seconds": 0, "seal": ""} == {**got, "seconds": 0, "seal": ""}
+    assert untimed(whole | {"seal": ""}) == untimed(got | {"seal": ""})
     assert run("resume moved") == 0
     assert "nothing to resume" in capsys.readouterr().out
 
