@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <memory>
+
 #include "ninedof/optimize/evaluate.hpp"
 #include "ninedof/optimize/optimize.hpp"
 #include "support/arrays.hpp"
@@ -155,7 +157,13 @@ void bind_design(py::module_& m) {
         Settings settings;
         settings.starts = count;
         settings.seed = seed;
-        return array_from(starts(p, settings).transpose());
+        auto found = std::make_unique<Eigen::MatrixXd>(
+            interruptible(py::none(), [&](const Control& control) { return starts(p, settings, control.stop); }));
+        // A column of the matrix is a row of the array: not copied, there may be very many.
+        const std::vector<py::ssize_t> shape{found->cols(), found->rows()};
+        const double* data = found->data();
+        return Array(shape, data,
+                     py::capsule(found.release(), [](void* own) { delete static_cast<Eigen::MatrixXd*>(own); }));
       });
 }
 

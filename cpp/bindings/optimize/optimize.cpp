@@ -262,12 +262,11 @@ void bind_optimize(py::module_& m) {
     return fields_of(problem, result);
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
-    const Trace t = [&] {
-      const Formulation f = formulation_from(formulation);
-      const CoreCall call;
-      const WithoutGil nogil;
-      return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f);
-    }();
+    const Formulation f = formulation_from(formulation);
+    const Trace t = interruptible(py::none(), [&](const Control& control) {
+      return trace(problem, Eigen::VectorXd::Map(start.data(), static_cast<Eigen::Index>(start.size())), f, {},
+                   control.stop);
+    });
     return py::make_tuple(t.best, fields_of(problem, t.end));
   });
 }

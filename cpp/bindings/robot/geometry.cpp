@@ -9,6 +9,8 @@
 namespace ninedof::python {
 namespace {
 
+constexpr long stack_block = 1024;  // configurations between two looks at the clock
+
 Orbit orbit_from(const std::string& name, const py::object& value) {
   const Array a = array_of_shape(name, value, {3});
   return {a.at(0), a.at(1), a.at(2)};
@@ -18,7 +20,7 @@ Orbit orbit_from(const std::string& name, const py::object& value) {
 /// allowed.
 void check_configurations(const Array& position, const Array& rotation, const Array& internal_point, bool is_stack) {
   const ConfigurationStack stack(position, rotation, internal_point);
-  in_slices(stack.count(), 1024, 1, [&](long first, long last) {
+  in_slices(stack.count(), stack_block, 1, [&](long first, long last) {
     for (long i = first; i < last; ++i) {
       const Configuration c = stack[i];
       const bool missing = c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN();
@@ -34,14 +36,25 @@ struct ConfigurationArrays {
         rotation(std::vector<py::ssize_t>{n, 3, 3}),
         internal_point(std::vector<py::ssize_t>{n, 3}) {}
 
-  void set(py::ssize_t i, const Configuration& c) {
-    Eigen::Map<Vec3>(position.mutable_data() + 3 * i) = c.position;
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.mutable_data() + 9 * i) = c.rotation;
-    Eigen::Map<Vec3>(internal_point.mutable_data() + 3 * i) = c.internal_point;
-  }
   py::tuple result() const { return py::make_tuple(position, rotation, internal_point); }
 
   Array position, rotation, internal_point;
+};
+
+/// Where their numbers lie, for use without the GIL.
+struct ConfigurationPlaces {
+  explicit ConfigurationPlaces(ConfigurationArrays& a)
+      : position(a.position.mutable_data()),
+        rotation(a.rotation.mutable_data()),
+        internal_point(a.internal_point.mutable_data()) {}
+
+  void set(long i, const Configuration& c) const {
+    Eigen::Map<Vec3>(position + 3 * i) = c.position;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation + 9 * i) = c.rotation;
+    Eigen::Map<Vec3>(internal_point + 3 * i) = c.internal_point;
+  }
+
+  double *position, *rotation, *internal_point;
 };
 
 void require_size(const std::string& name, const Array& a, py::ssize_t size) {
@@ -52,12 +65,16 @@ py::tuple neutral_stack(const Array& zp, const Array& zs, const Array& theta_z, 
   require_size("zs", zs, zp.size());
   require_size("theta_z", theta_z, zp.size());
   ConfigurationArrays out(zp.size());
-  for (py::ssize_t i = 0; i < zp.size(); ++i) {
-    const double p = zp.data()[i], s = zs.data()[i], angle = theta_z.data()[i];
-    const bool missing = is_stack && (std::isnan(p) || std::isnan(s) || std::isnan(angle));
-    out.set(i, missing ? Configuration{Vec3(0.0, 0.0, p), rotation_about_z(angle), Vec3(0.0, 0.0, s)}
-                       : neutral(p, s, angle));
-  }
+  const ConfigurationPlaces to(out);
+  const double *heights = zp.data(), *of_o = zs.data(), *angles = theta_z.data();
+  in_slices(zp.size(), stack_block, 1, [&](long first, long last) {
+    for (long i = first; i < last; ++i) {
+      const double p = heights[i], s = of_o[i], angle = angles[i];
+      const bool missing = is_stack && (std::isnan(p) || std::isnan(s) || std::isnan(angle));
+      to.set(i, missing ? Configuration{Vec3(0.0, 0.0, p), rotation_about_z(angle), Vec3(0.0, 0.0, s)}
+                        : neutral(p, s, angle));
+    }
+  });
   return out.result();
 }
 
@@ -65,7 +82,11 @@ py::tuple moved_stack(const Array& position, const Array& rotation, const Array&
   const ConfigurationStack stack(position, rotation, internal_point);
   require_size("tangent", tangent, 9 * stack.count());
   ConfigurationArrays out(stack.count());
-  for (long i = 0; i < stack.count(); ++i) out.set(i, plus(stack[i], Eigen::Map<const Vec9>(tangent.data() + 9 * i)));
+  const ConfigurationPlaces to(out);
+  const double* from = tangent.data();
+  in_slices(stack.count(), stack_block, 1, [&](long first, long last) {
+    for (long i = first; i < last; ++i) to.set(i, plus(stack[i], Eigen::Map<const Vec9>(from + 9 * i)));
+  });
   return out.result();
 }
 

@@ -102,13 +102,15 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
   return result;
 }
 
-Eigen::MatrixXd starts(const Problem& problem, const Settings& settings) {
+Eigen::MatrixXd starts(const Problem& problem, const Settings& settings, const std::stop_token& stop) {
   problem.validate();
   settings.validate();
   const PreparedProblem p(problem, size_limits(problem).back());
   Eigen::MatrixXd out(static_cast<Eigen::Index>(problem.names().size()), settings.starts);
-  for (int k = 0; k < settings.starts; ++k)
+  for (int k = 0; k < settings.starts; ++k) {
+    if (stop.stop_requested()) throw Stopped{};
     out.col(k) = p.without_auxiliary(p.coordinates.variables(p.coordinates.start(k, settings.seed)));
+  }
   return out;
 }
 

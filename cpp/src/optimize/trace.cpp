@@ -7,7 +7,8 @@
 
 namespace ninedof {
 
-Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation formulation, const Settings& settings) {
+Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation formulation, const Settings& settings,
+            const std::stop_token& stop) {
   problem.validate();
   settings.validate();
   const PreparedProblem p(problem, size_limits(problem).back());
@@ -19,7 +20,8 @@ Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation fo
     out.best.push_back(std::min(last, now));
   };
   const RunSettings run_settings{settings.max_evaluations};
-  out.end = run_from_start(p, p.coordinates.coordinates(start), formulation, run_settings, {}, observe).end;
+  out.end = run_from_start(p, p.coordinates.coordinates(start), formulation, run_settings, stop, observe).end;
+  if (stop.stop_requested()) throw Stopped{};
   return out;
 }
 

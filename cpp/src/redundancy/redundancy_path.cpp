@@ -76,10 +76,12 @@ PathPose search_minima(const Geometry& g, const PlatformPose& pose, const Intern
 }
 
 /// The choice at each pose that minimises the sum of values and moves, by dynamic programming.
-std::vector<std::size_t> best_sequence(std::span<const PathPose> path_poses, double coupling) {
+std::vector<std::size_t> best_sequence(std::span<const PathPose> path_poses, double coupling,
+                                       const std::stop_token& stop) {
   std::vector<std::vector<double>> cost;
   std::vector<std::vector<std::size_t>> from;
   for (std::size_t k = 0; k < path_poses.size(); ++k) {
+    if (stop.stop_requested()) throw Stopped{};
     const auto& choices = path_poses[k].choices;
     cost.emplace_back(choices.size(), infinity);
     from.emplace_back(choices.size(), 0);
@@ -107,14 +109,16 @@ std::vector<std::size_t> best_sequence(std::span<const PathPose> path_poses, dou
 
 void minimize_segment(std::span<const PathPose> path_poses, double coupling, const std::stop_token& stop,
                       std::span<InternalPoint> out) {
-  const std::vector<std::size_t> choice = best_sequence(path_poses, coupling);
+  const std::vector<std::size_t> choice = best_sequence(path_poses, coupling, stop);
   std::vector<PathPoint> path;
   for (std::size_t k = 0; k < path_poses.size(); ++k)
     path.push_back({path_poses[k].objective.get(), path_poses[k].choices[choice[k]].x});
   const bool settled = minimize_path(path, coupling, stop);
-  for (std::size_t k = 0; k < path_poses.size(); ++k)
+  for (std::size_t k = 0; k < path_poses.size(); ++k) {
+    if (stop.stop_requested()) throw Stopped{};
     out[k] = internal_point(*path[k].objective, path[k].x,
                             settled ? InternalPointStatus::found : InternalPointStatus::stopped);
+  }
 }
 
 }  // namespace

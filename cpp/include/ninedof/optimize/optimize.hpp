@@ -39,7 +39,7 @@ struct Settings {
 Result optimize(const Problem& problem, const Settings& settings = {}, const Control& control = {});
 
 /// The starts that `optimize` would use, one per column.
-Eigen::MatrixXd starts(const Problem& problem, const Settings& settings);
+Eigen::MatrixXd starts(const Problem& problem, const Settings& settings, const std::stop_token& stop = {});
 
 /// Version of the NLopt library in use, "2.7.1".
 std::string solver_version();

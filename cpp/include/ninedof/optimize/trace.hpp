@@ -17,7 +17,8 @@ struct Trace {
   Candidate end;
 };
 
+/// Throws Stopped.
 Trace trace(const Problem& problem, const Eigen::VectorXd& start, Formulation formulation = Formulation::minimax,
-            const Settings& settings = {});
+            const Settings& settings = {}, const std::stop_token& stop = {});
 
 }  // namespace ninedof

@@ -76,6 +76,7 @@ class Path {
     std::vector<Vec3> gradient(n), out(n);
     std::vector<Eigen::LLT<Mat3>> pivot(n);
     for (std::size_t k = 0; k < n; ++k) {
+      if (stop_.stop_requested()) throw Stopped{};
       Mat3 block = convex(jets_[k].hessian, std::max(least_curvature, 1e-10 * coupling_));
       gradient[k] = jets_[k].gradient;
       for (const std::size_t other : {k - 1, k + 1})  // k - 1 wraps around for k = 0
@@ -102,6 +103,7 @@ class Path {
   bool step(const std::vector<Vec3>& way, double epsilon, double& value) {
     double part = 1.0;
     for (std::size_t k = 0; k < s_.size(); ++k) {  // no point may leave its chamber
+      if (stop_.stop_requested()) throw Stopped{};
       const ScaledPose& pose = points_[k].objective->pose();
       part = std::min(part, 0.9 * pose.step_to_singularity(pose.scaled(s_[k]), way[k] / pose.unit(), 2.0));
     }
