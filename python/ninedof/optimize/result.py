@@ -337,7 +337,7 @@ def result_from(study: Study, data: Mapping[str, Any]) -> Result:
     return Result(
         **known,
         region=region,
-        proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"], "proof"),
+        proof=None if data.get("proof") is None else OptimumProof.from_dict(data["proof"]),
         status=Status(choice("status", data.get("status"), list(Status))),
         candidates=tuple(candidate_from(problem, entry, f"candidates[{k}]") for k, entry in enumerate(listed)),
         study=study,

@@ -84,9 +84,9 @@ class OptimumProof:
         return {name: getattr(self, name) for name in PLAIN} | {"left_out": list(self.left_out)}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any], where: str = "proof") -> OptimumProof:
+    def from_dict(cls, data: Mapping[str, Any]) -> OptimumProof:
         """Return the proof of a mapping as `to_dict` makes it, without its certificate."""
-        return cls(**entries_of(cls, data, where, skipped=["certificate"]))
+        return cls(**entries_of(cls, data, "proof", skipped=["certificate"]))
 
 
 def prove_optimum(

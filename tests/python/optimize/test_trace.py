@@ -121,7 +121,7 @@ def test_bad_arguments():
             nd.trace(STUDY, START, formulation)
     with pytest.raises(ValueError, match="zs: got no value"):
         nd.trace(STUDY, {name: x for name, x in START.items() if name != "zs"})
-    with pytest.raises(ValueError, match=r"^a1: got nan"):
+    with pytest.raises(ValueError, match=r"^start: a1: got nan"):
         nd.trace(STUDY, START | {"a1": math.nan})
     with pytest.raises(ValueError, match=r"^variables: got the entry 'c1'"):
         nd.trace(STUDY, START | {"c1": 1.0})

@@ -192,7 +192,7 @@ row("Front.to_dict", lambda: it.front().to_dict())(dict)
 row("OptimumProof.gap", lambda **a: it.proof().gap(**a))(lambda: {"condition_number": 4.0})
 row("OptimumProof.to_dict", lambda: it.proof().to_dict())(dict)
 row("OptimumProof.from_dict", nd.OptimumProof.from_dict, words={"data": ("proof",)}, loose=("data",))(
-    lambda: {"data": it.proof().to_dict(), "where": "proof"}
+    lambda: {"data": it.proof().to_dict()}
 )
 row(
     "MachineCertificate.from_dict",
