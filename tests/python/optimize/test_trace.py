@@ -123,7 +123,7 @@ def test_bad_arguments():
         nd.trace(STUDY, {name: x for name, x in START.items() if name != "zs"})
     with pytest.raises(ValueError, match=r"^start: a1: got nan"):
         nd.trace(STUDY, START | {"a1": math.nan})
-    with pytest.raises(ValueError, match=r"^variables: got the entry 'c1'"):
+    with pytest.raises(ValueError, match=r"^start: variables: got the entry 'c1'"):
         nd.trace(STUDY, START | {"c1": 1.0})
     with pytest.raises(ValueError, match=r"^study: got .+, expected .+"):
         nd.trace("paper", START)
