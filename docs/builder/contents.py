@@ -33,7 +33,7 @@ TREE = {
             ],
         ),
         ("The paper", ["paper", "values", "equations"]),
-        ("Theory and code", ["theory/index", "reference/index", "architecture", "extend", "comparison"]),
+        ("Theory and code", ["theory/index", "reference/index", "architecture", "extend", "testing", "comparison"]),
         ("Project", ["project/*"]),
     ],
     "theory/index": [

@@ -35,6 +35,7 @@ TEST_SUITE("tracking") {
       const Tracked t = track(g, lengths, c);
       if (t.status != TrackStatus::tracked) continue;
       CHECK((leg_lengths(g, t.configuration) - lengths).cwiseAbs().maxCoeff() < 1e-12 * lengths.maxCoeff());
+      CHECK(t.reached == 1.0);
       if (t.steps > 1 || !(t.certificate <= 0.5)) continue;
       ++certified;
       int within = 0;
