@@ -15,11 +15,11 @@ from ninedof.runs.folder import FILE as RECORD
 from ninedof.runs.objects import split
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
+from ninedof.support.reading import JSON, read_text
 from ninedof.support.versions import versions
 
 FORMAT = "ninedof-command-1"
 FILE = COMMAND
-MOST = 2**27  # bytes: ten times the record of a large front
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Input:
         place, point = split(name)
         file = place / RECORD if place.is_dir() else place
         try:
-            return cls(file.name, file.read_text(encoding="utf-8"), point)
+            return cls(file.name, read_text(file, JSON), point)
         except (OSError, UnicodeDecodeError):
             return None
 
@@ -87,9 +87,7 @@ def read_command(file: Path) -> Asked:
 
     """
     try:
-        if file.stat().st_size > MOST:
-            raise ValueError(f"{file}: got more than {MOST} bytes, expected the command of a run")
-        data: Any = decode(file.read_text(encoding="utf-8"))
+        data: Any = decode(read_text(file, 2 * JSON))  # the text of a record, with its quotes escaped
         known = data["input"]
         kept = None if known is None else Input(*(_text(known[key]) for key in ("name", "text", "point")))
         arguments = data["arguments"]
