@@ -11,15 +11,16 @@ from ninedof.support.arguments import Vector, finite, shown, whole
 from ninedof.support.arrays import Floats
 
 TURNS = 3  # of a spiral
-SHORTEST = 1e-300  # of a motion: its times must differ
+SHORTEST, LONGEST = 1e-300, 1e100  # of a motion: its times must differ, and their squares be numbers
 MOST_POINTS = 10_000_000
 
 
 def times(duration: Any, points: Any) -> Floats:
     """Return evenly spaced times from 0 to the duration."""
     length = finite("duration", duration)
-    if not length > SHORTEST:
-        raise ValueError(f"duration: got {shown(duration)}, expected a number above {SHORTEST:g}")
+    if not SHORTEST < length <= LONGEST:
+        expected = f"expected a number above {SHORTEST:g} and at most {LONGEST:g}"
+        raise ValueError(f"duration: got {shown(duration)}, {expected}")
     return np.linspace(0.0, length, whole("points", points, 3, MOST_POINTS))
 
 

@@ -142,11 +142,11 @@ def path_argument(name: str, value: Any) -> Path:
     if not isinstance(value, str | os.PathLike) or isinstance(found := os.fspath(value), bytes):
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
     try:
-        parts = [len(os.fsencode(part)) for part in Path(found).parts]
+        parts = [len(os.fsencode(part)) for part in (found, *Path(found).parts)]
     except UnicodeError:
-        parts = []
+        parts = [LONGEST_PATH + 1]
     odd = any(unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in TURNING for c in found)
-    if not found or not parts or odd or max(parts) > LONGEST_NAME or sum(parts) > LONGEST_PATH:
+    if not found or odd or parts[0] > LONGEST_PATH or max(parts[1:], default=0) > LONGEST_NAME:
         raise ValueError(f"{name}: got {shown(found)}, expected {expected} of ordinary characters and length")
     return Path(found)
 

@@ -54,6 +54,8 @@ def attacks(command):
                 option = "argument"
             labels = list(BAD) if LONG else pick.sample(list(BAD), FEW[command in DEAR])
             for label in labels:
+                if command == "view" and label == "zero":
+                    continue  # any free port: it shows the design until Ctrl-C
                 made = filled(line)
                 made[k] = BAD[label]
                 yield [command, *made], option, label
@@ -66,7 +68,7 @@ def fault_of(status, out, err):
         return "writes escapes as they were given"
     if "Traceback" in out + err:
         return "prints a traceback"
-    if status in (1, 2) and not err.strip():
+    if status in (1, 2) and not (out + err).strip():
         return "says nothing"
     return f"writes {len(err)} characters" if len(err) > 12_000 else ""
 

@@ -11,6 +11,7 @@ from sizes import LONG
 
 import ninedof as nd
 from ninedof import poses
+from ninedof.support.arguments import path_argument
 
 for tables in ("entry_rows_design", "entry_rows_places"):
     importlib.import_module(tables)
@@ -97,3 +98,14 @@ def test_every_public_name_and_argument_has_a_row(name, thing):
 def test_no_row_without_a_name():
     assert {title.partition(":")[0] for title in ROWS} == {name for name, _ in names()}
     assert set(nd.__all__) >= RESULTS
+
+
+@pytest.mark.parametrize("place", [".", "..", "/", "a b/ü-名.toml", "../x", "y" * 255])
+def test_ordinary_places_are_taken(place):
+    assert str(path_argument("path", place)) == place
+
+
+@pytest.mark.parametrize("place", ["", "a\0b", "a\nb", "\x1b[2J", "y" * 256, "a/" * 2000, "\ud800", b"x", 3, None])
+def test_other_places_are_refused(place):
+    with pytest.raises(ValueError, match=r"^path: got .{0,230}, expected a path[^\n]*$"):
+        path_argument("path", place)

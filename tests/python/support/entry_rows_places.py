@@ -17,7 +17,7 @@ at("Study.load", nd.Study.load, words={"path": ("missing/there", "x", "1.0", "y"
     lambda: {"path": it.study_file()}
 )
 at("Study.save", lambda **a: it.study().save(**a))(lambda: {"path": it.fresh(".toml")})
-at("load", words={"path": ("x", "1.0", "missing/there")})(lambda: {"path": it.run()})
+at("load", words={"path": ("record.json",)})(lambda: {"path": it.run()})
 at("save", few=25)(lambda: {"kept": it.design(), "path": it.fresh(".toml")})
 at("save", of="save: a run", few=15)(lambda: {"kept": it.result(), "path": it.fresh()})
 at("load_certificate", words={"run": ("certify.json",)})(lambda: {"run": it.run()})
