@@ -79,7 +79,7 @@ def test_bad_values_end_in_a_message(command, capsys, monkeypatch):
     for words, option, label in attacks(command):
         tried += 1
         try:
-            with bounded():
+            with bounded(quiet=False):
                 try:
                     main(words)
                     status = 0

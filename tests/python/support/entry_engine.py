@@ -11,6 +11,7 @@ import os
 import random
 import re
 import signal
+import sys
 import traceback
 import warnings
 from collections.abc import Mapping
@@ -178,12 +179,12 @@ def _late(_signal, _frame):
 
 
 @contextlib.contextmanager
-def bounded():
-    """End a call that hangs; warnings are errors; nothing is printed."""
+def bounded(quiet=True):
+    """End a call that hangs; warnings are errors; nothing is printed, if it shall be quiet."""
     before = signal.signal(signal.SIGALRM, _late)
     signal.alarm(LONGEST_CALL)
     try:
-        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO() if quiet else sys.stdout):
             warnings.simplefilter("error")
             yield
     finally:
