@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from struct import error as StructError
+from tokenize import TokenError
 from typing import IO, Any
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
@@ -28,6 +29,7 @@ PIECE = 2**20  # bytes read at a time
 DAMAGE = (
     *(ValueError, KeyError, TypeError, IndexError, AttributeError, EOFError, OverflowError, MemoryError),
     *(NotImplementedError, RuntimeError, BadZipFile, zlib.error, StructError),
+    *(TokenError, SyntaxError),  # numpy tokenizes a header that it cannot read otherwise
 )
 
 

@@ -253,6 +253,15 @@ def test_a_file_of_other_arrays_is_refused(tmp_path, arrays):
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
 
 
+@pytest.mark.parametrize("byte", [b"(", b"'", b"\n  x\n y"])
+def test_a_header_that_numpy_cannot_tokenize_is_damage(tmp_path, byte):
+    """numpy raises tokenize.TokenError, which is no ValueError."""
+    whole = header((1,))
+    path = npz(tmp_path / "a.npz", {"a.npy": whole[: -1 - len(byte)] + byte + b"\n" + bytes(8)})
+    with pytest.raises(ValueError, match="expected a whole one that `save` wrote"):
+        nd.SweepResult.load(path)
+
+
 def test_arrays_of_every_kind_are_read_as_they_were_written(tmp_path):
     arrays = {
         "scalar": np.array(3.5),
