@@ -33,7 +33,10 @@ TREE = {
             ],
         ),
         ("The paper", ["paper", "values", "equations"]),
-        ("Theory and code", ["theory/index", "reference/index", "architecture", "extend", "testing", "comparison"]),
+        (
+            "Theory and code",
+            ["theory/index", "reference/index", "architecture", "extend", "testing", "wheels", "comparison"],
+        ),
         ("Project", ["project/*"]),
     ],
     "theory/index": [
