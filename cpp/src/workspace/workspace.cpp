@@ -93,8 +93,11 @@ WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const I
     }
     using enum WorkspaceSettings::Method;
     if (settings.method == octree) map_by_octree(margins, settings, criteria.singularity_free, control, map);
-    if (settings.method == grid) map_by_grid(margins, settings, criteria.singularity_free, control, map);
-    if (settings.method == sample) map_by_sample(margins, settings, control, map);
+    // A part of a grid or of a sample is no result: a stop leaves the map as it was.
+    WorkspaceMap whole = map;
+    if (settings.method == grid) map_by_grid(margins, settings, criteria.singularity_free, control, whole);
+    if (settings.method == sample) map_by_sample(margins, settings, control, whole);
+    if (settings.method != octree) map = std::move(whole);
   } catch (const Stopped&) {
     map.status = WorkspaceStatus::stopped;
   }

@@ -1,6 +1,8 @@
 #pragma once
 /// One cell of the octree, classified and measured by its corners and its centre; and the connected pieces of many.
 
+#include <stop_token>
+
 #include "workspace/cells/cell_lattice.hpp"
 
 namespace ninedof {
@@ -31,7 +33,8 @@ Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& latt
 
 /// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their
 /// volumes. Cells are connected if an allowed corner lies on the face they share.
+/// Throws Stopped.
 std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
-                                const std::optional<Vec3>& home);
+                                const std::optional<Vec3>& home, const std::stop_token& stop = {});
 
 }  // namespace ninedof

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "math/stop_at_times.hpp"
 #include "workspace/cells/leaf.hpp"
 
 namespace ninedof {
@@ -44,15 +45,17 @@ std::uint32_t& index(Cell& c, int axis) {
   return axis == 0 ? c.i : axis == 1 ? c.j : c.k;
 }
 
-void join_neighbours(const std::vector<Leaf>& leaves, int resolution, Sets& sets) {
+void join_neighbours(const std::vector<Leaf>& leaves, int resolution, Sets& sets, const std::stop_token& stop) {
   KeyTable table;
   std::vector<std::size_t> leaf_of;
   for (std::size_t n = 0; n < leaves.size(); ++n) {
+    stop_at_times(static_cast<long>(n), stop);
     if (leaves[n].inside == 0) continue;
     table.add(key_of(leaves[n].cell));
     leaf_of.push_back(n);
   }
   for (const std::size_t n : leaf_of) {
+    stop_at_times(static_cast<long>(n), stop);
     for (int axis = 0; axis < 3; ++axis)
       for (const bool far : {false, true}) {
         if ((leaves[n].inside & face(axis, far)) == 0) continue;
@@ -83,9 +86,9 @@ bool holds(const Leaf& leaf, const Vec3& unit, int resolution) {
 }  // namespace
 
 std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
-                                const std::optional<Vec3>& home) {
+                                const std::optional<Vec3>& home, const std::stop_token& stop) {
   Sets sets(leaves.size());
-  join_neighbours(leaves, resolution, sets);
+  join_neighbours(leaves, resolution, sets, stop);
   std::vector<double> volume(leaves.size(), 0.0);
   std::vector<std::size_t> leaders;
   for (std::size_t n = 0; n < leaves.size(); ++n) {

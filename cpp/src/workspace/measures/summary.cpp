@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "math/stop_at_times.hpp"
 #include "workspace/cells/tetrahedra.hpp"
 #include "workspace/criteria/limits.hpp"
 
@@ -27,10 +28,14 @@ double face_area(const Leaf& leaf, const Vec3& size, int resolution, int first_a
 }
 
 /// Percentiles 0, 1, ..., 100 of values with weights; linear between the middles of the weights.
-std::vector<double> percentiles(std::vector<std::pair<double, double>> values) {
+std::vector<double> percentiles(std::vector<std::pair<double, double>> values, const std::stop_token& stop) {
   std::vector<double> out(101, not_a_number);
   if (values.empty()) return out;
-  std::sort(values.begin(), values.end());
+  long compared = 0;  // ten million values take seconds
+  std::sort(values.begin(), values.end(), [&](const auto& a, const auto& b) {
+    stop_at_times(++compared, stop);
+    return a < b;
+  });
   double total = 0.0;
   for (const auto& [value, weight] : values) total += weight;
   std::size_t n = 0;
@@ -82,11 +87,13 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
   return out;
 }
 
-void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map) {
+void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map,
+               const std::stop_token& stop) {
   std::vector<std::pair<double, double>> values;
   double held = 0.0, sum = 0.0, coarse = 0.0, worst = 0.0;
   WorkspaceCells& cells = map.cells;
   for (const Leaf& leaf : leaves) {
+    stop_at_times(static_cast<long>(cells.centre.size()), stop);
     cells.centre.push_back(lattice.centre(leaf.cell));
     cells.level.push_back(leaf.cell.level);
     cells.state.push_back(leaf.state);
@@ -105,7 +112,7 @@ void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool
       map.worst_at = leaf.worst_point == KeyTable::absent ? lattice.centre(leaf.cell) : lattice.point(leaf.worst_point);
     }
   }
-  map.percentiles = percentiles(std::move(values));
+  map.percentiles = percentiles(std::move(values), stop);
   if (!(held > 0.0)) return;
   map.conditioning_index = sum / held;
   map.conditioning_index_error = std::abs(sum - coarse) / held + map.error / held * map.conditioning_index;

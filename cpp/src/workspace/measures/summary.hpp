@@ -16,7 +16,8 @@ Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& marg
                    int resolution);
 
 /// Indices, percentiles and cells of a map from leaves.
-void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map);
+void summarize(const std::vector<Leaf>& leaves, const CellLattice& lattice, bool first_piece_alone, WorkspaceMap& map,
+               const std::stop_token& stop = {});
 
 /// Finds the largest ball and box that contain no point of the surface and stay in the chart, and shrinks both to what
 /// is allowed (allowed_scale), or with the best O to whole cells inside.

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "math/numbers.hpp"
+#include "math/stop_at_times.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "workspace/cells/best_points.hpp"
@@ -16,13 +17,19 @@
 namespace ninedof {
 namespace {
 
-/// Evaluates points in order and reports progress between pieces of work.
-std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x, int threads, const Control& control,
-                                    long before, long total, const BestPoints* mapped = nullptr) {
-  std::vector<PointMargins> out(x.size());
-  const long count = static_cast<long>(x.size()), piece = 64 * m.block();
+/// Evaluates points in order, calls take(number, point, margins) for each and reports progress between pieces of work.
+/// No more than a piece is held: memory for all margins of ten million points would take seconds to get.
+template <class PointAt, class Take>
+void evaluate_all(const Margins& m, long count, const PointAt& point_at, int threads, const Control& control,
+                  long before, long total, const BestPoints* mapped, const Take& take) {
+  const long piece = 64 * m.block();
+  std::vector<Vec3> x;
+  std::vector<PointMargins> found;
   for (long done = 0; done < count; done += piece) {
     const long now = std::min(piece, count - done);
+    x.clear();
+    for (long n = 0; n < now; ++n) x.push_back(point_at(done + n));
+    found.assign(at_index(now), {});
     parallel_for(now, m.block(), threads, [&](long from, long to) {
       const auto first = at_index(done + from);
       BestAt best;
@@ -30,11 +37,11 @@ std::vector<PointMargins> evaluated(const Margins& m, const std::vector<Vec3>& x
         best = [&](long k, std::size_t r, const PlatformPose& pose) {
           return mapped->at(first + at_index(k), r, pose);
         };
-      m.evaluate(&x[first], to - from, &out[first], control.stop, best);
+      m.evaluate(&x[at_index(from)], to - from, &found[at_index(from)], control.stop, best);
     });
+    for (long n = 0; n < now; ++n) take(at_index(done + n), x[at_index(n)], found[at_index(n)]);
     if (control.progress) control.progress(before + done + now, total, not_a_number);
   }
-  return out;
 }
 
 /// Writes what follows from the volume and the number of points.
@@ -75,7 +82,10 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   CellLattice lattice(m, n, settings.threads);
   const std::vector<Cell> cells = lattice.roots();
   std::vector<Vec3> x;
-  for (const Cell& cell : cells) x.push_back(lattice.centre(cell));
+  for (const Cell& cell : cells) {
+    stop_at_times(static_cast<long>(x.size()), control.stop);
+    x.push_back(lattice.centre(cell));
+  }
   const Vec3 size = lattice.size(0);
   BestPoints best(m);
   if (best.needed()) {
@@ -86,14 +96,16 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
     best.map(x, {side, side, side}, numbers, settings.threads, control.stop);
     map.internal_points = best.audit();
   }
-  const std::vector<PointMargins> known =
-      evaluated(m, x, settings.threads, control, 0, static_cast<long>(x.size()), best.needed() ? &best : nullptr);
   std::vector<Leaf> leaves;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    leaves.push_back(point_leaf(known[c], m, size.prod() * m.chart().density(x[c])));
-    leaves.back().cell = cells[c];
-  }
-  map.pieces = find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt);
+  evaluate_all(
+      m, static_cast<long>(x.size()), [&](long c) { return x[at_index(c)]; }, settings.threads, control, 0,
+      static_cast<long>(x.size()), best.needed() ? &best : nullptr,
+      [&](std::size_t c, const Vec3& at, const PointMargins& known) {
+        leaves.push_back(point_leaf(known, m, size.prod() * m.chart().density(at)));
+        leaves.back().cell = cells[c];
+      });
+  map.pieces =
+      find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt, control.stop);
 
   Surface surface;
   surface.area.assign(limit::count, 0.0);
@@ -101,6 +113,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   map.volume = 0.0;
   const std::size_t stride[] = {1, at_index(n), at_index(n) * at_index(n)};
   for (std::size_t c = 0; c < leaves.size(); ++c) {
+    stop_at_times(static_cast<long>(c), control.stop);
     Leaf& leaf = leaves[c];
     if (!leaf.counts(first_piece_alone)) continue;
     map.volume += leaf.measure;
@@ -128,7 +141,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
   map.error = 4.0 * std::sqrt(undecided / 12.0);
   finish(m, static_cast<long>(x.size()), n, map);
   map.limit_area = surface.area;
-  summarize(leaves, lattice, first_piece_alone, map);
+  summarize(leaves, lattice, first_piece_alone, map, control.stop);
   if (n <= 128) inscribe(leaves, lattice, m, surface, first_piece_alone, control, map);
 }
 
@@ -142,16 +155,16 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Co
   const long total = settings.points * settings.shifts;
   for (int shift = 0; shift < settings.shifts; ++shift) {
     const Vec3 from = sequence_shift(settings.seed, static_cast<std::uint64_t>(shift));
-    std::vector<Vec3> x;
-    for (long n = 0; n < settings.points; ++n) x.push_back(chart.low() + sequence_point(n, from).cwiseProduct(side));
-    const std::vector<PointMargins> known = evaluated(m, x, settings.threads, control, shift * settings.points, total);
     double held = 0.0, conditioning = 0.0;
-    for (std::size_t n = 0; n < x.size(); ++n) {
-      leaves.push_back(point_leaf(known[n], m, measure / settings.shifts * chart.density(x[n])));
-      held += leaves.back().fraction * leaves.back().measure * settings.shifts;
-      conditioning += leaves.back().conditioning * settings.shifts;
-    }
-    where.insert(where.end(), x.begin(), x.end());
+    evaluate_all(
+        m, settings.points, [&](long n) -> Vec3 { return chart.low() + sequence_point(n, from).cwiseProduct(side); },
+        settings.threads, control, shift* settings.points, total, nullptr,
+        [&](std::size_t, const Vec3& at, const PointMargins& known) {
+          leaves.push_back(point_leaf(known, m, measure / settings.shifts * chart.density(at)));
+          held += leaves.back().fraction * leaves.back().measure * settings.shifts;
+          conditioning += leaves.back().conditioning * settings.shifts;
+          where.push_back(at);
+        });
     volume.push_back(held);
     index.push_back(conditioning);
   }
@@ -164,14 +177,14 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Co
   std::tie(map.volume, map.error) = mean_and_error(volume);
   finish(m, total, settings.resolution, map);
   const CellLattice lattice(m, settings.resolution, settings.threads);
-  summarize(leaves, lattice, false, map);
+  summarize(leaves, lattice, false, map, control.stop);
   map.cells.centre = where;
   double worst = 0.0;
-  for (std::size_t n = 0; n < leaves.size(); ++n)
-    if (leaves[n].worst > worst) {
-      worst = leaves[n].worst;
-      map.worst_at = where[n];
-    }
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    if (!(leaves[n].worst > worst)) continue;
+    worst = leaves[n].worst;
+    map.worst_at = where[n];
+  }
   if (!(map.volume > 0.0)) return;
   std::vector<double> ratio;
   for (std::size_t k = 0; k < volume.size(); ++k)
