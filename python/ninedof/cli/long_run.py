@@ -6,7 +6,7 @@ import shlex
 from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -64,7 +64,8 @@ class Finished:
                 return kind._made(found)
             result = compute()
             if not result.interrupted:
-                store.write(number, result._contents())
+                with suppress(OSError):  # a full disk: the result is worth more than its piece
+                    store.write(number, result._contents())
             return result
 
 

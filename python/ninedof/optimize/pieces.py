@@ -7,6 +7,7 @@ which gives the same result, bit for bit.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -65,7 +66,8 @@ class Pieces:
 
     def _keep(self, arrays: Arrays) -> None:
         if self._store is not None:
-            self._store.write(self._next, arrays)
+            with suppress(OSError):  # a full disk: the result is worth more than its piece
+                self._store.write(self._next, arrays)
             self._next += 1
 
 
