@@ -98,7 +98,7 @@ void bind_machine(py::module_& m) {
     const ProofSettings how = settings_from(settings);
     const WorstCondition found = interruptible(
         progress, [&](const Control& control) { return worst_condition(robot, how, from, control); },
-        [](WorstCondition& found) { return found.interrupted = true; });
+        [](WorstCondition& worst) { return worst.interrupted = true; });
     // More boxes than a record holds are only counted: as Python objects they would fill the memory.
     const auto count = found.left.size();
     return py::make_tuple(tuple_of(found.extreme), count <= most_kept ? found.left : PoseBoxes{}, count, found.tried,
