@@ -153,12 +153,13 @@ def load(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepR
     record = load_record(path)
     if record.kind in ARRAYS:
         return _arrays(record, Path(path))
+    study = record.study  # a run of another kind has none
     name = "front" if record.kind == "front" else "optimization"
     if name not in record.results:
         raise ValueError(f"{os.fspath(path)}: results: got a {record.kind} without {name}, expected a whole one")
     found = table(f"{os.fspath(path)}: results.{name}", record.results[name])
     try:
-        return front_from(record.study, found) if name == "front" else result_from(record.study, found)
+        return front_from(study, found) if name == "front" else result_from(study, found)
     except ValueError as error:
         raise ValueError(f"{os.fspath(path)}: results.{name}: {error}") from None
 

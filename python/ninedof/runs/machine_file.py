@@ -55,7 +55,7 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
     except ValueError as error:
         raise ValueError(f"{file}: not a JSON file: {error}") from None
-    entries = unsealed(data, file) if isinstance(data, dict) else {}
+    entries = unsealed(data, file, required=True) if isinstance(data, dict) else {}
     try:
         return MachineCertificate.from_dict(entries)
     except ValueError as error:

@@ -21,7 +21,7 @@ def escaped(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """Return a message as one line: line feeds are escapes too, and a long one is cut in the middle."""
+    """Return a message as one line: line feeds and tabs are escapes too, and a long one is cut in the middle."""
     if len(text) > MOST:
         text = f"{text[:HEAD]} ... {text[-TAIL:]}"
-    return escaped(text).replace("\n", "\\n")
+    return escaped(text).replace("\n", "\\n").replace("\t", "\\t")
