@@ -6,7 +6,7 @@ import os
 import secrets
 from collections.abc import Callable, Generator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from contextlib import closing, nullcontext
+from contextlib import closing
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
@@ -57,19 +57,25 @@ def run(
     progress_argument(progress)
     if out is not None:
         out = path_argument("out", out)
-    if chunks_of(work) > MOST_CHUNKS:
-        least = -(-work.points // MOST_CHUNKS)
-        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
-    with nullcontext() if out is None else Store(out, work.question(), work.chunk) as store:
-        if store is None:
-            _run(work, begin(None), None, executor, progress)
-            return
+    if out is None:
+        deliver = begin(None)  # says first what does not fit into memory
+        _require_few_chunks(work)
+        _run(work, deliver, None, executor, progress)
+        return
+    _require_few_chunks(work)
+    with Store(out, work.question(), work.chunk) as store:
         try:
             cut = replace(work, chunk=store.chunk)  # type: ignore[type-var]  # every work is a dataclass
             _run(cut, begin(store.folder), store, executor, progress)
         except Exception as error:
             error.add_note(f"Finished chunks are kept in {store.folder}: the same call goes on from there.")
             raise
+
+
+def _require_few_chunks(work: Work) -> None:
+    if chunks_of(work) > MOST_CHUNKS:
+        least = -(-work.points // MOST_CHUNKS)
+        raise ValueError(f"chunk: got {work.chunk} of {work.points} points, expected at least {least}")
 
 
 def _run(

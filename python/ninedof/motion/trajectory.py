@@ -91,7 +91,10 @@ class Trajectory:
         """
         require_single("home", home)
         found = read_trajectory(path, unit)
-        return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
+        try:
+            return cls(found.time, found.position, home.rotation if found.rotation is None else found.rotation)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
 
     @classmethod
     def circle(cls, home: Configuration, radius: float, duration: float = 1.0, points: int = 1001) -> Self:

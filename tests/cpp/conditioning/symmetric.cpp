@@ -6,8 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
+#include "ninedof/conditioning/axis_spectrum.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/axis.hpp"
@@ -104,6 +106,21 @@ TEST_SUITE("symmetric") {
       const double expected = static_cast<double>(oracle::condition_number(g, c, 1.0));
       const double got = condition_number_of(axis_spectrum(axis_design(g, c), 1.0));
       CHECK(relative_error(got, expected) <= 32.0 * eps * expected);
+    }
+  }
+
+  TEST_CASE("of any size: the bits of a design do not depend on the unit") {
+    Random random(105);
+    for (int n = 0; n < 100; ++n) {
+      const auto [g, c] = random_symmetric_robot(random);
+      const Flat x = flat(axis_design(g, c));
+      const double expected = condition_number_of(axis_spectrum_of_any_size(design_of(x), 1.0));
+      CHECK(relative_error(expected, condition_number_of(axis_spectrum(design_of(x), 1.0))) <= 32.0 * eps * expected);
+      for (const int exponent : {-300, -90, 3, 90, 300}) {
+        Flat y = x;
+        for (double& value : y) value = std::ldexp(value, exponent);
+        CHECK(condition_number_of(axis_spectrum_of_any_size(design_of(y), std::ldexp(1.0, exponent))) == expected);
+      }
     }
   }
 

@@ -48,7 +48,7 @@ def test_a_bound_that_does_not_hold_is_said(run, capsys):
     [
         ("", "not a JSON file"),
         ("[]", "expected a certificate written by ninedof"),
-        ('{"format": "ninedof-machine-certificate-1"}', "expected it in a whole file"),
+        ('{"format": "ninedof-machine-certificate-1"}', "got a file that was changed or damaged"),
     ],
 )
 def test_a_broken_certificate_is_named(run, tmp_path, capsys, written, message):

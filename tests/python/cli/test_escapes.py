@@ -141,6 +141,6 @@ def test_a_line_is_one_line_and_short():
     assert escaped("l_c³ °\n") == "l_c³ °\n"
     assert escaped("\ud800") == r"\ud800"
     assert one_line("x" * 10**6).count(" ... ") == 1
-    assert not {chr(code) for code in (*range(10), *range(11, 32), *range(127, 160), *range(0x202A, 0x202F))} & set(
+    assert not {chr(code) for code in (*range(9), *range(11, 32), *range(127, 160), *range(0x202A, 0x202F))} & set(
         escaped("".join(map(chr, range(0x10000))))
     )

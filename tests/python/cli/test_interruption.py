@@ -20,6 +20,7 @@ from ninedof.support.starting import is_command
 LOADING = """
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # inherited as ignored by a job in the background
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # and by one of nohup
 sys.argv = {argv}
 class Loaded:
     def find_spec(self, name, path=None, target=None):

@@ -21,9 +21,8 @@ NAMES = (
     "=cmd|' C'!A0",
     "*! int main(){} *!\"; x('",
     "\\input{x}$x$%{title}",
-    "\x1b]0;evil\x07\u202e",
     "');ENDSEC;",
-    "@SUM(1)\n+1\t-1",
+    "@SUM(1)+1-1",
 )
 
 

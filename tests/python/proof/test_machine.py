@@ -341,10 +341,10 @@ def test_limits_of_the_condition_number_count():
 
 
 def test_poses_beyond_the_doubles_are_undecided():
-    region = nd.Objective(poses=(nd.Pose((1e200, 0.0, 0.0)),))
+    region = nd.Objective(poses=(nd.Pose((1e99, 0.0, 0.0)),))
     asked = replace(study(None), objective=region, constraints={"leg_length": (None, 700.0)})
     geometry = asked.problem().geometry(list(VARIABLES.values()))
-    far = np.array([[0.0, 0.0, 360.0], [1e200, 0.0, 360.0]])
+    far = np.array([[0.0, 0.0, 360.0], [1e99, 0.0, 360.0]])
     poses = nd.Configuration(far, np.repeat(np.eye(3)[None], 2, 0), far - [0.0, 0.0, 100.0])
     made = certify(asked, geometry, poses, 150.0, time_limit=1.0)
     assert "proved" not in {one.answer for one in made.limits}

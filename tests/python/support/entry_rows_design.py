@@ -21,11 +21,14 @@ row("Configuration")(
     lambda: {"position": [0.0, 0.0, 4.0], "rotation": np.eye(3), "internal_point": np.array([0.0, 0.0, 2.0])}
 )
 row("Configuration.neutral", nd.Configuration.neutral)(lambda: {"zp": 4.0, "zs": np.array([2.0, 2.5]), "theta_z": 0.25})
-row("Configuration.moved", lambda **a: it.c().moved(**a), words={"tangent": ("position", "rotation")})(
-    lambda: {"tangent": RATES}
-)
+row(
+    "Configuration.moved", lambda **a: it.c().moved(**a), words={"tangent": ("position", "rotation", "internal_point")}
+)(lambda: {"tangent": RATES})
 
-OF_ROBOT = (*TRIPLES, *"a1 a2 b1 b2 zp zs variables".split())  # what variables make, and those left out
+OF_ROBOT = (
+    *TRIPLES,
+    *"a1 a2 b1 b2 zp zs variables position internal_point".split(),
+)  # what variables make, and those left out
 
 # --- studies ----------------------------------------------------------------------------------------------------------
 
@@ -130,7 +133,7 @@ row("poses.path", poses.path, words={"positions": ("rotations", "position")})(
 
 # --- searches ---------------------------------------------------------------------------------------------------------
 
-row("optimize", huge=("starts",), few=25)(
+row("optimize", huge=("starts",), few=25, loose=("out",))(
     lambda: {
         "study": nd.Study.paper(),
         "starts": 1,
@@ -139,6 +142,7 @@ row("optimize", huge=("starts",), few=25)(
         "progress": None,
         "warm": [DESIGN | {"a1": 0.0, "b2": 0.0}],
         "certify": False,
+        "out": None,
     }
 )
 row("trace", words={"start": OF_ROBOT}, nan=("start",))(
@@ -247,9 +251,15 @@ row("Trajectory", words={"time": ("leading",)})(
     lambda: {"time": np.arange(4.0), "position": np.outer(np.arange(4.0), [0.25, 0.0, 0.5]), "rotation": np.eye(3)}
 )
 SHAPE = {"duration": 1.0, "points": 9}
-row("Trajectory.circle", nd.Trajectory.circle)(lambda: {"home": it.c(), "radius": 0.1, **SHAPE})
-row("Trajectory.line", nd.Trajectory.line)(lambda: {"home": it.c(), "step": [0.1, 0.0, 0.0], **SHAPE})
-row("Trajectory.spiral", nd.Trajectory.spiral)(lambda: {"home": it.c(), "radius": 0.1, "height": 0.1, **SHAPE})
+row("Trajectory.circle", nd.Trajectory.circle, words={"radius": ("position",)})(
+    lambda: {"home": it.c(), "radius": 0.1, **SHAPE}
+)
+row("Trajectory.line", nd.Trajectory.line, words={"step": ("position",)})(
+    lambda: {"home": it.c(), "step": [0.1, 0.0, 0.0], **SHAPE}
+)
+row("Trajectory.spiral", nd.Trajectory.spiral, words={name: ("position",) for name in ("radius", "height")})(
+    lambda: {"home": it.c(), "radius": 0.1, "height": 0.1, **SHAPE}
+)
 row(
     "follow", few=30, loose=("limits",), words={"internal_point": ("leg_lengths",), "characteristic_length": ("kind",)}
 )(

@@ -228,7 +228,16 @@ def test_sweep_over_poses(here, capsys):
     assert status == 0
     assert "leg ratio" in out
     names = {p.name for p in (here / "run").iterdir()}
-    assert names == {"chunks", "record.json", "report.html", "sweep.npz", "sweep.png", "sweep.svg", "sweep.pdf"}
+    assert names == {
+        "chunks",
+        "command.json",
+        "record.json",
+        "report.html",
+        "sweep.npz",
+        "sweep.png",
+        "sweep.svg",
+        "sweep.pdf",
+    }
     found = nd.SweepResult.load("run/sweep.npz")
     home = nd.Configuration.neutral(published.ZP, published.published_zs()[2])
     degrees = np.radians([-30.0, 0.0, 30.0])
@@ -281,7 +290,16 @@ def test_the_atlas_command(here, capsys, monkeypatch):
     assert status == 0
     assert "best of all designs" in out
     names = {p.name for p in (here / "run").iterdir()}
-    assert names == {"chunks", "record.json", "report.html", "atlas.npz", "atlas.png", "atlas.svg", "atlas.pdf"}
+    assert names == {
+        "chunks",
+        "command.json",
+        "record.json",
+        "report.html",
+        "atlas.npz",
+        "atlas.png",
+        "atlas.svg",
+        "atlas.pdf",
+    }
     np.testing.assert_allclose(marked, [(2.0, 3.762659078596)], rtol=1e-9)  # docs/values.md
     data = json.loads(run(capsys, "atlas --designs 50000 --seed 1 --no-figures --json --out other")[1])
     assert data["atlas"]["designs"] == 50000
