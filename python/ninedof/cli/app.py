@@ -65,5 +65,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
     own_option = bool(given) and given[0] in ("-h", "--help", "--version")
     if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")
-    with interruptible(), remembering(given), running(PROGRAM, given):
+    with interruptible(), running(PROGRAM, given), remembering(given):  # its last words while the folder is ours
         raise SystemExit(ended(lambda: app(given, prog_name=PROGRAM, standalone_mode=False), given))

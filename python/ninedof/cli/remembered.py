@@ -7,13 +7,14 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ninedof.cli.interruption import INTERRUPTED
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.runs.command_file import FILE, Asked, Input, asked, read_command
-from ninedof.support.files import is_part
+from ninedof.support.files import is_leftover
+from ninedof.support.printable import one_line
 
 
 @dataclass
@@ -58,16 +59,21 @@ def resumed() -> bool:
 
 
 def remember(directory: Path, reads: Input | None, file: str = FILE, keep: bool = False) -> None:
-    """Write the command that runs, with the file that it reads, into its run folder; `keep` one that is there."""
+    """Write the command that runs, with the file that it reads, into its run folder; `keep` the same that is there."""
     now = _NOW.get()
     if now is None:  # called from Python
         return
     now.file, now.asked = directory / file, now.resumed
-    if now.asked is None and keep and now.file.exists():
-        with suppress(ValueError):
-            now.asked = read_command(now.file)
     if now.asked is None:
-        now.asked = asked(now.arguments, reads)
+        now.asked = anew = asked(now.arguments, reads)
+        if keep and now.file.exists():
+            with suppress(ValueError):
+                kept = read_command(now.file)
+                if kept.same_work(anew):
+                    now.asked = kept
+                    if kept.status is None:
+                        return
+                    now.asked = replace(kept, status=None)
         now.asked.write(now.file)
 
 
@@ -87,11 +93,13 @@ def _ended(now: _Now, code: object) -> None:
     if now.file is None or now.asked is None:
         return
     if code in (None, DONE, NO_RESULT):
-        for left in now.file.parent.iterdir():
-            if is_part(left.name):  # of a run that was killed
-                left.unlink(missing_ok=True)
+        with suppress(OSError):
+            for left in now.file.parent.iterdir():
+                if is_leftover(left):  # of a run that was killed
+                    left.unlink(missing_ok=True)
         with suppress(OSError):  # it would only be done again
             now.asked.ended(code if isinstance(code, int) else DONE).write(now.file)
     elif code == INTERRUPTED:
         with suppress(OSError, ValueError):  # nobody reads
-            print(f"ninedof: `ninedof resume {shlex.quote(str(now.file.parent))}` continues the run", file=sys.stderr)
+            again = f"ninedof resume {shlex.quote(str(now.file.parent))}"
+            print(one_line(f"ninedof: `{again}` continues the run"), file=sys.stderr)

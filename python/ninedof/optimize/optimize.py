@@ -19,7 +19,7 @@ from ninedof.optimize.result import Candidate, Result, Status, candidate_from, r
 from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, listed, warm_starts
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
-from ninedof.support.arguments import choice, flag, instance, shown
+from ninedof.support.arguments import choice, flag, instance, path_argument
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
@@ -95,9 +95,10 @@ def optimize(
     count = thread_argument(threads)
     if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
-    if out is not None and not isinstance(out, str | os.PathLike):
-        raise ValueError(f"out: got {shown(out)}, expected a path")
     given = listed(warm)
+    if out is not None:
+        out = path_argument("out", out)
+        warm_starts(study, given)  # raises, before there is a folder
     question = {"kind": "optimize", "study": study.to_dict(), "warm": [dict(one) for one in given], "proof": certify}
     with nullcontext() if out is None else Store(out, question, 1) as store:
         pieces = Pieces(store)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -88,7 +89,8 @@ class Sweep:
             raise Interrupted
         if self._store is not None:
             data = encode(result.to_dict(), indent=None).encode()
-            self._store.write(number, {KEPT: np.frombuffer(data, dtype=np.uint8)})
+            with suppress(OSError):  # a full disk: the result is worth more than its piece
+                self._store.write(number, {KEPT: np.frombuffer(data, dtype=np.uint8)})
         return result, True
 
     def both_ways(self, limits: Sequence[float]) -> None:

@@ -6,6 +6,7 @@ where somebody has changed the file since.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,10 +17,12 @@ from ninedof.runs.objects import split
 from ninedof.support.files import write_whole
 from ninedof.support.json import decode, encode
 from ninedof.support.reading import JSON, read_text
+from ninedof.support.seal import sealed, unsealed
 from ninedof.support.versions import versions
 
 FORMAT = "ninedof-command-1"
 FILE = COMMAND
+OF_A_PLACE = ("--out", "--scheduler")
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,25 @@ class Asked:
 
     def write(self, file: Path) -> None:
         """Write it, whole or not at all."""
-        write_whole(file, (encode({"format": FORMAT, **asdict(self)}) + "\n").encode())
+        write_whole(file, (encode(sealed({"format": FORMAT, **asdict(self)})) + "\n").encode())
+
+    def own_arguments(self) -> Iterator[str]:
+        """Yield the arguments without those of a place: --out, --resume, and --scheduler.
+
+        Whoever wrote the file does not choose what computer is called: a scheduler runs code in what connects to it.
+        """
+        skip = False
+        for word in self.arguments:
+            if skip:
+                skip = False
+            elif word in OF_A_PLACE:
+                skip = True
+            elif word != "--resume" and not word.startswith(tuple(f"{name}=" for name in OF_A_PLACE)):
+                yield word
+
+    def same_work(self, other: Asked) -> bool:
+        """Return whether two commands ask for the same of the same file."""
+        return self.input == other.input and tuple(self.own_arguments()) == tuple(other.own_arguments())
 
     def ended(self, status: int) -> Asked:
         """Return it with the status at the end."""
@@ -88,6 +109,8 @@ def read_command(file: Path) -> Asked:
     """
     try:
         data: Any = decode(read_text(file, 2 * JSON))  # the text of a record, with its quotes escaped
+        if isinstance(data, dict) and data.get("format") == FORMAT:
+            data = unsealed(data, file, required=True)
         known = data["input"]
         kept = None if known is None else Input(*(_text(known[key]) for key in ("name", "text", "point")))
         arguments = data["arguments"]

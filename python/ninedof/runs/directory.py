@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ninedof.chunks.store import MANIFEST
 from ninedof.support.command import at_end
-from ninedof.support.files import is_part, why_not_writable
+from ninedof.support.files import is_leftover, why_not_writable
 from ninedof.support.lock import LOCK, FolderLock
 
 RUNS = Path("runs")
@@ -26,8 +26,8 @@ def new_directory(out: Path | None) -> Path:
     An existing folder must be empty: a run never overwrites another. A command has the folder to itself until it ends,
     and leaves none that is empty.
     """
-    directory, lock, remove = _begun(out)
-    if not at_end(lambda: _ended(directory, lock, remove)):
+    directory, lock, made = _begun(out)
+    if not at_end(lambda: _give_back(directory, lock, made, _is_nothing)):
         lock.close()
     return directory
 
@@ -38,18 +38,16 @@ def run_directory(out: Path | None) -> Iterator[Path]:
 
     It belongs to this run until the end of the block, or of the command that runs.
     """
-    directory, lock, remove = _begun(out)
-    later = at_end(lambda: _ended(directory, lock, remove))
+    directory, lock, made = _begun(out)
+    later = at_end(lambda: _give_back(directory, lock, made, _is_nothing))
     try:
         yield directory
     except Exception:
-        if all(_is_preparation(path) for path in _files(directory)):
-            lock.close()
-            remove()
+        _give_back(directory, lock, made, _is_preparation, only_empty=True)
         raise
     finally:
         if not later:
-            _ended(directory, lock, remove)
+            _give_back(directory, lock, made, _is_nothing)
 
 
 @contextmanager
@@ -68,8 +66,8 @@ def used_directory(directory: Path, name: str = "out") -> Iterator[Path]:
             lock.close()
 
 
-def _begun(out: Path | None) -> tuple[Path, FolderLock, Callable[[], None]]:
-    """Return a new run folder, its lock, and what removes it again as far as it was made here."""
+def _begun(out: Path | None) -> tuple[Path, FolderLock, list[Path]]:
+    """Return a new run folder, its lock, and the folders that were made for it."""
     if out is None:
         directory, made = _of_now()
     else:
@@ -77,15 +75,6 @@ def _begun(out: Path | None) -> tuple[Path, FolderLock, Callable[[], None]]:
             raise ValueError(f"out: got {out}, which exists and is not an empty folder, expected a new one")
         directory, made = out, _missing(out)
         _create(out, exist_ok=True)
-
-    def remove() -> None:
-        for entry in directory.iterdir() if directory.is_dir() else ():
-            with suppress(OSError):
-                shutil.rmtree(entry) if entry.is_dir() and not entry.is_symlink() else entry.unlink()
-        for folder in made:
-            with suppress(OSError):  # others are there
-                folder.rmdir()
-
     lock = None
     try:
         lock = FolderLock(directory)
@@ -96,19 +85,38 @@ def _begun(out: Path | None) -> tuple[Path, FolderLock, Callable[[], None]]:
     except BaseException:
         if lock is not None:
             lock.close()
-        for folder in made:
-            with suppress(OSError):
-                folder.rmdir()
+        _unmake(made)
         raise
-    return directory, lock, remove
+    return directory, lock, made
 
 
-def _ended(directory: Path, lock: FolderLock, remove: Callable[[], None]) -> None:
-    """Give the folder back; remove it where there is not a single file in it."""
-    empty = all(_is_nothing(path) for path in _files(directory))
-    lock.close()
+def _give_back(
+    directory: Path, lock: FolderLock, made: list[Path], is_nothing: Callable[[Path], bool], only_empty: bool = False
+) -> None:
+    """Let others have the folder; remove it where all that is in it is nothing. Without the lock nothing is touched."""
+    if not lock.held:
+        return
+    empty = all(map(is_nothing, _files(directory)))
     if empty:
-        remove()
+        _clear(directory)  # while it is locked: behind the lock another run may have begun
+    if empty or not only_empty:
+        lock.close()
+    if empty:
+        _unmake(made)
+
+
+def _clear(directory: Path) -> None:
+    with suppress(OSError):
+        for entry in directory.iterdir():
+            if entry.name != LOCK:
+                with suppress(OSError):
+                    shutil.rmtree(entry) if entry.is_dir() and not entry.is_symlink() else entry.unlink()
+
+
+def _unmake(made: list[Path]) -> None:
+    for folder in made:
+        with suppress(OSError):  # others are there
+            folder.rmdir()
 
 
 def _files(directory: Path) -> list[Path]:
@@ -116,7 +124,7 @@ def _files(directory: Path) -> list[Path]:
 
 
 def _is_nothing(path: Path) -> bool:
-    return path.name == LOCK or is_part(path.name)
+    return path.name == LOCK or is_leftover(path)
 
 
 def _is_preparation(path: Path) -> bool:

@@ -13,10 +13,13 @@ _END: ContextVar[ExitStack | None] = ContextVar("end", default=None)
 
 @contextmanager
 def running(program: str, arguments: Sequence[str]) -> Iterator[None]:
-    """Name the command line that runs until the end of the block; then do what `at_end` was given, the last first."""
+    """Name the command line that runs until the end of the block; then do what `at_end` was given, the last first.
+
+    A command that runs within another ends with it.
+    """
     token = _RUNNING.set(shlex.join([program, *arguments]))
     with ExitStack() as stack:
-        end = _END.set(stack)
+        end = _END.set(_END.get() or stack)
         try:
             yield
         finally:

@@ -37,6 +37,11 @@ def is_part(name: str) -> bool:
     return _PART.fullmatch(name) is not None
 
 
+def is_leftover(path: Path) -> bool:
+    """Return whether a path is such a file, and no folder or link of that name."""
+    return is_part(path.name) and path.is_file() and not path.is_symlink()
+
+
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
     """Write a file that appears whole or not at all, even if the power fails; return its path.
 

@@ -80,10 +80,15 @@ class FolderLock:
                 if not kept:
                     os.close(descriptor)
 
+    @property
+    def held(self) -> bool:
+        """Whether the folder is this run's: in a forked child it is not."""
+        return self._descriptor is not None and self._owner == os.getpid()
+
     def close(self) -> None:
         """Let another run use the folder; a second time this does nothing, and nor does it in a forked child."""
         with _mutex:
-            if self._descriptor is None or self._owner != os.getpid():
+            if self._descriptor is None or not self.held:
                 return
             if removes_open_files():  # while it is locked: nobody else can hold this file
                 self._remove()

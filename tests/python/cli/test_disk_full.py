@@ -21,7 +21,7 @@ PLAIN = ["--no-figures", "--no-report"]
 # The arguments of a small run, and how many files it writes while it computes.
 RUNS = {
     "optimize": (["--starts", "1", *PLAIN], 2),
-    "pareto": (["--value", "2", "--starts", "1", *PLAIN], 4),
+    "pareto": (["--value", "2", "--starts", "1", *PLAIN], 2),
     "sweep": (["--over", "x_p=-1:1:3", *PLAIN], 3),
     "atlas": (["--designs", "1000", *PLAIN], 3),
     "workspace": (["--condition", "6", "--resolution", "4", "--tolerance", "0.2", *PLAIN], 2),

@@ -5,6 +5,8 @@ import os
 import shlex
 import shutil
 import signal
+import socket
+from pathlib import Path
 
 import pytest
 from killing import COMMANDS, Killer
@@ -12,6 +14,8 @@ from killing import COMMANDS, Killer
 import ninedof as nd
 from ninedof.chunks import Store
 from ninedof.cli.app import main
+from ninedof.runs.command_file import read_command
+from ninedof.support.seal import sealed, unsealed
 
 LONG = "NINEDOF_LONG" in os.environ
 STUDY = """
@@ -114,13 +118,15 @@ def test_a_certificate_goes_on_where_its_run_now_lies(monkeypatch, tmp_path, cap
 
 
 def edited(**entries):
-    return lambda text: json.dumps(json.loads(text) | entries)
+    """By somebody who knows how the file is sealed."""
+    return lambda text: json.dumps(sealed(unsealed(json.loads(text), "file") | entries))
 
 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         (lambda text: text[: len(text) // 2], "not a JSON file"),
+        (lambda text: text.replace("x_p", "y_p"), "got a file that was changed or damaged"),
         (lambda _: "[]", "got no whole 'ninedof-command-1' file"),
         (edited(format="else"), "got no whole"),
         (edited(arguments=[]), "got no whole"),
@@ -148,13 +154,51 @@ def test_a_foreign_or_damaged_command_is_one_line(monkeypatch, tmp_path, capsys,
 def test_a_remembered_command_writes_into_its_own_folder_alone(monkeypatch, tmp_path):
     interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run")
     file = tmp_path / "run" / "command.json"
-    found = json.loads(file.read_text())
-    found["arguments"] += ["--out", "elsewhere", "--out=elsewhere"]
-    found["input"] = {"name": "../../elsewhere", "text": "", "point": ""}
-    file.write_text(json.dumps(found))
+    arguments = [*json.loads(file.read_text())["arguments"], "--out", "elsewhere", "--out=elsewhere"]
+    file.write_text(
+        edited(arguments=arguments, input={"name": "../../elsewhere", "text": "", "point": ""})(file.read_text())
+    )
     assert run("resume run") == 0
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["run"]
     assert isinstance(nd.load("run"), nd.SweepResult)
+
+
+@pytest.mark.parametrize("words", [["--scheduler", "{address}"], ["--scheduler={address}"]])
+def test_a_remembered_command_calls_nobody(monkeypatch, capsys, words):
+    """A scheduler runs code in what connects to it."""
+    interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run")
+    file = Path("run/command.json")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(0.0)
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        arguments = json.loads(file.read_text())["arguments"] + [word.format(address=address) for word in words]
+        file.write_text(edited(arguments=arguments)(file.read_text()))
+        assert run("resume run") == 0
+        with pytest.raises(BlockingIOError):
+            server.accept()
+    assert "the run was on a cluster: it goes on here" in capsys.readouterr().err
+
+
+def test_resuming_with_another_study_remembers_that_one(monkeypatch, tmp_path, capsys):
+    """The folder of a run that was killed before it kept anything takes another; the same one keeps its own."""
+    (tmp_path / "a.toml").write_text(STUDY)
+    (tmp_path / "b.toml").write_text(STUDY.replace("2.0", "2.5"))
+    kill = {"piece": 0, "number": signal.SIGTERM}
+    assert interrupted(monkeypatch, "optimize a.toml --no-figures --out run", **kill) == 143
+    shutil.rmtree(tmp_path / "run" / "chunks")
+    assert interrupted(monkeypatch, "optimize b.toml --no-figures --out run --resume", **kill) == 143
+    assert "2.5" in read_command(tmp_path / "run" / "command.json").input.text
+    assert run("resume run") == 0
+    assert nd.load("run").study.constraints["radius_ratio"][1] == 2.5
+
+
+def test_the_name_of_a_run_that_has_ended_does_not_act_on_the_terminal(tmp_path, capsys):
+    assert run("sweep --over x_p=-1:1:4 --no-figures --out plain") == 0
+    (tmp_path / "plain").rename(tmp_path / "a\x1b]0;owned\x07b")
+    capsys.readouterr()
+    run(shlex.join(["resume", "a\x1b]0;owned\x07b"]))
+    said = capsys.readouterr()
+    assert "\x1b" not in said.out + said.err
 
 
 def test_a_folder_without_a_command_is_named(tmp_path, capsys):

@@ -82,12 +82,12 @@ def test_a_damaged_piece_is_computed_again(whole, tmp_path):
 
 
 def test_another_question_is_refused(whole):
-    asked, _, _, folder = whole
+    asked, without, _, folder = whole
     for other in (asked.with_solver(5), asked.with_solver(None, 1)):
         with pytest.raises(ValueError, match=r"out: got .*another question \(it differs in study\)"):
             nd.optimize(other, out=folder)
     with pytest.raises(ValueError, match=r"it differs in warm"):
-        nd.optimize(asked, out=folder, warm={"zp": 2.0})
+        nd.optimize(asked, out=folder, warm=without.best.variables)
     with pytest.raises(ValueError, match="out: got 7, expected a path"):
         nd.optimize(asked, out=7)
 
@@ -100,3 +100,10 @@ def test_a_proof_is_kept_with_its_certificate(tmp_path):
     assert again.proof == first.proof  # with its seconds
     assert again.proof.certificate == first.proof.certificate
     assert again.to_dict() == first.to_dict()
+
+
+@pytest.mark.parametrize("warm", [{"nope": 1.0}, {"zp": object()}, {"zp": "x"}])
+def test_bad_designs_to_begin_with_leave_no_folder(tmp_path, warm):
+    with pytest.raises(ValueError, match="warm"):
+        nd.optimize(nd.Study.paper(), warm=warm, out=tmp_path / "run")
+    assert not list(tmp_path.iterdir())

@@ -12,7 +12,7 @@ from ninedof.runs import directory
 from ninedof.runs.directory import new_directory, run_directory, used_directory
 from ninedof.support.command import running
 from ninedof.support.files import part_name
-from ninedof.support.lock import LOCK
+from ninedof.support.lock import LOCK, FolderLock
 
 
 def test_folders_made_in_one_second_differ(tmp_path, monkeypatch):
@@ -59,6 +59,23 @@ def test_a_folder_that_another_run_fills_meanwhile_is_refused(tmp_path, monkeypa
     monkeypatch.setattr(directory, "FolderLock", late)
     with pytest.raises(ValueError, match="which another run is using"):
         new_directory(out)
+    assert [p.name for p in out.iterdir()] == ["record.json"]
+
+
+def test_a_run_that_begins_as_an_empty_one_ends_loses_nothing(tmp_path, monkeypatch):
+    out, close = tmp_path / "out", FolderLock.close
+    begun = []
+
+    def closing(lock):
+        close(lock)
+        if not begun:  # between the lock and the removal
+            begun.append(True)
+            with FolderLock(out):
+                (out / "record.json").write_text("of the other")
+
+    monkeypatch.setattr(FolderLock, "close", closing)
+    with pytest.raises(ValueError, match="bad"):
+        ended_by(ValueError("bad"), out, "chunks/manifest.json")
     assert [p.name for p in out.iterdir()] == ["record.json"]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -13,6 +13,7 @@ from ninedof.cli.remembered import resuming
 from ninedof.runs.command_file import FILE, Asked, read_command
 from ninedof.support.arguments import shown
 from ninedof.support.command import running
+from ninedof.support.printable import one_line
 
 WITH_FOLDER = ("optimize", "pareto", "sweep", "atlas", "workspace")  # those with --out and --resume
 CERTIFY = "certify"
@@ -26,16 +27,18 @@ def resume(
     context: typer.Context,
     run: Annotated[Path, typer.Argument(help="The folder of a run that was interrupted or killed.")],
 ) -> None:
-    """Go on with an interrupted run: the command that began it, with the study it had then. Nothing is done twice."""
+    """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again."""
     found = _unfinished(run)
     if found is None:
-        typer.echo(f"{run}: the run has ended, there is nothing to resume")
+        typer.echo(one_line(f"{run}: the run has ended, there is nothing to resume"))
         return
     name = found.arguments[0]
     command = getattr(context.find_root().command, "commands", {}).get(name)
     if command is None or name not in (*WITH_FOLDER, CERTIFY):
         raise ValueError(f"{run / FILE}: got the command {shown(name)}, expected one that can be resumed")
-    rest = list(without_folder(found.arguments[1:]))
+    rest = list(found.own_arguments())[1:]
+    if any(word.partition("=")[0] == "--scheduler" for word in found.arguments):
+        print("the run was on a cluster: it goes on here; its own command with --resume goes on there", file=sys.stderr)
     own = ["--resume"] if name == CERTIFY else [f"--out={run}", "--resume"]
     with TemporaryDirectory(prefix="ninedof-") as beside:
         stands_for = None if found.input is None else found.input.write(Path(beside))
@@ -56,15 +59,3 @@ def _unfinished(run: Path) -> Asked | None:
         what = "no folder" if not run.is_dir() else f"a folder without {FILE}"
         raise ValueError(f"run: got {run}, {what}, expected the folder of an interrupted run")
     return next((found for found in map(read_command, files) if found.status is None), None)
-
-
-def without_folder(arguments: tuple[str, ...]) -> Iterator[str]:
-    """Yield arguments without --out and --resume."""
-    skip = False
-    for word in arguments:
-        if skip:
-            skip = False
-        elif word == "--out":
-            skip = True
-        elif word != "--resume" and not word.startswith("--out="):
-            yield word
