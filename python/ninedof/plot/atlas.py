@@ -9,6 +9,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from ninedof.plot import style
+from ninedof.plot.arguments import number, swept
+from ninedof.support.arguments import pair
 
 if TYPE_CHECKING:
     from ninedof.sweep import SweepResult
@@ -34,6 +36,9 @@ def atlas(result: SweepResult, optimum: tuple[float, float] | None = None) -> Fi
     >>> figure = plot.atlas(nd.atlas(10**6), optimum=(2.0, 3.762659))  # doctest: +SKIP
 
     """
+    swept(result, ("radius_ratio", "condition_number", "histogram", "best"), "ninedof.atlas")
+    if optimum is not None:
+        optimum = tuple(number("optimum", x, positive=True) for x in pair("optimum", optimum, "two numbers"))  # type: ignore[assignment]
     ratio, kappa = result["radius_ratio"], result["condition_number"]
     counts = result["histogram"]
     total = int(counts.sum())

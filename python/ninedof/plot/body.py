@@ -12,7 +12,10 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-u
 from numpy.typing import ArrayLike
 
 from ninedof.plot import scene, style
+from ninedof.plot.arguments import lines as checked_lines
+from ninedof.plot.arguments import numbers, of_kind, texts
 from ninedof.plot.section import home_mark
+from ninedof.support.arguments import text
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
@@ -56,10 +59,14 @@ def workspace_body(
     >>> figure = nd.plot.workspace_body(found.surface(), home=[0.0, 0.0, 5.2])
 
     """
-    if not len(surface.faces):
+    if not len(of_kind("surface", surface, "WorkspaceSurface", "points", "faces").faces):
         raise ValueError("surface: got no faces, expected a workspace that is not empty")
-    outline = [np.asarray(line, dtype=np.float64) for line in lines]
-    marked = [] if home is None else [np.asarray(home, dtype=np.float64)[None]]
+    numbers("surface", surface.points, None, 3)
+    if len(texts("coordinates", coordinates)) != 3:
+        raise ValueError(f"coordinates: got {len(coordinates)}, expected three names")
+    text("unit", unit)
+    outline = checked_lines("lines", lines, None, 3)
+    marked = [] if home is None else [numbers("home", home, 3)[None]]
     every = np.concatenate([surface.points, *outline, *marked])
     low, high = every.min(axis=0), every.max(axis=0)
     room = 0.04 * float((high - low).max())

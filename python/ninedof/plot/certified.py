@@ -15,7 +15,9 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.arguments import numbers, section, things
 from ninedof.plot.section import home_mark
+from ninedof.support.arguments import text
 from ninedof.support.units import amount
 
 if TYPE_CHECKING:
@@ -38,6 +40,16 @@ class CertifiedPanel:
     home: ArrayLike | None = None
     """The home pose, in the two coordinates drawn."""
 
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        section("section", self.section, "CertifiedSection", "inner")
+        if self.estimate is not None:
+            section("estimate", self.estimate, "WorkspaceSlice", "fraction")
+        if self.region is not None:
+            numbers("region", self.region, None, 2)
+        if self.home is not None:
+            numbers("home", self.home, 2)
+
 
 def certified_workspace(panels: Sequence[CertifiedPanel], unit: str = "") -> Figure:
     """Return a figure of a certified workspace: where poses are proved to be allowed, and where nothing is proved.
@@ -58,8 +70,8 @@ def certified_workspace(panels: Sequence[CertifiedPanel], unit: str = "") -> Fig
         If there are no panels or too many.
 
     """
-    if not 0 < len(panels) <= MOST:
-        raise ValueError(f"panels: got {len(panels)}, expected 1 to {MOST}")
+    things("panels", panels, CertifiedPanel, MOST)
+    text("unit", unit)
     with style.settings():
         engine = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
         figure = style.new_figure(style.TWO_COLUMNS, 3.6 if len(panels) < MOST else 2.9, layout=engine)

@@ -12,6 +12,7 @@ from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, PercentForm
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.arguments import number, runs
 from ninedof.support.arrays import Floats
 
 FLOOR, CEILING = 1e-10, 1e4  # range of gaps: smaller ones are rounding, larger ones starts far from an optimum
@@ -49,16 +50,17 @@ def convergence(
     >>> figure = plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
 
     """
-    if not minimax or not plain:
-        raise ValueError("minimax, plain: got no runs, expected at least one of each")
-    methods = (("minimax SQP", minimax, style.SERIES[1]), ("plain SQP", plain, style.SERIES[0]))
-    longest = max(np.size(run) for run in (*minimax, *plain))
+    number("best", best, positive=True)
+    number("tolerance", tolerance, positive=True)
+    of_methods = runs("minimax", minimax), runs("plain", plain)
+    titles = (("minimax SQP", style.SERIES[1]), ("plain SQP", style.SERIES[0]))
+    longest = max(run.size for each in of_methods for run in each)
     near = style.power_of_ten(tolerance)
     with style.settings():
         figure = style.new_figure(style.TWO_COLUMNS, 4.6)
         share = figure.add_axes((0.095, 0.09, 0.885, 0.235))
-        for x, dashes, (name, runs, colour) in zip((0.095, 0.5525), style.DASHES, methods, strict=False):
-            gaps = [np.maximum(np.atleast_1d(np.asarray(run, dtype=np.float64)) - best, FLOOR) for run in runs]
+        for x, dashes, (name, colour), each in zip((0.095, 0.5525), style.DASHES, titles, of_methods, strict=False):
+            gaps = [np.maximum(run - best, FLOOR) for run in each]
             held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
             axes = figure.add_axes((x, 0.465, 0.4275, 0.475))
             axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} starts arrive")

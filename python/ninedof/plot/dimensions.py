@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,11 +10,10 @@ from matplotlib.patches import Polygon
 
 from ninedof.plot import style
 from ninedof.plot.plates import outlines
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import instance, text
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
-
-if TYPE_CHECKING:
-    from ninedof.robot.geometry import Geometry
 
 OUT = 0.17  # of the reach of a plate: how far its dimensions stand off
 
@@ -38,6 +37,8 @@ def figure_5(geometry: Geometry, unit: str = "") -> Figure:
     >>> figure = nd.plot.figure_5(nd.Geometry.hexagonal(a1=1.5, a2=4.5, b1=2.2, b2=0.8))
 
     """
+    instance("geometry", geometry, Geometry)
+    text("unit", unit)
     with style.settings():
         figure = style.new_figure(style.TWO_COLUMNS, 3.5)
         plates = (

@@ -14,6 +14,8 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-u
 from numpy.typing import ArrayLike
 
 from ninedof.plot import scene, style
+from ninedof.plot.arguments import sizes, things
+from ninedof.support.arguments import text
 from ninedof.support.arrays import Floats
 
 ELEVATION, AZIMUTH = 22.0, -58.0  # degrees: no axis is much foreshortened
@@ -37,6 +39,11 @@ class EllipsoidPanel:
     """Lengths >= 0 in the order of the columns, shape (3,); an infinite one ends at the edge."""
     note: str = ""
     """A second line, such as the symbol and its unit."""
+
+    def __post_init__(self) -> None:
+        """Check the texts; the axes are looked at where they are drawn."""
+        text("title", self.title)
+        text("note", self.note)
 
 
 def ellipsoids(
@@ -70,9 +77,12 @@ def ellipsoids(
     >>> figure = ellipsoids([EllipsoidPanel("velocity", *nd.velocity_ellipsoid(g, c), note="ṗ")])
 
     """
-    if not 0 < len(panels) <= MOST_PANELS:
-        raise ValueError(f"panels: got {len(panels)}, expected 1 to {MOST_PANELS}")
-    shapes = [_checked(panel) for panel in panels]
+    shapes = [
+        sizes("panels", (panel.directions, panel.semi_axes))
+        for panel in things("panels", panels, EllipsoidPanel, MOST_PANELS)
+    ]
+    for name, words in (("source", source), ("source_note", source_note), ("mapping", mapping)):
+        text(name, words)
     finite = [float(a) for _, semi_axes in shapes for a in semi_axes if np.isfinite(a)]
     half = ROOM * max([1.0, *finite])
     count = len(panels) + 1
@@ -84,7 +94,7 @@ def ellipsoids(
         for k, panel in enumerate([unit, *panels]):
             axes = figure.add_axes((k * share, 0.09, share, 0.74), projection="3d")
             _space(axes, half)
-            directions, semi_axes = shapes[k - 1] if k else _checked(unit)
+            directions, semi_axes = shapes[k - 1] if k else (np.eye(3), np.ones(3))
             _body(axes, directions, semi_axes, half, style.SERIES[(0, 2, 1, 3, 2)[k]])
             if k:
                 outline = SCREEN.T @ _circle()
@@ -100,17 +110,6 @@ def ellipsoids(
             figure.text(middle, 0.02, words, ha="center", size=style.SMALL_SIZE)
         _arrow(figure, share, mapping)
     return figure
-
-
-def _checked(panel: EllipsoidPanel) -> tuple[Floats, Floats]:
-    directions = np.asarray(panel.directions, dtype=np.float64)
-    semi_axes = np.asarray(panel.semi_axes, dtype=np.float64)
-    if directions.shape != (3, 3) or semi_axes.shape != (3,):
-        got = f"shapes {directions.shape} and {semi_axes.shape}"
-        raise ValueError(f"panels: got directions and semi-axes of {got}, expected (3, 3) and (3,)")
-    if not np.isfinite(directions).all() or not (semi_axes >= 0.0).all():
-        raise ValueError(f"panels: got semi-axes {semi_axes.tolist()}, expected numbers >= 0 with their directions")
-    return directions, semi_axes
 
 
 def _number(value: float) -> str:

@@ -14,6 +14,7 @@ from matplotlib.image import imsave
 from matplotlib.text import Text
 
 from ninedof.plot import style
+from ninedof.support.arguments import instance, path_argument, shown
 from ninedof.support.files import write_whole
 from ninedof.support.printable import escaped
 
@@ -47,7 +48,10 @@ def save(figure: Figure, directory: str | os.PathLike[str], stem: str) -> list[P
     >>> paths = plot.save(figure, "run", "mechanism")  # doctest: +SKIP
 
     """
-    folder = Path(directory)
+    instance("figure", figure, Figure)
+    folder = path_argument("directory", directory)
+    if path_argument("stem", stem).name != stem:
+        raise ValueError(f"stem: got {shown(stem)}, expected a file name without folder")
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
     with style.settings():

@@ -12,8 +12,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from ninedof.plot import style
+from ninedof.plot.arguments import SMALLEST, number, things
 from ninedof.plot.plates import outlines
 from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import choice, flag, instance, items, text
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -35,6 +37,7 @@ JOINTS: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("platform, internal", style.UPPER, {"marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""}),
 )
 
+COLUMNS = ("limit", "status", "objective", "price", "dominated")
 MOST_SKETCHES = 5
 MOST_LETTERS = 72  # of a line of the title
 MARKS = {"optimal": "o", "stopped": "D"}
@@ -82,6 +85,14 @@ def front(
     >>> figure = front(rows, "radius_ratio")
 
     """
+    rows = _rows(rows)
+    for name, words in (("against", against), ("objective", objective), ("unit", unit)):
+        text(name, words)
+    sketches = things("sketches", sketches, Sketch, MOST_SKETCHES, least=0)
+    for k, sketch in enumerate(sketches):
+        number(f"sketches[{k}].limit", sketch.limit)
+        instance(f"sketches[{k}].geometry", sketch.geometry, Geometry)
+        number(f"sketches[{k}].theta_z", sketch.theta_z)
     if "_deg" in against:
         against, unit = against.replace("_deg", ""), "deg"
     shown = [row for row in rows if math.isfinite(row["limit"])]
@@ -90,8 +101,6 @@ def front(
         sketches = [sketch._replace(limit=math.degrees(sketch.limit)) for sketch in sketches]
     if not shown:
         raise ValueError(f"rows: got {len(rows)} without a finite limit, expected at least one")
-    if len(sketches) > MOST_SKETCHES:
-        raise ValueError(f"sketches: got {len(sketches)}, expected at most {MOST_SKETCHES}")
     with style.settings():
         figure = style.new_figure(style.TWO_COLUMNS, 6.1 if sketches else 4.3)
         share = 1.8 / 6.1 if sketches else 0.0
@@ -105,6 +114,25 @@ def front(
             _sketches(figure, upper, sketches, share, unit)
         _legend(figure, upper, shown)
     return figure
+
+
+def _rows(rows: Any) -> list[Mapping[str, Any]]:
+    """Return the rows, each with what is drawn of it."""
+    out = []
+    for k, row in enumerate(items("rows", rows, "the rows of a front")):
+        where = f"rows[{k}]"
+        if missing := [key for key in COLUMNS if key not in instance(where, row, Mapping)]:  # type: ignore[type-abstract]
+            raise ValueError(f"{where}: got a row without {', '.join(missing)}, expected {', '.join(COLUMNS)}")
+        number(f"{where}.limit", row["limit"], infinite=True)
+        for key in ("objective", "price"):
+            if row[key] is not None:
+                number(f"{where}.{key}", row[key])
+        text(f"{where}.status", row["status"])
+        if row["objective"] is None:
+            choice(f"{where}.status", row["status"], NONE)
+        flag(f"{where}.dominated", row["dominated"])
+        out.append(row)
+    return out
 
 
 def _objective(axes: Any, rows: Sequence[Mapping[str, Any]], objective: str) -> None:
@@ -141,7 +169,7 @@ def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
     """Set the axis of limits, logarithmic for a wide range, and mark limits without a design."""
     limits = np.array([row["limit"] for row in rows], dtype=np.float64)
     low, high = float(limits.min()), float(limits.max())
-    if high > 4.0 * low > 0.0:
+    if high > 4.0 * low > SMALLEST:
         margin = (high / low) ** 0.035
         view = (low / margin, high * margin)
         axes.set_xscale("log")

@@ -12,6 +12,8 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.arguments import number, numbers, things
+from ninedof.support.arguments import items, text
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +40,21 @@ class DesignCurves:
     least: tuple[float, float] | None = None
     """The minimum between the crossings: zs and condition number."""
 
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        text("name", self.name)
+        for place, curve in (("zs", "along_zs"), ("theta_z", "along_theta_z")):
+            at = numbers(place, getattr(self, place), None)
+            numbers(curve, getattr(self, curve), len(at), gaps=True)
+        numbers("point", self.point, 3, gaps=True)
+        for name in ("slope", "level"):
+            if getattr(self, name) is not None:
+                number(name, getattr(self, name))
+        if items("crossings", self.crossings, "a list of heights"):
+            numbers("crossings", self.crossings, None)
+        if self.least is not None:
+            numbers("least", self.least, 2)
+
 
 def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
     """Return a figure of the condition number along zs and along theta_z.
@@ -61,8 +78,8 @@ def condition_curves(designs: Sequence[DesignCurves], unit: str = "") -> Figure:
     >>> figure = plot.condition_curves([design], unit="m")
 
     """
-    if not 0 < len(designs) <= len(style.SERIES):
-        raise ValueError(f"designs: got {len(designs)}, expected 1 to {len(style.SERIES)}")
+    things("designs", designs, DesignCurves, len(style.SERIES))
+    text("unit", unit)
     pairs = list(zip(style.SERIES, designs, strict=False))
     compared = next(((colour, d) for colour, d in pairs if d.level is not None and d.crossings), None)
     with style.settings():

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib import patheffects
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from mpl_toolkits.mplot3d import Axes3D  # type: ignore[import-untyped]
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike
 
 from ninedof.plot import scene, style
+from ninedof.plot.arguments import SMALLEST, number, robot, things
+from ninedof.plot.arguments import lines as checked_lines
+from ninedof.plot.arguments import numbers as checked_numbers
 from ninedof.plot.leg_names import write_names
 from ninedof.plot.plates import distinct, outlines
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arguments import flag, instance, text
 from ninedof.support.arrays import Floats
-
-if TYPE_CHECKING:
-    from ninedof.robot.configuration import Configuration
-    from ninedof.robot.geometry import Geometry
-
 
 DASHES: dict[str, Any] = {"l": "-", "q": (0, (4.5, 0.9)), "r": (0, (1.6, 0.7))}  # told apart without colours
 
@@ -38,6 +40,15 @@ class Mechanism:
     """A second line of the caption, such as the sizes."""
     lines: Sequence[ArrayLike] = ()
     """The outline of a region of poses, lines of points (n, 3)."""
+
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        text("title", self.title)
+        robot(self.geometry, self.configuration)
+        if self.condition_number is not None:
+            number("condition_number", self.condition_number, infinite=True)
+        text("note", self.note)
+        checked_lines("lines", self.lines, None, 3)
 
 
 def draw_mechanism(
@@ -93,13 +104,21 @@ def draw_mechanism(
     >>> plot.draw_mechanism(axes, design, nd.Configuration.neutral(zp=5.0, zs=3.2), unit="m")
 
     """
-    if configuration.shape != ():
-        raise ValueError(f"configuration: got a stack of shape {configuration.shape}, expected a single one")
+    instance("axes3d", axes3d, Axes3D)
+    robot(geometry, configuration)
+    text("title", "" if title is None else title)
+    text("unit", unit)
+    if limits is not None:
+        half, low, high = limits = tuple(checked_numbers("limits", limits, 3).tolist())
+        if not (half >= SMALLEST and high - low >= SMALLEST):
+            raise ValueError(f"limits: got {limits}, expected a half width above 0 and the lowest z before the highest")
+    for name, value in (("legend", legend), ("numbers", numbers), ("bare", bare)):
+        flag(name, value)
     points = all_points(geometry, configuration)
     base, platform, o = points[:6], points[6:12], points[12]
 
-    outline = [np.asarray(line, dtype=np.float64) for line in lines]
-    scene.frame(axes3d, unit, limits or scene.limits(np.concatenate([points, *outline])))
+    outline = checked_lines("lines", lines, None, 3)
+    scene.frame(axes3d, unit, limits if limits is not None else scene.limits(np.concatenate([points, *outline])))
     _plate(axes3d, base, style.BASE, alpha=0.88, zorder=1)
     top = max(float(platform[:, 2].max()), float(o[2]))
     if bare:
@@ -117,7 +136,7 @@ def draw_mechanism(
     joints = np.vstack([distinct(base), distinct(platform)])
     axes3d.plot(*joints.T, "o", color=style.INK, ms=3.2, mec="white", mew=0.5, zorder=21)
     axes3d.plot(*o[:, None], "o", color="white", ms=4.6, mec=style.INK, mew=1.1, zorder=22)
-    others = [np.asarray(line, dtype=np.float64) for line in clear_of]
+    others = checked_lines("clear_of", clear_of, 2, 3)
     write_names(axes3d, legs if numbers else [], o, 0.05 * float(np.ptp(axes3d.get_xlim())), others)
     if title:
         axes3d.set_title(title, loc="center", size=style.TITLE_SIZE, weight="bold", color=style.INK, pad=0)
@@ -144,8 +163,8 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
     >>> figure = plot.mechanisms([plot.Mechanism(f"zs {c.internal_point[2]}", design, c) for c in stand])
 
     """
-    if not panels:
-        raise ValueError("panels: got none, expected at least one Mechanism")
+    things("panels", panels, Mechanism)
+    text("unit", unit)
     every = [np.asarray(line, dtype=np.float64) for panel in panels for line in panel.lines]
     limits = scene.limits(np.vstack([*(all_points(p.geometry, p.configuration) for p in panels), *every]))
     half, low, high = limits
@@ -167,8 +186,8 @@ def mechanisms(panels: Sequence[Mechanism], unit: str = "") -> Figure:
             lines = [panel.title, "" if kappa is None else f"condition number {kappa:.4f}", panel.note]
             for line, down, size in zip(lines, (0.16, 0.3, 0.43), (8.5, 8.0, 7.0), strict=True):
                 weight = "bold" if down < 0.2 else "normal"
-                text = figure.text((k + 0.5) * share, 1.0 - down / height, line, size=size, weight=weight)
-                text.set(ha="center", va="baseline", color=style.MUTED if down > 0.4 else style.INK)
+                caption = figure.text((k + 0.5) * share, 1.0 - down / height, line, size=size, weight=weight)
+                caption.set(ha="center", va="baseline", color=style.MUTED if down > 0.4 else style.INK)
         names = _keys()
         if every:
             names.append(style.key(style.REGION, lw=0.8, label="region of poses"))

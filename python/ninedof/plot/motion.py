@@ -10,6 +10,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from ninedof.plot import style
+from ninedof.plot.arguments import numbers
+from ninedof.support.arguments import instance, pair, text
 from ninedof.support.arrays import Floats
 
 KINDS = (("l", "external legs"), ("q", "upper internal legs"), ("r", "lower internal legs"))
@@ -53,11 +55,18 @@ def motion(
     >>> figure = plot.motion(found.time, found.leg_lengths, found.condition_number)
 
     """
-    t, lengths, kappa = (np.asarray(given, dtype=np.float64) for given in (time, leg_lengths, conditions))
-    if t.ndim != 1 or not len(t) or lengths.shape != (len(t), 9) or kappa.shape != t.shape:
-        got = f"{t.shape}, {lengths.shape} and {kappa.shape}"
-        raise ValueError(f"time, leg_lengths, conditions: got shapes {got}, expected (n,), (n, 9) and (n,)")
-    low, high = (np.zeros(9), np.full(9, np.inf)) if limits is None else (np.broadcast_to(x, 9) for x in limits)
+    t = numbers("time", time, None)
+    lengths = numbers("leg_lengths", leg_lengths, len(t), 9)
+    kappa = numbers("conditions", conditions, len(t), gaps=True, positive=True)
+    low, high = np.zeros(9), np.full(9, np.inf)
+    if limits is not None:
+        both = pair("limits", limits, "least and greatest lengths, each of shape (9,)")
+        low, high = numbers("limits", both[0], 9), numbers("limits", both[1], 9, gaps=True)
+    text("unit", unit)
+    given = {
+        text("margins", name): numbers(f"margins.{name}", values, len(t))
+        for name, values in instance("margins", margins or {}, Mapping).items()  # type: ignore[type-abstract]
+    }
     shown = _drawn(kappa)
     time_words = "time (s)" if unit else "time (in the unit of the path)"
     with style.settings():
@@ -70,19 +79,23 @@ def motion(
             _legs(axes, t[shown], lengths[shown, these], kind)
             _limits(axes, low[these], high[these], lengths[:, these])
             axes.set_title(title, size=style.TEXT_SIZE)
-            axes.set_xlim(t[0], t[-1])
+            _along(axes, t)
             axes.set_xlabel(time_words)
             axes.set_ylabel(style.with_unit("length", unit))
         _condition(figure.add_subplot(grid[1, :]), t[shown], kappa[shown])
         figure.axes[3].set_xlabel(time_words)
         if margins:
-            given = {name: np.asarray(values, dtype=np.float64) for name, values in margins.items()}
             _margins(figure.add_subplot(grid[2, :]), t, given)
             figure.axes[4].set_xlabel(time_words)
         bottom, top = (0.1, 0.94) if not margins else (0.07, 0.96)
         figure.subplots_adjust(left=0.085, right=0.98, bottom=bottom, top=top, hspace=0.5, wspace=0.36)
         figure.align_ylabels([figure.axes[0], *figure.axes[3:]])
     return figure
+
+
+def _along(axes: Any, t: Floats) -> None:
+    if t[0] < t[-1]:
+        axes.set_xlim(t[0], t[-1])
 
 
 def _drawn(kappa: Floats) -> NDArray[np.intp]:
@@ -98,7 +111,7 @@ def _legs(axes: Any, t: Floats, lengths: Floats, kind: str) -> None:
     for j, dashes in enumerate(style.DASHES[:3]):
         axes.plot(t, lengths[:, j], color=style.LEG_COLOURS[kind], ls=dashes, label=f"{kind}{j + 1}")
     least, most = float(np.nanmin(lengths)), float(np.nanmax(lengths))
-    room = max(0.08 * (most - least), 0.01 * most)
+    room = max(0.08 * (most - least), 0.01 * most) or 1.0
     axes.set_ylim(least - room, most + 3.0 * room)
     axes.legend(loc="upper center", ncols=3, handlelength=2.2, columnspacing=1.0)
 
@@ -123,7 +136,7 @@ def _limits(axes: Any, low: Floats, high: Floats, lengths: Floats) -> None:
 def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
     axes.plot(t, style.without_infinite(kappa), color=style.SERIES[0])
     axes.set(ylabel="condition number")
-    axes.set_xlim(t[0], t[-1])
+    _along(axes, t)
     finite = kappa[np.isfinite(kappa)]
     if finite.size and finite.max() > RANGE * finite.min():
         axes.set_yscale("log")
@@ -150,7 +163,7 @@ def _margins(axes: Any, t: Floats, margins: Mapping[str, Floats]) -> None:
     if low < 0.0 and min(float(values.min()) for values in margins.values()) < 0.0:
         axes.axhspan(low, 0.0, color=style.ALARM, alpha=0.12, lw=0.0, zorder=0)
     axes.set_ylim(low, high + 0.22 * (high - low))
-    axes.set_xlim(t[0], t[-1])
+    _along(axes, t)
     words = f"least margin of each limit, drawn up to {100.0 * MOST_MARGIN:g} % of it"
     axes.set_title(words, size=style.TEXT_SIZE, weight="normal")
     axes.set(ylabel="margin (%)")

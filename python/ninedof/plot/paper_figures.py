@@ -10,8 +10,10 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 
 from ninedof.plot import scene, style
+from ninedof.plot.arguments import robot, sizes
 from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.mechanism import Mechanism, all_points, draw_mechanism, mechanisms
+from ninedof.support.arguments import text
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
@@ -43,6 +45,8 @@ def figure_1(geometry: Geometry, configuration: Configuration, unit: str = "") -
     >>> figure = nd.plot.figure_1(g, nd.Configuration([0.6, 0.3, 4.0], internal_point=[0, 0, 2]))
 
     """
+    robot(geometry, configuration)
+    text("unit", unit)
     points = all_points(geometry, configuration)
     half, bottom, top = scene.limits(points)
     low, high = np.array([-half, -half, bottom]), np.array([half, half, top])
@@ -169,6 +173,7 @@ def figure_4(translation: Axes4, rotation: Axes4) -> Figure:
     >>> figure = nd.plot.figure_4(nd.velocity_ellipsoid(g, home), nd.velocity_ellipsoid(g, home, "rotation"))
 
     """
+    translation, rotation = sizes("translation", translation), sizes("rotation", rotation)
     panels = [
         EllipsoidPanel("velocity of the platform", *translation, note="of p, unit of the leg rates"),
         EllipsoidPanel("angular velocity", *rotation, note="times l_c"),

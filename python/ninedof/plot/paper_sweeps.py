@@ -9,6 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ninedof.plot import style
+from ninedof.plot.arguments import swept
+from ninedof.support.arguments import text
 from ninedof.support.arrays import Floats
 
 if TYPE_CHECKING:
@@ -33,6 +35,8 @@ def figure_6(result: SweepResult, unit: str = "l_c") -> Figure:
     >>> figure = nd.plot.figure_6(nd.sweep_figure("6", points=11))
 
     """
+    swept(result, ("coordinate", "displacement", "condition_number"), 'ninedof.sweep_figure("6")')
+    text("unit", unit)
     names, x, rows = (result[key] for key in ("coordinate", "displacement", "condition_number"))
     ends = [x[0], 0.5 * x[0], 0.0, 0.5 * x[-1], x[-1]]
     groups = (
@@ -79,6 +83,7 @@ def figure_7(result: SweepResult) -> Figure:
     >>> figure = nd.plot.figure_7(nd.sweep_figure("7", points=3))
 
     """
+    swept(result, ("sides", "ratio", "condition_number"), 'ninedof.sweep_figure("7")')
     names, x, rows = (result[key] for key in ("sides", "ratio", "condition_number"))
     with style.settings():
         figure = style.new_figure(style.ONE_COLUMN, 2.5)

@@ -12,7 +12,9 @@ from matplotlib.ticker import FixedLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.support.arrays import Floats
+from ninedof.plot.arguments import numbers, texts, things
+from ninedof.support.arguments import text
+from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.printable import escaped
 
 MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
@@ -31,6 +33,11 @@ class PoseConditions:
     name: str
     conditions: ArrayLike
     """Condition number at each pose, shape (n,); infinite where singular."""
+
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        text("name", self.name)
+        numbers("conditions", as_floats("conditions", self.conditions, ()).reshape(-1), None, gaps=True)
 
 
 def poses(
@@ -64,8 +71,10 @@ def poses(
     >>> figure = poses(designs, names=["neutral", "x + 0.1", "x - 0.1"])
 
     """
-    if not 0 < len(designs) <= len(style.SERIES):
-        raise ValueError(f"designs: got {len(designs)}, expected 1 to {len(style.SERIES)}")
+    things("designs", designs, PoseConditions, len(style.SERIES))
+    texts("names", names)
+    text("index", index)
+    text("note", note)
     values = [np.atleast_1d(np.asarray(design.conditions, dtype=np.float64)) for design in designs]
     count = len(values[0])
     if any(v.shape != (count,) for v in values) or not count:

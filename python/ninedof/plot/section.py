@@ -14,6 +14,8 @@ from matplotlib.patches import Circle, Rectangle
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.arguments import number, numbers, section
+from ninedof.support.arguments import pair, shown
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -51,11 +53,29 @@ class Section:
     home: ArrayLike | None = None
     """The home pose, in the two coordinates drawn."""
 
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        section("plane", self.plane, "WorkspaceSlice", "limit", "condition_number", "fraction")
+        if self.ball is not None:
+            centre, radius = pair("ball", self.ball, "centre and radius")
+            numbers("ball", centre, 2)
+            number("ball", radius, positive=True)
+        if self.box is not None:
+            for corner in pair("box", self.box, "low and high corner"):
+                numbers("box", corner, 2)
+        if self.region is not None:
+            numbers("region", self.region, None, 2)
+        if self.home is not None:
+            numbers("home", self.home, 2)
 
-def kind_of(name: str) -> str:
+
+def kind_of(name: str, where: str = "limit_names") -> str:
     """Return the key of `KINDS` of a limit."""
     first = name.split(" ")[0]
-    return first if first in KINDS else first[0]
+    kind = first if first in KINDS else first[:1]
+    if kind not in KINDS:
+        raise ValueError(f"{where}: got {shown(name)}, expected names of limits as in WorkspaceMap.limit_names")
+    return kind
 
 
 def draw_section(axes: Any, section: Section, kinds: Sequence[str], levels: Floats, cut: bool, unit: str) -> Any:

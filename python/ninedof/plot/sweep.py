@@ -11,7 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from ninedof.plot import style
+from ninedof.plot.arguments import swept as checked_sweep
 from ninedof.support.angles import plain_name
+from ninedof.support.arguments import shown, text
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
@@ -48,9 +50,10 @@ def sweep(result: SweepResult, name: str = "") -> Figure:
     >>> figure = plot.sweep(nd.sweep(g, home, {"x_p": (-1.0, 1.0, 41), "y_p": (-1.0, 1.0, 41)}))
 
     """
-    name = name or next(iter(result))
+    checked_sweep(result, (), "ninedof.sweep")
+    name = text("name", name) or next(iter(result))
     if name not in result.arrays:
-        raise ValueError(f"name: got {name!r}, expected one of {', '.join(result)}")
+        raise ValueError(f"name: got {shown(name)}, expected one of {', '.join(result)}")
     dims, values = result.dims[name], result.arrays[name]
     labels = result.coords[dims[-1]] if values.shape and result.coords[dims[-1]].dtype.kind == "U" else None
     swept = dims if labels is None else dims[:-1]

@@ -12,8 +12,10 @@ from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
+from ninedof.plot.arguments import number, numbers, texts, things
 from ninedof.plot.section import BOUNDARY, KINDS, Section, draw_section, home_mark, kind_of
-from ninedof.support.arrays import Floats
+from ninedof.support.arguments import instance, text
+from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.printable import escaped
 
 MOST_SECTIONS = 3
@@ -66,10 +68,23 @@ def workspace(
     >>> figure = workspace([section], found.limit_names, found.limits(), found.percentiles, found.levels)
 
     """
-    if not 0 < len(sections) <= MOST_SECTIONS:
-        raise ValueError(f"sections: got {len(sections)}, expected 1 to {MOST_SECTIONS}")
-    kinds = [kind_of(name) for name in limit_names]
-    known = np.asarray(percentiles, dtype=np.float64)
+    things("sections", sections, Section, MOST_SECTIONS)
+    kinds = [kind_of(name) for name in texts("limit_names", limit_names)]
+    if (most_known := max(int(section.plane.limit.max()) for section in sections)) >= len(kinds):
+        raise ValueError(
+            f"limit_names: got {len(kinds)}, expected at least {most_known + 1}: the sections have so many"
+        )
+    for name, share in instance("shares", shares, Mapping).items():  # type: ignore[type-abstract]
+        kind_of(text("shares", name), "shares")
+        number(f"shares.{name}", share)
+    known = as_floats("percentiles", percentiles, ())
+    if known.size:  # no pose, no numbers
+        numbers("percentiles", known, 101, gaps=True, positive=True)
+    steps = as_floats("levels", levels, ())
+    steps = numbers("levels", steps, None, 4, gaps=True) if steps.size else np.zeros((0, 4))
+    if len(steps):
+        numbers("levels", steps[:, 1], None, positive=True)  # evaluations, along a logarithmic axis
+    text("unit", unit)
     with style.settings():
         upper = 3.37 if len(sections) < MOST_SECTIONS else 2.75  # inches
         engine = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
@@ -92,7 +107,7 @@ def workspace(
         left, middle, right = below.subplots(1, 3)
         _shares(left, shares)
         _distribution(middle, known)
-        _levels(right, np.asarray(levels, dtype=np.float64).reshape(-1, 4))
+        _levels(right, steps)
     return figure
 
 

@@ -10,10 +10,10 @@ from entry_rows import ROWS
 from sizes import LONG
 
 import ninedof as nd
-from ninedof import poses
+from ninedof import plot, poses
 from ninedof.support.arguments import path_argument
 
-for tables in ("entry_rows_design", "entry_rows_places"):
+for tables in ("entry_rows_design", "entry_rows_places", "entry_rows_figures"):
     importlib.import_module(tables)
 
 
@@ -63,7 +63,7 @@ def members(cls):
 
 
 def names():
-    """Every name that can be called: functions, classes that callers make, methods, functions of `poses`."""
+    """Every name that can be called: functions, classes that callers make, methods, names of `poses` and `plot`."""
     for name in nd.__all__:
         thing = getattr(nd, name)
         if not inspect.isclass(thing):
@@ -73,9 +73,10 @@ def names():
                 yield name, thing
             for member in members(thing):
                 yield f"{name}.{member}", getattr(thing, member)
-    for name in poses.__all__:
-        if getattr(poses, name) is not getattr(nd, name, None):
-            yield f"poses.{name}", getattr(poses, name)
+    for module in (poses, plot):
+        for name in module.__all__:
+            if (thing := getattr(module, name)) is not getattr(nd, name, None):
+                yield f"{module.__name__.rpartition('.')[2]}.{name}", thing
 
 
 def parameters(thing):

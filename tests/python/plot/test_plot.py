@@ -189,11 +189,11 @@ def test_labels_carry_the_unit():
 def test_bad_input_is_named():
     with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(2,\)"):
         plot.draw_mechanism(Figure().add_subplot(projection="3d"), PUBLISHED, nd.Configuration.neutral(4.0, [2.0, 2.5]))
-    with pytest.raises(ValueError, match=r"^panels: got none"):
+    with pytest.raises(ValueError, match=r"^panels: got 0"):
         plot.mechanisms([])
     with pytest.raises(ValueError, match=r"^designs: got 0"):
         plot.condition_curves([])
-    with pytest.raises(ValueError, match=r"^minimax, plain: got no runs"):
+    with pytest.raises(ValueError, match=r"^minimax: got no runs"):
         plot.convergence([], [DOWN], best=3.0)
 
 

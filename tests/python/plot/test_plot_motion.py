@@ -41,5 +41,5 @@ def test_a_singular_pose_and_one_leg_at_rest(tmp_path):
 
 
 def test_wrong_shapes():
-    with pytest.raises(ValueError, match="got shapes"):
+    with pytest.raises(ValueError, match="got shape"):
         plot.motion(TIME, LENGTHS[:, :8], KAPPA)
