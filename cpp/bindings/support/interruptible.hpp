@@ -10,6 +10,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <stop_token>
 #include <thread>
 #include <type_traits>
@@ -79,12 +80,15 @@ auto interruptible(const py::object& progress, const Work& work, const Mark& mar
       reported = done;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     } catch (const py::error_already_set& error) {
+      if (call.left_by_worker() && !finished) throw;
       worker.request_stop();
-      join();
+      if (worker.joinable()) join();
       const bool returned = failure || (result && mark(*result));
       if (!error.matches(PyExc_KeyboardInterrupt) || !returned) throw;
       break;
     }
+    if (call.left_by_worker() && !finished)
+      throw std::runtime_error("this process was forked while the call was under way: it goes on in the parent only");
   }
   if (worker.joinable()) join();
   if (failure) std::rethrow_exception(failure);

@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <utility>
+#include <vector>
 
 namespace ninedof::python {
 
@@ -34,14 +36,22 @@ void end_calls() {
   PyEval_RestoreThread(state);
 }
 
-/// After a fork no other thread is there.
-void forget_calls() {
+}  // namespace
+
+void forget_other_threads() {
+  // Never joined nor destroyed: what is left of these threads is a number.
+  static auto& gone = *new std::vector<std::jthread>;
+  int own = 0;
+  for (CoreCall* call = innermost; call != nullptr; call = call->outer_, ++own) {
+    if (call->worker_ == nullptr) continue;
+    gone.push_back(std::move(*call->worker_));
+    call->worker_ = nullptr;
+    call->left_by_worker_ = true;
+  }
   exit_watch.ending = false;
-  exit_watch.running = 0;
+  exit_watch.running = own;
   exit_watch.returning = 0;
 }
-
-}  // namespace
 
 bool interpreter_ends() {
   return exit_watch.ending && exit_watch.ender.load() != std::this_thread::get_id();
@@ -87,7 +97,7 @@ void watch_interpreter_exit() {
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
   const py::module_ os = py::module_::import("os");
   if (py::hasattr(os, "register_at_fork"))
-    os.attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(&forget_calls));
+    os.attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(&forget_other_threads));
 }
 
 }  // namespace ninedof::python

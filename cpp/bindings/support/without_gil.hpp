@@ -24,11 +24,19 @@ class CoreCall {
   CoreCall(const CoreCall&) = delete;
   CoreCall& operator=(const CoreCall&) = delete;
 
+  /// In a process forked from this call: its worker is in the parent alone, so that no result will come.
+  bool left_by_worker() const { return left_by_worker_; }
+
  private:
   friend void sleep_until_the_end();
+  friend void forget_other_threads();
   std::jthread* worker_;
   CoreCall* outer_;
+  bool left_by_worker_ = false;
 };
+
+/// In the child of a fork, where of all threads only the forking one is left: its calls, if it is in any, go on.
+void forget_other_threads();
 
 /// While it lives this thread has no GIL. Where the interpreter ends meanwhile, the destructor never returns.
 class WithoutGil {

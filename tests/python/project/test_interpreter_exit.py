@@ -87,6 +87,50 @@ sys.exit(7 if status == 5 else status)
     assert ended(program)[0] == 7
 
 
+FORKED = """
+import os, signal
+children = []
+
+def forked(*_):
+    if children:
+        return
+    children.append(os.fork())
+    if children[0] == 0:
+        {child}
+
+def alarmed():
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    return nd.optimize(study, starts=10**6, threads=2).interrupted
+
+status = 0
+try:
+    nd.optimize(study, starts=300, threads=2, progress=forked)
+except KeyboardInterrupt:
+    status = 5
+except RuntimeError as error:
+    status = 5 if "it goes on in the parent only" in str(error) else 1
+if children[0] == 0:
+    sys.exit(status)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]))
+"""
+
+
+@pytest.mark.skipif(not hasattr(sys.modules["os"], "fork"), reason="no fork")
+@pytest.mark.parametrize(
+    "child",
+    [
+        "pass  # goes on in the call, whose threads are in the parent",
+        "sys.exit(5)",
+        "sys.exit(5 if nd.optimize(study, starts=2, threads=2).condition_number < 4.0 else 1)",
+        "sys.exit(5 if alarmed() else 1)",
+        "os.kill(os.getpid(), signal.SIGINT)",
+    ],
+    ids=["goes on", "exits", "calls the core", "hears Ctrl-C in a call of its own", "hears Ctrl-C at once"],
+)
+def test_a_child_forked_in_a_progress_callback_ends_with_its_own_status(child):
+    assert ended(HEAD + FORKED.format(child=child)) == (5, "")
+
+
 @pytest.mark.skipif(sys.version_info >= (3, 13), reason="the module of subinterpreters has another name")
 def test_a_subinterpreter_is_refused():
     program = "import _xxsubinterpreters as s\ns.run_string(s.create(), 'import ninedof')\n"
