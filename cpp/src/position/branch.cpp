@@ -16,7 +16,6 @@ namespace {
 
 // O counts as on an external joint within its own error, between these fractions of the largest length.
 constexpr double least_void = 1e-13, largest_void = 1e-9;
-constexpr double unknown = 1e-6;      // error of O, as a fraction of the largest length: it may be anywhere
 constexpr double least_error = 1e-14;     // of the equations
 constexpr double largest_error = 1e-6;    // of the equations: above it the number of modes is uncertain
 constexpr double largest_basis_error = 1e-4;  // of the null-space method: above it real solutions may look complex
@@ -122,12 +121,11 @@ Vec3 equation_errors(const ScaledRotationProblem& p, const Vec3& lengths, const 
 /// legs may be too long or too short. Returns whether this decides the branch: no mode, or a family of rotations.
 bool settled_by_single_legs(ScaledRotationProblem& p, const Vec3& lengths, const BranchScale& scale, const Vec3& error,
                             Branch& out) {
-  constexpr double cosine_slack = 1e-9;
   const double within = largest_void * scale.unit, errors = scale.s_error + scale.o_error;
   const double on_base = std::clamp(scale.s_error, least_void * scale.unit, within);
   const double on_platform = std::clamp(scale.o_error, least_void * scale.unit, within);
   std::array<bool, 3> is_void{};
-  bool any_void = false, any_misfit = false, undecided = errors > unknown * scale.unit;
+  bool any_void = false, any_misfit = false, undecided = errors > unknown_point * scale.unit;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const double d = p.base_distance[k], w = p.platform_distance[k];

@@ -17,7 +17,6 @@ void require_leg_lengths(const Vec9& lengths) {
 }
 
 ScaledRotationProblem rotation_problem(const Geometry& g, const InternalPoints& at, const Vec3& external_lengths) {
-  constexpr double cosine_slack = 1e-9;  // |c| above 1 by this much is rounding: O on the line of the leg
   ScaledRotationProblem p;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);

@@ -8,6 +8,12 @@
 
 namespace ninedof {
 
+/// |c_i| above 1 by no more is rounding: O on the line of the leg.
+inline constexpr double cosine_slack = 1e-9;
+
+/// Error of O, as a fraction of the largest length, from which on the lengths do not place it: it may be anywhere.
+inline constexpr double unknown_point = 1e-6;
+
 /// Throws InvalidArgument unless all are finite, none is negative and at least one is positive.
 void require_leg_lengths(const Vec9& lengths);
 

@@ -97,10 +97,13 @@ Reach set_target(const Robot& robot, const Vec9& lengths, const Mat3& rotation, 
   if (lower.kind == Meeting::none || upper.kind == Meeting::none) return Reach::infeasible;
   // A singularity: the mode can continue in two ways.
   if (lower.kind == Meeting::touching || upper.kind == Meeting::touching) return Reach::not_certified;
+  // Nearly one: a plate so much smaller than its legs that they hardly place O.
+  const double error = lower.error + upper.error;
+  if (!(error <= unknown_point * lengths.maxCoeff())) return Reach::not_certified;
   const ScaledRotationProblem p = rotation_problem(robot.geometry, at, lengths.head<3>());
   if ((p.unit.c.array().abs() > 1.0).any()) return Reach::infeasible;
   if (!p.unit.c.allFinite()) return Reach::not_certified;  // O on an external joint
-  out.emplace(robot, lengths, at, p, rotation, lower.error + upper.error);
+  out.emplace(robot, lengths, at, p, rotation, error);
   return Reach::yes;
 }
 

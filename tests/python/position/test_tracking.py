@@ -266,3 +266,19 @@ def test_wrong_lengths_are_named(published, home, wrong):
 def test_wrong_start_is_named(published):
     with pytest.raises(ValueError, match=r"^start: got "):
         nd.track(published, np.ones(9), np.ones(15))
+
+
+@pytest.mark.parametrize("plate", [1, 3], ids=["base", "platform"])
+@pytest.mark.parametrize(("width", "status"), [(1e-4, "tracked"), (1e-13, "lost"), (1e-15, "lost")])
+def test_a_plate_too_small_to_place_o_is_lost(plate, width, status):
+    """Three internal legs from nearly one point: O moves freely about it, and the condition number is infinite."""
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        triples = rng.normal(size=(4, 3, 3))
+        # In the plane x + y + z = 0 of the middle, so that rounding leaves a triangle.
+        triples[plate] = width * np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [-1.0, 0.0, 1.0]])
+        _, start = any_pose(rng, hexagonal=False)
+        g = nd.Geometry(*triples)
+        there = nd.track(g, nd.leg_lengths(g, start), start)
+        assert there.status == status
+        assert (nd.condition_number(g, start) > 1e12) == (status == "lost")

@@ -13,7 +13,8 @@ namespace ninedof {
 
 enum class TrackStatus {
   tracked,     ///< reached, and proved to be where the start's mode goes along the straight path of the lengths
-  lost,        ///< not reached: on the path the mode meets another, or O a plane of internal joints, or nearly so
+  lost,  ///< not reached: on the path the mode meets another, or O a plane of internal joints, or nearly so; or a
+         ///< plate is so small beside its internal legs that they do not place O
   infeasible,  ///< the internal legs do not meet, or an external leg is too long or too short for the position of O
 };
 
