@@ -9,6 +9,7 @@
 
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
+#include "robot/short_leg.hpp"
 
 namespace ninedof {
 
@@ -26,9 +27,6 @@ EIGEN_ALWAYS_INLINE Vec3 lower_leg(const Configuration& c, const Vec3& r_hat) {
 EIGEN_ALWAYS_INLINE Vec3 upper_leg(const Configuration& c, const Vec3& u_tilde) {
   return c.internal_point - c.position - u_tilde;
 }
-
-/// A leg shorter than this part of the longest one, squared, is a difference of which rounding has eaten the digits.
-constexpr double short_leg = 1e-14;
 
 /// to - from - Q joint with the error of one rounding, however much of it cancels: for short legs.
 Vec3 exact_leg(const Vec3& to, const Vec3& from, const Mat3& rotation, const Vec3& joint);

@@ -4,6 +4,7 @@
 #include "batch/kernels/pack.hpp"
 #include "batch/kernels/table.hpp"
 #include "ninedof/math/xyz.hpp"
+#include "robot/short_leg.hpp"
 
 namespace ninedof::kernels::inline NINEDOF_LEVEL {
 
@@ -23,8 +24,8 @@ struct SquaredLengths {
     greatest = max(squared, greatest);
     return squared;
   }
-  /// Whether no leg is so short that rounding has eaten its digits; short_leg of robot/leg_vectors.hpp.
-  NINEDOF_INLINE typename P::Mask clear() const { return least > 1e-14 * greatest; }
+  /// Whether no leg is so short that rounding has eaten its digits.
+  NINEDOF_INLINE typename P::Mask clear() const { return least > short_leg * greatest; }
 };
 
 /// The unit vectors along three legs, with three square roots and one division.
