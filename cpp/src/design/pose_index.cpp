@@ -5,7 +5,7 @@
 namespace ninedof {
 namespace {
 
-constexpr double tiny = 1e-300;
+constexpr double tiny = AxisPoint::vanished;
 constexpr std::array<int, 2> closed_tops{AxisPoint::axial_max, AxisPoint::transverse_max};
 constexpr std::array<int, 2> closed_bottoms{AxisPoint::axial_min, AxisPoint::transverse_min};
 constexpr std::array<int, 3> general_tops{0, 1, 2}, general_bottoms{5, 4, 3};

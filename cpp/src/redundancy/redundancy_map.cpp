@@ -17,7 +17,6 @@ namespace {
 // Poses between two progress reports; a stop is noticed sooner.
 constexpr std::size_t slice = 512, search_slice = 32;
 constexpr std::size_t least_audit = 32;  // fewer poses give no estimate
-constexpr double deficit = 1e-6;  // relative; a worse value counts as missed
 
 using Indices = std::vector<std::size_t>;
 
@@ -222,7 +221,7 @@ class WavefrontMap {
     for (std::size_t n = 0; n < drawn.size(); ++n) {
       const double lost = shortfall(results_[drawn[n]], found[n]);
       ++out_.audit.poses;
-      if (lost > deficit) ++out_.audit.missed;
+      if (lost > MapAudit::deficit) ++out_.audit.missed;
       out_.audit.largest = std::max(out_.audit.largest, lost);
       if (!replaces(problem_.criterion, found[n], results_[drawn[n]])) continue;
       enter(drawn[n], found[n]);

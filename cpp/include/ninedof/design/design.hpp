@@ -35,6 +35,7 @@ struct AxisShift {
 /// the family's variables and, in one more column, the characteristic length.
 struct AxisPoint {
   enum Row : int { axial_max, axial_min, transverse_max, transverse_min, rows };
+  static constexpr double vanished = 1e-300;  ///< stands for a smallest singular value of zero, which has no logarithm
   Eigen::Matrix<double, rows, 1> value;
   Eigen::Matrix<double, rows, Eigen::Dynamic, Eigen::RowMajor, rows, max_variables + 1> gradient;
 };

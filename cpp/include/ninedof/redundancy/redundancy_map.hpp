@@ -28,8 +28,9 @@ struct MapSettings {
 
 /// How often continuation missed a better point, from searches of poses drawn at random.
 struct MapAudit {
+  static constexpr double deficit = 1e-6;  ///< relative; a value worse by more counts as missed
   std::size_t poses = 0;  ///< searched
-  std::size_t missed = 0;  ///< of them, those where the search found a point better by more than 1e-6 of the value
+  std::size_t missed = 0;  ///< of them, those where the search found a point better by more than `deficit`
   double largest =
       0.0;  ///< greatest such difference, relative to the better value; infinite where the map had no point
 };

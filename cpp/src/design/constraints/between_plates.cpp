@@ -9,9 +9,6 @@
 namespace ninedof {
 namespace {
 
-/// Least distance from either plane, in zp.
-constexpr double gap = 1e-6;
-
 class BetweenPlates : public Constraint {
  public:
   explicit BetweenPlates(std::vector<int> poses) : Constraint(named()), poses_(std::move(poses)) {}
@@ -21,7 +18,7 @@ class BetweenPlates : public Constraint {
   static Limit named() {
     Limit l;
     l.name = "zp > zs";
-    l.low = gap;
+    l.low = plate_gap;
     return l;
   }
   Form form() const override { return Form::plain; }

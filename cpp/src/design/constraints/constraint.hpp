@@ -90,6 +90,9 @@ enum class Purpose { solve, evaluate };
 /// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone). Valid limits only.
 std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose);
 
+/// Least distance of O from the planes of base and platform, in zp, where O is placed.
+inline constexpr double plate_gap = 1e-6;
+
 /// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.
 std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
 

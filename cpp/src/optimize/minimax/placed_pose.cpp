@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/constraints/constraint.hpp"
 #include "math/linear/minimax_step.hpp"
 #include "math/numbers.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr double plate_gap = 1e-6;      // as where O of a listed pose is placed: between_plates.cpp
 constexpr double largest_row = 700.0;   // replaces what is singular
 constexpr double row_window = 0.3;          // rows farther below the largest are left out of a step
 constexpr double longest_shift = 0.25;   // in zp

@@ -10,7 +10,6 @@ namespace ninedof {
 namespace {
 
 constexpr double audited = 1.0 / 128.0;  // of the poses
-constexpr double deficit = 1e-6;         // counts as missed, as in a map
 
 /// Whether a pose is searched as well: by chance, but always the same.
 bool drawn(const Vec3& x, std::size_t r) {
@@ -74,7 +73,7 @@ void BestPoints::note(const InternalPoint& followed, const InternalPoint& search
   const double lost = followed.value / searched.value - 1.0;  // NaN where the search found nothing
   const std::lock_guard lock(guard_);
   ++audit_.poses;
-  if (!(lost > deficit)) return;
+  if (!(lost > MapAudit::deficit)) return;
   ++audit_.missed;
   audit_.largest = std::max(audit_.largest, lost);
 }

@@ -108,14 +108,13 @@ class AxisFamily : public DesignFamily {
   template <class S>
   static void set(const S& s, AxisPoint& out) {
     set_log(s.axial_max, AxisPoint::axial_max, 1.0, out);
-    set_log(s.axial_min, AxisPoint::axial_min, tiny, out);
+    set_log(s.axial_min, AxisPoint::axial_min, AxisPoint::vanished, out);
     set_log(s.transverse_max, AxisPoint::transverse_max, 1.0, out);
-    set_log(s.transverse_min, AxisPoint::transverse_min, tiny, out);
+    set_log(s.transverse_min, AxisPoint::transverse_min, AxisPoint::vanished, out);
   }
 
-  static constexpr double tiny = 1e-300;
   static void set_log(const Dual<N + 1>& x, int row, double stand_in, AxisPoint& out) {
-    const bool gone = !(x.value > tiny);  // NaN included: a leg of zero length
+    const bool gone = !(x.value > AxisPoint::vanished);  // NaN included: a leg of zero length
     out.value[row] = std::log(gone ? stand_in : x.value);
     const double inverse = gone ? 0.0 : 1.0 / x.value;
     for (int k = 0; k <= N; ++k) out.gradient(row, k) = gone ? 0.0 : inverse * x.gradient[at(k)];
