@@ -30,6 +30,10 @@ def hexagonal_condition_number(
     arrays. Made for maps and atlases of millions of designs. All lengths are in units of the characteristic length, and
     theta_z = 0. The designs need not satisfy any constraint, not even zs < zp (eq. 9b).
 
+    Joints are rounded, here and in `Geometry.hexagonal`, and differently so. Where the external legs are shorter than
+    the sides by a factor f, that alone changes the condition number by up to about 1e-15 f, relative: nine digits are
+    left at f = 1e6, three at f = 1e12.
+
     Parameters
     ----------
     a1, a2, b1, b2, zp, zs : array_like
