@@ -4,9 +4,12 @@ import enum
 import importlib
 import inspect
 
+import entry_things as it
+import numpy as np
 import pytest
 from entry_engine import attack
 from entry_rows import ROWS
+from memory import small
 from sizes import LONG
 
 import ninedof as nd
@@ -15,6 +18,12 @@ from ninedof.support.arguments import path_argument
 
 for tables in ("entry_rows_design", "entry_rows_places", "entry_rows_figures"):
     importlib.import_module(tables)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _memory():
+    with small():
+        yield
 
 
 @pytest.fixture(autouse=True)
@@ -110,3 +119,40 @@ def test_ordinary_places_are_taken(place):
 def test_other_places_are_refused(place):
     with pytest.raises(ValueError, match=r"^path: got .{0,230}, expected a path[^\n]*$"):
         path_argument("path", place)
+
+
+# Rows whose good calls return, at the top or further in, a thing of every class in RESULTS.
+RETURNING = (
+    *("forward_position", "track", "velocity_matrices", "condition_number_bounds", "determinant_bounds"),
+    *("velocity_ellipsoid", "error_bounds", "leg_forces", "best_internal_point", "best_internal_map"),
+    *("singularity", "singularity_margins", "distance_to_singularity", "nearest_singularity"),
+    *("follow", "path_limits", "sheet", "sweep", "trace", "Study.evaluate", "check"),
+    *("applicable_bounds", "WorkspaceMap.slice"),
+)
+
+
+def read(thing, seen):
+    """Read every property of a public thing and of what it holds; note the classes."""
+    if isinstance(thing, list | tuple) and not hasattr(thing, "_fields"):
+        for entry in thing[:2]:
+            read(entry, seen)
+    elif isinstance(thing, dict):
+        read(list(thing.values()), seen)
+    elif type(thing).__name__ in RESULTS:
+        assert len(repr(thing)) > 0
+        if hasattr(thing, "_repr_html_"):
+            assert isinstance(thing._repr_html_(), str)
+        for name in dir(thing):
+            if not name.startswith("_") and not callable(value := getattr(thing, name)):
+                seen.setdefault(type(thing).__name__, set()).add(name)
+                read(value, seen)
+
+
+def test_every_property_of_every_result_can_be_read():
+    seen = {}
+    things = [it.result(), it.region_result(), it.certificate(), it.proof(), it.front(), it.workspace(), it.certified()]
+    things += [it.design(), nd.follow(it.g(), it.trajectory(), it.c(), limits=(np.zeros(9), np.full(9, 2.0)))]
+    for thing in (*things, *(ROWS[name].call(**ROWS[name].arguments()) for name in RETURNING)):
+        read(thing, seen)
+    assert set(seen) == RESULTS
+    print(sum(len(names) for names in seen.values()), "properties")

@@ -11,10 +11,18 @@ import entry_things as it
 import numpy as np
 import pytest
 from entry_engine import bounded, fault_of
+from memory import small
 from mutants import csv_mutant, json_mutant, npz_mutant, toml_mutant, torn
 from sizes import size
 
 import ninedof as nd
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _memory():
+    with small():
+        yield
+
 
 STUDY = """
 unit = "mm"
