@@ -13,11 +13,11 @@ from typing import Any
 
 from ninedof.support.arguments import shown
 from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
-from ninedof.support.json import decode, encode, plain
+from ninedof.support.json import decode, plain
 from ninedof.support.lock import LOCK, FolderLock
 from ninedof.support.npz import DAMAGE, read_npz
-from ninedof.support.reading import read_text
-from ninedof.support.seal import digest_of, sealed, unsealed
+from ninedof.support.reading import JSON, read_text
+from ninedof.support.seal import digest_of, unsealed, write_sealed
 from ninedof.support.versions import versions
 
 FORMAT = "ninedof-chunks-2"
@@ -25,7 +25,6 @@ EARLIER = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
 MARK = b"ninedof chunk 2\n"
 DIGEST = 32  # bytes
-MOST = 2**29  # bytes of a manifest: the values along three axes are in it
 LEFTOVER = re.compile(rf"{re.escape(PART)}(chunk-\d{{8,}}|{re.escape(MANIFEST)})-[0-9a-f]{{8}}")  # of a killed run
 ASIDE = "not-a-"  # begins the new name of a folder in the place of a chunk
 
@@ -150,7 +149,7 @@ class Store:
                 with suppress(OSError):
                     entry.unlink()
         if not ours:
-            write_whole(manifest, (encode(sealed(data)) + "\n").encode())
+            write_sealed(manifest, data, JSON)
         return digest_of(data)
 
 
@@ -166,7 +165,7 @@ def _is_leftover(path: Path) -> bool:
 def _manifest(path: Path) -> dict[str, Any]:
     """Return what a manifest says, if ninedof wrote it and nothing of it was changed."""
     try:
-        data = decode(read_text(path, MOST))
+        data = decode(read_text(path, JSON))
         kind = data["format"]
         if kind not in (FORMAT, EARLIER) or not isinstance(data["question"], dict) or not int(data["chunk"]) >= 1:
             raise ValueError

@@ -14,14 +14,14 @@ from typing import Any
 from ninedof.runs.directory import COMMAND
 from ninedof.runs.folder import FILE as RECORD
 from ninedof.runs.objects import split
-from ninedof.support.files import write_whole
-from ninedof.support.json import decode, encode
+from ninedof.support.json import decode
 from ninedof.support.reading import JSON, read_text
-from ninedof.support.seal import sealed, unsealed
+from ninedof.support.seal import unsealed, write_sealed
 from ninedof.support.versions import versions
 
 FORMAT = "ninedof-command-1"
 FILE = COMMAND
+MOST = 2 * JSON  # bytes: the text of a record, with its quotes escaped
 OF_A_PLACE = ("--out", "--scheduler")
 
 
@@ -68,7 +68,7 @@ class Asked:
 
     def write(self, file: Path) -> None:
         """Write it, whole or not at all."""
-        write_whole(file, (encode(sealed({"format": FORMAT, **asdict(self)})) + "\n").encode())
+        write_sealed(file, {"format": FORMAT, **asdict(self)}, MOST)
 
     def own_arguments(self) -> Iterator[str]:
         """Yield the arguments without those of a place: --out, --resume, and --scheduler.
@@ -108,7 +108,7 @@ def read_command(file: Path) -> Asked:
 
     """
     try:
-        data: Any = decode(read_text(file, 2 * JSON))  # the text of a record, with its quotes escaped
+        data: Any = decode(read_text(file, MOST))
         if isinstance(data, dict) and data.get("format") == FORMAT:
             data = unsealed(data, file, required=True)
         known = data["input"]

@@ -23,10 +23,9 @@ from ninedof.runs.describe import describe_comparison, describe_front, front_fro
 from ninedof.support.arguments import choice, table
 from ninedof.support.command import command_line
 from ninedof.support.fields import entries_of
-from ninedof.support.files import write_whole
-from ninedof.support.json import decode, encode
+from ninedof.support.json import decode
 from ninedof.support.reading import JSON, read_text
-from ninedof.support.seal import sealed, unsealed
+from ninedof.support.seal import unsealed, write_sealed
 from ninedof.support.versions import versions
 from ninedof.sweep import SweepResult
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
@@ -189,7 +188,7 @@ def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
         **({"command": record.command} if record.command else {}),
         "files": record.files,
     }
-    return write_whole(Path(directory) / FILE, (encode(sealed(data)) + "\n").encode())
+    return write_sealed(Path(directory) / FILE, data, JSON)
 
 
 def load_record(path: str | os.PathLike[str]) -> Record:

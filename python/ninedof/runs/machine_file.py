@@ -8,10 +8,9 @@ from pathlib import Path
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.runs.objects import split
 from ninedof.support.arguments import path_argument
-from ninedof.support.files import write_whole
-from ninedof.support.json import decode, encode
+from ninedof.support.json import decode
 from ninedof.support.reading import JSON, read_text
-from ninedof.support.seal import sealed, unsealed
+from ninedof.support.seal import unsealed, write_sealed
 
 
 def certificate_file(run: str | os.PathLike[str]) -> Path:
@@ -23,7 +22,7 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
 
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
     """Write a certificate; return its path."""
-    return write_whole(Path(file), (encode(sealed(certificate.to_dict())) + "\n").encode())
+    return write_sealed(Path(file), certificate.to_dict(), JSON)
 
 
 def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:

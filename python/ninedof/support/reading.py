@@ -8,8 +8,8 @@ import re
 import stat
 
 TOML = 4 * 2**20  # bytes of a study or a design: 10 000 poses have 1 MB
-JSON = 64 * 2**20  # of a record, a certificate of a machine or a manifest: the largest seen have 5 MB
-TABLE = 256 * 2**20  # of a path: a million poses have 100 MB
+JSON = 2**29  # of a record, a certificate of a machine or a manifest; none is written that is larger
+TABLE = 2**29  # of a path: a million poses, with all that `ninedof path` writes of them, have 440 MB
 PROOF = 2**31  # of a certificate of an optimum, which is not parsed here: 147 MB for six variables
 DEEPEST = 16  # parts of a key of a TOML file; studies have three. The parser's time is quadratic in them
 

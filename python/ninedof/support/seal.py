@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Mapping
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
+from ninedof.support.files import write_whole
 from ninedof.support.json import encode
 
 DIGEST = "digest"  # the entry of a file
@@ -19,6 +23,21 @@ def digest_of(value: Any, salt: str = "") -> str:
 def sealed(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the entries of a file with the digest of all of them."""
     return {**data, DIGEST: digest_of(data)}
+
+
+def write_sealed(path: Path, data: Mapping[str, Any], most: int) -> Path:
+    """Write the entries of a file with their digest, whole or not at all; return its path.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written, or would have more bytes than are read again.
+
+    """
+    text = encode(sealed(data)) + "\n"
+    if len(text) > most:
+        raise OSError(errno.EFBIG, f"{len(text)} bytes, expected at most {most}", os.fspath(path))
+    return write_whole(path, text.encode())
 
 
 def unsealed(data: Mapping[str, Any], name: object, required: bool = False) -> dict[str, Any]:

@@ -3,16 +3,20 @@
 import errno
 import json
 import os
+import re
 import shlex
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import ninedof as nd
 from ninedof.chunks.run import MOST_CHUNKS
 from ninedof.cli.app import main
+from ninedof.runs import folder
 from ninedof.support import reading
+from ninedof.support.json import encode
 from ninedof.support.reading import DEEPEST, deep_key, read_file, read_text
 
 POSIX = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have names")
@@ -143,7 +147,28 @@ def test_the_same_of_python(published, neutral):
         nd.atlas(2**40, chunk=1)
 
 
-def test_the_bounds_hold_what_the_library_writes(tmp_path):
-    """A study of the most poses is far below the bound of its file."""
+def test_the_bounds_hold_what_the_library_writes(published, neutral):
+    """Studies of the most poses, sweeps of millions of listed values, fronts of a hundred points, a million poses."""
     pose = json.dumps({"position": [0.1234567890123456] * 3, "theta_z_deg": 12.34567890123456})
     assert len(pose) * 10_000 < reading.TOML
+    values = list(np.random.default_rng(0).random(1000))
+    swept = nd.sweep(published, neutral, {"x_p": values, "y_p": values[:1]})
+    assert len(encode(swept.attributes)) / 1000 * 10_000_000 < reading.JSON
+    found = nd.optimize(nd.Study(objective={"poses": nd.poses.ball(0.2, 50)}), starts=2)
+    assert len(encode(found.best.to_dict())) / 50 * 10_000 * 4 * 100 < reading.JSON
+    row = ",".join([repr(-0.12345678901234567)] * 20)
+    assert len(row) * 1_000_000 < reading.TABLE
+
+
+def test_what_could_not_be_read_again_is_not_written(tmp_path, monkeypatch, capsys):
+    found = nd.optimize(nd.Study.paper(), starts=2)
+    monkeypatch.setattr(folder, "JSON", 1000)
+    with pytest.raises(OSError, match=r"bytes, expected at most 1000.*record\.json"):
+        nd.save(found, "run")
+    assert not list(tmp_path.rglob("record.json"))
+    with pytest.raises(SystemExit) as ended:
+        main(shlex.split("optimize --starts 2 --out run-2 --no-figures"))
+    said = capsys.readouterr()
+    assert ended.value.code == 1
+    assert "3.762659" in said.out
+    assert re.fullmatch(r"ninedof: run-2/record\.json: \d+ bytes, expected at most 1000", said.err.splitlines()[-1])
