@@ -246,7 +246,7 @@ class Result:
             relative, 1e-6. threads : 0, one per processor. rule : where O is, where the study places it anew at every
             pose of a region; fitted to the best O if left out. resume : an earlier certificate to go on with.
             progress : called with boxes done, 0 and the worst condition number met; one with a method `phase` is told
-            what begins.
+            what begins. keep : called every 20 seconds with the certificate so far, which `resume` goes on with.
 
         Returns
         -------

@@ -36,6 +36,7 @@ def certify(
     rule: PointRule | Callable[[], PointRule] | None = None,
     resume: MachineCertificate | None = None,
     progress: Progress | None = None,
+    keep: Callable[[MachineCertificate], object] | None = None,
 ) -> MachineCertificate:
     """Prove the limits of a study for one design, and enclose its worst condition number.
 
@@ -65,6 +66,9 @@ def certify(
         An earlier one of the same design, as it was written, whose boxes left are to be gone on with.
     progress : callable, optional
         Called with boxes done, 0, and the worst condition number met; one with a method `phase` is told what begins.
+    keep : callable, optional
+        Called every 20 seconds with the certificate so far, as that of a run that is interrupted: another run goes on
+        with it by `resume`.
 
     Returns
     -------
@@ -85,6 +89,8 @@ def certify(
     how = {"threads": whole("threads", threads, 0, MOST_THREADS), "seconds": seconds, "gap": gap, "condition": 0.0}
     if resume is not None:
         instance("resume", resume, MachineCertificate)
+    if keep is not None and not callable(keep):
+        raise ValueError(f"keep: got {shown(keep)}, expected a callable of one argument")
     only_neutral = region is None and len(configurations) == 1
     if resume is not None and resume.where != _where(study, only_neutral):
         raise ValueError(
@@ -111,22 +117,10 @@ def certify(
         proofs = [row(found) for row in plan.rows]
 
     phase(progress, "proving the condition number")
-    arrays = (stack.position, stack.rotation, stack.internal_point)
-    runs = ConditionSearch(
-        lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
-        how,
-        start + seconds,
-    )
     objective = study.objective
     bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
     wanted = {name: bound for name, bound in bounds.items() if bound is not None}
-    goals = list(wanted.values())
-    if resume is not None:
-        runs.go_on(resume, goals, tolerance)
-    else:
-        runs.enclose(goals, tolerance)
-    for name, bound in wanted.items():
-        proofs.append(_condition_proof(name, bound, runs, tolerance, only_neutral))
+    at_neutral = []
     if objective.neutral_condition_limit is not None:
         there = (alone.position, alone.rotation, alone.internal_point)
         of_neutral = ConditionSearch(
@@ -136,24 +130,40 @@ def certify(
         )
         of_neutral.enclose([objective.neutral_condition_limit], tolerance)
         name = label("condition_limit", "neutral")
-        proofs.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance, True))
-    made = MachineCertificate(
-        where=_where(study, only_neutral),
-        unit=study.unit,
-        limits=tuple(proofs),
-        lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
-        condition=(runs.low, runs.high),
-        condition_at=met_at(runs.end, only_neutral),
-        condition_boxes=runs.boxes,
-        left=tuple(map(tuple, runs.left)),
-        left_count=runs.left_count,
-        target=runs.target,
-        tolerance=tolerance,
-        seconds=perf_counter() - begin,
-        interrupted=runs.interrupted,
-        rule=followed,
+        at_neutral.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance, True))
+
+    def made(interrupted: bool) -> MachineCertificate:
+        of_condition = [_condition_proof(*bound, runs, tolerance, only_neutral) for bound in wanted.items()]
+        certificate = MachineCertificate(
+            where=_where(study, only_neutral),
+            unit=study.unit,
+            limits=(*proofs, *of_condition, *at_neutral),
+            lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
+            condition=(runs.low, runs.high),
+            condition_at=met_at(runs.end, only_neutral),
+            condition_boxes=runs.boxes,
+            left=tuple(map(tuple, runs.left)),
+            left_count=runs.left_count,
+            target=runs.target,
+            tolerance=tolerance,
+            seconds=perf_counter() - begin,
+            interrupted=interrupted,
+            rule=followed,
+        )
+        return sealed(certificate, machine)
+
+    arrays = (stack.position, stack.rotation, stack.internal_point)
+    runs = ConditionSearch(
+        lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
+        how,
+        start + seconds,
+        None if keep is None else lambda: keep(made(True)),
     )
-    return sealed(made, machine)
+    if resume is not None:
+        runs.go_on(resume, list(wanted.values()), tolerance)
+    else:
+        runs.enclose(list(wanted.values()), tolerance)
+    return made(runs.interrupted)
 
 
 def _rule(

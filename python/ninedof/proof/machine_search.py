@@ -42,11 +42,26 @@ def met_at(end: Any, neutral: bool) -> Met:
     return Met(shift, tilt, yaw, None if listed < 0 else 0 if neutral else listed + 1)
 
 
-class ConditionSearch:
-    """Searches for the worst condition number, one after another."""
+SLICE = 20.0  # seconds between two states that are kept
+LEAST = 0.1  # seconds of a search, also where the time is over
+SHARE = 20  # a slice takes so many times what keeping the last state took
+STEPS = (0.3, 0.1)  # bounds on the way to the gap, relative to the worst condition number met
 
-    def __init__(self, search: Callable[[dict[str, Any], Any], Any], how: dict[str, Any], end: float) -> None:
-        self._search, self._how, self._end = search, how, end
+
+class ConditionSearch:
+    """Searches for the worst condition number, one after another.
+
+    With `keep`, which is called when there is a state worth keeping, they are cut into slices.
+    """
+
+    def __init__(
+        self,
+        search: Callable[[dict[str, Any], Any], Any],
+        how: dict[str, Any],
+        end: float,
+        keep: Callable[[], object] | None = None,
+    ) -> None:
+        self._search, self._how, self._end, self._keep = search, how, end, keep
         self.low, self.high, self.target, self.boxes = 0.0, math.inf, math.inf, 0
         self.left: list[tuple[float, ...]] = []
         self.end: Any = None
@@ -55,25 +70,55 @@ class ConditionSearch:
     def enclose(self, wanted: Sequence[float], tolerance: float) -> None:
         """Enclose it; then prove bounds that lie inside, or what still counts as keeping them."""
         self._run([], 0.0)
+        self._narrow()
         self._prove(wanted, tolerance)
+
+    def _narrow(self) -> None:
+        """Prove lower bounds up to the gap: slices and earlier certificates end with the bound that they began with."""
+        gap = self._how["gap"]
+        while not self.left_count and not self.interrupted and self.high > self.low * (1.0 + gap) * (1.0 + 1e-9):
+            self._search_for([], 0.0, 0.0)  # looks at no box, and says what is met
+            wide = self.high / self.low - 1.0
+            step = next((step for step in STEPS if gap < step < 0.9 * wide), gap)
+            self._run(self.left, min(self.low * (1.0 + step), self.high))
 
     def _prove(self, wanted: Sequence[float], tolerance: float) -> None:
         for bound in sorted(wanted, reverse=True):
             goal = bound if self.low < bound else bound * (1.0 + tolerance)
             if not self.left_count and not self.interrupted and self.low < goal < self.high:
-                self._run([], goal)
+                self._search_for([], 0.0, 0.0)  # all poses, as boxes
+                self._run(self.left, goal)
 
     def go_on(self, earlier: MachineCertificate, wanted: Sequence[float], tolerance: float) -> None:
-        """Go on with the boxes of an earlier certificate; from the beginning where it has none, keeping its bound."""
+        """Go on with the boxes of an earlier certificate; without any, below its bound or from the beginning."""
         self.high, self.boxes = earlier.condition[1], earlier.condition_boxes
+        if not earlier.left and math.isinf(self.high):
+            self.enclose(wanted, tolerance)
+            return
         if earlier.left:
             self._run(list(earlier.left), earlier.target)
-            self._prove(wanted, tolerance)
-        else:
-            self.enclose(wanted, tolerance)
+        self._narrow()
+        self._prove(wanted, tolerance)
 
     def _run(self, boxes: list[tuple[float, ...]], target: float) -> None:
-        seconds = max(self._end - perf_counter(), 0.1)
+        """Search until the time is over, in slices where their states are to be kept."""
+        longest = SLICE if self._keep else math.inf
+        while True:
+            begin, before = perf_counter(), self.boxes
+            seconds = max(min(self._end - begin, longest), LEAST)
+            self._search_for(boxes, target, seconds)
+            now = perf_counter()
+            if not self.left_count or self.interrupted or now - begin < seconds or now >= self._end:
+                return
+            if self._keep and self.left:
+                self._keep()
+                # A slice in which nothing was done is too short.
+                longest = max(longest * (1 + (self.boxes == before)), SHARE * (perf_counter() - now))
+                boxes, target = self.left, self.target
+            else:  # more boxes than are handed out: once more from where the slice began, and to the end
+                longest = math.inf
+
+    def _search_for(self, boxes: list[tuple[float, ...]], target: float, seconds: float) -> None:
         # A bound within the gap is tried at once, another after wider ones.
         gap = min(self._how["gap"], target / self.low - 1.0) if target and self.low else self._how["gap"]
         end, left, count, tried, stopped = self._search(

@@ -20,6 +20,11 @@ def certificate_file(run: str | os.PathLike[str]) -> Path:
     return folder / (f"certify-{point}.json" if point else "certify.json")
 
 
+def begun_file(file: Path) -> Path:
+    """Return where the certificate so far of a run lies that has not ended, beside the file of its certificate."""
+    return file.with_name(f"{file.stem}.begun.json")
+
+
 def save_certificate(certificate: MachineCertificate, file: str | os.PathLike[str]) -> Path:
     """Write a certificate; return its path."""
     return write_sealed(Path(file), certificate.to_dict(), JSON)

@@ -6,6 +6,8 @@ import shlex
 import shutil
 import signal
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,7 +16,10 @@ from killing import COMMANDS, Killer
 import ninedof as nd
 from ninedof.chunks import Store
 from ninedof.cli.app import main
+from ninedof.cli.commands import certify
+from ninedof.proof import machine_search
 from ninedof.runs.command_file import read_command
+from ninedof.support.lock import FolderLock
 from ninedof.support.seal import sealed, unsealed
 
 LONG = "NINEDOF_LONG" in os.environ
@@ -115,6 +120,81 @@ def test_a_certificate_goes_on_where_its_run_now_lies(monkeypatch, tmp_path, cap
     assert untimed(whole | {"seal": ""}) == untimed(got | {"seal": ""})
     assert run("resume moved") == 0
     assert "nothing to resume" in capsys.readouterr().out
+
+
+KILLED = """
+import os, signal, sys
+sys.path[:] = {path}
+from ninedof.cli.app import main
+from ninedof.cli.commands import certify
+from ninedof.proof import machine_search
+from ninedof.cli.commands import certify
+from ninedof.proof import machine_search
+machine_search.SLICE = machine_search.LEAST = 0.01
+def save(made, file, write=certify.save_certificate):
+    write(made, file)
+    if made.left_count < 10000:
+        os.kill(os.getpid(), signal.SIGKILL)
+certify.save_certificate = save
+main(["certify", "solved", "--gap", "1e-4"])
+"""
+
+
+def fixed():
+    """A run that takes no time, with a region that takes half a second to be proved."""
+    variables = {"a1": 0.0, "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4, "theta_z": 0.0}
+    made = nd.optimize(nd.Study(variables=variables, objective={"region": {"box": [0.03] * 3, "tilt_deg": 0.6}}))
+    nd.save(made, "solved")
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs kill -9")
+def test_a_killed_certificate_goes_on_where_it_was(tmp_path, capsys):
+    fixed()
+    killed = subprocess.run([sys.executable, "-c", KILLED.format(path=sys.path)], check=False, capture_output=True)
+    assert killed.returncode == -signal.SIGKILL, killed.stderr
+    begun = nd.load_certificate(tmp_path / "solved" / "certify.begun.json")
+    assert begun.interrupted
+    assert begun.left_count
+    assert run("resume solved") == 0
+    made = nd.load_certificate("solved")
+    assert made.condition[1] <= made.condition[0] * 1.0001 * (1.0 + 1e-9)
+    assert made.condition_boxes > begun.condition_boxes
+    assert not (tmp_path / "solved" / "certify.begun.json").exists()
+    assert run("resume solved") == 0
+    assert "nothing to resume" in capsys.readouterr().out
+
+
+def test_a_certificate_whose_time_was_over_goes_on_and_one_that_time_does_not_help_says_so(monkeypatch, capsys):
+    fixed()
+    with monkeypatch.context() as patch:
+        patch.setattr(machine_search, "LEAST", 1e-9)
+        assert run("certify solved --gap 1e-3 --time 0") == 3
+        assert nd.load_certificate("solved").left_count
+    monkeypatch.setattr(machine_search, "LEAST", 100.0)
+    assert run("resume solved") == 0
+    assert not nd.load_certificate("solved").left_count
+    assert run("certify solved --condition 1.5") == 3
+    capsys.readouterr()
+    before = nd.load_certificate("solved")
+    assert run("resume solved") == 0
+    assert "nothing to resume (not proved, and no matter of time: condition number violated)" in capsys.readouterr().out
+    assert nd.load_certificate("solved") == before
+
+
+def test_an_earlier_certificate_is_read_when_the_folder_is_locked(monkeypatch):
+    fixed()
+    assert run("certify solved") == 0
+    read = []
+
+    def locked(file):
+        with pytest.raises(ValueError, match="another run is using"):
+            FolderLock(Path("solved"))
+        read.append(file)
+        return nd.load_certificate(file)
+
+    monkeypatch.setattr(certify, "load_certificate", locked)
+    assert run("certify solved --resume") == 0
+    assert [file.name for file in read] == ["certify.json"]
 
 
 def edited(**entries):

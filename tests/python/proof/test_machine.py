@@ -18,6 +18,7 @@ from sizes import LONG, size
 
 import ninedof as nd
 from ninedof import _core
+from ninedof.proof import machine_search
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate, outward
 
@@ -338,6 +339,36 @@ def test_limits_of_the_condition_number_count():
         assert answers["condition_limit"] == answer
         assert answers["condition_limit at neutral"] == "proved"
         assert made.proved == all(one == "proved" for one in answers.values())
+
+
+def test_a_proof_whose_states_are_kept_comes_to_its_end_and_goes_on_from_each(monkeypatch):
+    *_, whole = proved(SMALL, gap=1e-4)
+    for name, value in (("SLICE", 0.01), ("LEAST", 0.01), ("SHARE", 0)):
+        monkeypatch.setattr(machine_search, name, value)
+    kept = []
+    geometry, neutral, found = proved(SMALL, gap=1e-4, keep=kept.append)
+    assert kept
+    assert not found.interrupted
+    for part in (kept[0], kept[-1]):
+        assert part.interrupted
+        assert part.left_count == len(part.left) > 0
+        assert part.limits == found.limits
+        assert part.condition[0] <= found.condition[0]
+        assert part.condition[1] >= found.condition[1]
+        again = certify(study(SMALL), geometry, neutral, 150.0, gap=1e-4, resume=part)
+        assert again.left_count == 0
+        for made in (found, again):
+            assert made.condition[1] <= made.condition[0] * (1.0 + 1e-4) * (1.0 + 1e-9)
+            assert made.condition[0] <= whole.condition[1]
+            assert whole.condition[0] <= made.condition[1]
+
+
+def test_a_certificate_of_a_wider_gap_goes_on_below_its_bound():
+    geometry, neutral, wide = proved(SMALL, gap=0.5)
+    assert not wide.left_count
+    narrow = certify(study(SMALL), geometry, neutral, 150.0, gap=0.02, resume=wide)
+    assert narrow.condition[1] <= narrow.condition[0] * 1.02 * (1.0 + 1e-9)
+    assert not narrow.left_count
 
 
 def test_poses_beyond_the_doubles_are_undecided():

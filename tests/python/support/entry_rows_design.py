@@ -182,6 +182,7 @@ row("Result.certify", lambda **a: it.region_result().certify(**a), few=2)(
         "rule": None,
         "resume": None,
         "progress": None,
+        "keep": None,
     }
 )
 row("Result.is_certified_by", lambda **a: it.region_result().is_certified_by(**a))(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -18,7 +20,7 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.runs.command_file import FILE as COMMAND
 from ninedof.runs.command_file import Input
 from ninedof.runs.directory import used_directory
-from ninedof.runs.machine_file import certificate_file, load_certificate, save_certificate
+from ninedof.runs.machine_file import begun_file, certificate_file, load_certificate, save_certificate
 from ninedof.runs.objects import load, split
 from ninedof.support.arguments import finite
 from ninedof.support.units import with_unit
@@ -55,9 +57,15 @@ def certify(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     file = certificate_file(run)
-    earlier = load_certificate(run) if resume and (file.exists() or not resumed()) else None
+    begun = begun_file(file)
+
+    def keep(so_far: MachineCertificate) -> None:
+        with suppress(OSError):  # a full disk: the proof goes on, and is said
+            save_certificate(so_far, begun)
+
     try:
         with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
+            earlier = _earlier(file) if resume else None  # nobody writes it now
             remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
             certificate = found.certify(
                 condition_number=condition,
@@ -67,9 +75,11 @@ def certify(
                 threads=threads or 0,
                 resume=earlier,
                 progress=bar,
+                keep=keep,
             )
     except KeyboardInterrupt:
-        screen.print(bold("interrupted", " before the limits were proved: the run folder is as it was"))
+        kept = "what is proved so far is kept" if begun.exists() else "the run folder is as it was"
+        screen.print(bold("interrupted", f" before the limits were proved: {kept}"))
         raise typer.Exit(INTERRUPTED) from None
 
     def words() -> None:
@@ -79,12 +89,21 @@ def certify(
 
     with told(screen, words, certificate.to_dict() | {"left": []}) as once:
         save_certificate(certificate, file)
+        begun.unlink(missing_ok=True)
         once()
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     screen.data(certificate.to_dict() | {"file": str(file), "left": []})
     if certificate.interrupted:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
+
+
+def _earlier(file: Path) -> MachineCertificate | None:
+    """Return the certificate to go on with: of a run that was killed, or of one that has ended."""
+    begun = begun_file(file)
+    if begun.exists():
+        return load_certificate(begun)
+    return load_certificate(file) if file.exists() or not resumed() else None
 
 
 def _table(certificate: MachineCertificate) -> Table:

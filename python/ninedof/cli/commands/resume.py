@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -10,7 +11,10 @@ from typing import Annotated
 import typer
 
 from ninedof.cli.remembered import resuming
+from ninedof.cli.screen import NO_RESULT
+from ninedof.proof.machine_record import PROVED, VIOLATED, MachineCertificate
 from ninedof.runs.command_file import FILE, Asked, read_command
+from ninedof.runs.machine_file import load_certificate
 from ninedof.support.arguments import shown
 from ninedof.support.command import running
 from ninedof.support.printable import one_line
@@ -27,10 +31,14 @@ def resume(
     context: typer.Context,
     run: Annotated[Path, typer.Argument(help="The folder of a run that was interrupted or killed.")],
 ) -> None:
-    """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again."""
-    found = _unfinished(run)
+    """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again.
+
+    A proof that ended before all was decided goes on too, for the time that its command has.
+    """
+    files = _commands(run)
+    found = next((one for one in map(_unfinished, files) if one is not None), None)
     if found is None:
-        typer.echo(one_line(f"{run}: the run has ended, there is nothing to resume"))
+        typer.echo(one_line(f"{run}: the run has ended, there is nothing to resume{''.join(map(_why_not, files))}"))
         return
     name = found.arguments[0]
     command = getattr(context.find_root().command, "commands", {}).get(name)
@@ -52,10 +60,33 @@ def resume(
             command.invoke(inner)
 
 
-def _unfinished(run: Path) -> Asked | None:
-    """Return what is left to do in a run folder; None if all has ended."""
+def _commands(run: Path) -> list[Path]:
+    """Return the files of the commands of a run."""
     files = [file for file in (run / FILE, *sorted(run.glob(f"{CERTIFY}*.{FILE}"))) if file.is_file()]
     if not files:
         what = "no folder" if not run.is_dir() else f"a folder without {FILE}"
         raise ValueError(f"run: got {run}, {what}, expected the folder of an interrupted run")
-    return next((found for found in map(read_command, files) if found.status is None), None)
+    return files
+
+
+def _unfinished(file: Path) -> Asked | None:
+    """Return what is left to do of a command; None if it has ended, and more time would not change how."""
+    found = read_command(file)
+    proof = _unproved(file, found)
+    helps = proof is not None and proof.left_count and all(one.answer != VIOLATED for one in proof.limits)
+    return replace(found, status=None) if found.status is None or helps else None
+
+
+def _why_not(file: Path) -> str:
+    """Return what a proof that has ended does not prove; "" where that is nothing."""
+    proof = _unproved(file, read_command(file))
+    if proof is None:
+        return ""
+    limits = ", ".join(f"{one.name.replace('_', ' ')} {one.answer}" for one in proof.limits if one.answer != PROVED)
+    return f" (not proved, and no matter of time: {limits})"
+
+
+def _unproved(file: Path, found: Asked) -> MachineCertificate | None:
+    """Return the certificate of a command that has ended without proving everything."""
+    stem = file.name.removesuffix(f".{FILE}")
+    return load_certificate(file.with_name(f"{stem}.json")) if stem != file.name and found.status == NO_RESULT else None
