@@ -16,8 +16,9 @@ from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
 from ninedof.support.json import decode, plain
 from ninedof.support.lock import LOCK, FolderLock
 from ninedof.support.npz import DAMAGE, read_npz
-from ninedof.support.reading import JSON, read_text
+from ninedof.support.reading import JSON, read_file, read_text
 from ninedof.support.seal import digest_of, unsealed, write_sealed
+from ninedof.support.system import memory
 from ninedof.support.versions import versions
 
 FORMAT = "ninedof-chunks-2"
@@ -91,7 +92,7 @@ class Store:
         """Return a finished chunk; None if it is missing or damaged."""
         path = self.path(k)
         try:
-            data = path.read_bytes() if path.is_file() else b""
+            data = read_file(path, memory() // 4)  # one that was written was there more than once
         except (OSError, MemoryError):
             return None
         start = len(MARK) + DIGEST

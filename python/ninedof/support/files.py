@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ninedof.support.arguments import path_argument
 from ninedof.support.npz import DAMAGE, read_npz, write_npz
+from ninedof.support.reading import JSON, read_file
 from ninedof.support.system import sync_folder
 
 Arrays = dict[str, NDArray[Any]]
@@ -100,8 +101,15 @@ def own_or_new(name: str, path: Path, mark: str) -> None:
     """Raise ValueError, naming the argument, for a file that exists without the mark of those that ninedof writes."""
     if reason := why_not_writable(path):
         raise ValueError(f"{name}: got {path}, which cannot be written ({reason}), expected a writeable place")
-    if path.exists() and (not path.is_file() or mark.encode() not in path.read_bytes()):
+    if path.exists() and not _has(path, mark):
         raise ValueError(f"{name}: got {path}, which exists and was not written by ninedof, expected another name")
+
+
+def _has(path: Path, mark: str) -> bool:
+    try:
+        return mark.encode() in read_file(path, JSON)
+    except OSError:
+        return False
 
 
 def is_plain_name(name: object) -> bool:

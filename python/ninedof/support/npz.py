@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.blocks import blocks
+from ninedof.support.system import memory
 
 SUFFIX = ".npy"
 KINDS = "biufcSU"  # of numbers and text: nothing that would run code
@@ -41,16 +42,20 @@ def read_npz(source: Path | bytes) -> dict[str, NDArray[Any]]:
     OSError
         If the file cannot be read.
     ValueError or another of DAMAGE
-        If it is no such file, is damaged, or would need more memory than `ALWAYS` and `TIMES` its own size.
+        If it is no such file, is damaged, or would need more memory than `ALWAYS` and `TIMES` its own size,
+        or than half of what there is.
 
     """
     if isinstance(source, Path) and source.exists() and not (source.is_file() or source.is_dir()):
         raise OSError(errno.EINVAL, "no regular file", os.fspath(source))
     with io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as file:
         size = file.seek(0, io.SEEK_END)
+        if size > memory():  # its directory may be as large
+            raise ValueError("it is larger than the memory")
         with ZipFile(file) as archive:
             entries = archive.infolist()
-            if len(entries) > MOST_ARRAYS or sum(one.file_size for one in entries) > max(ALWAYS, TIMES * size):
+            most = min(max(ALWAYS, TIMES * size), memory() // 2)
+            if len(entries) > MOST_ARRAYS or sum(one.file_size for one in entries) > most:
                 raise ValueError("its arrays are too large")
             out: dict[str, NDArray[Any]] = {}
             for entry in entries:

@@ -47,6 +47,14 @@ def removes_open_files() -> bool:
     return sys.platform != "win32"
 
 
+def memory() -> int:
+    """Return the bytes of memory of this machine; more than any file has where the system does not say."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):  # Windows; a name that is not known
+        return 2**63
+
+
 def after_fork(call: Callable[[], object]) -> None:
     """Call a function in each child that this process forks; Windows has none."""
     if hasattr(os, "register_at_fork"):

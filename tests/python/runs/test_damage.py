@@ -12,7 +12,7 @@ import pytest
 from sizes import size
 
 import ninedof as nd
-from ninedof.chunks.store import Store
+from ninedof.chunks.store import MARK, Store
 from ninedof.runs.folder import load_record
 from ninedof.support.npz import ALWAYS, MOST_ARRAYS, TIMES, read_npz
 
@@ -287,3 +287,41 @@ def test_what_is_no_file_is_not_waited_for(tmp_path, make):
     make(tmp_path / "a.npz")
     with pytest.raises(ValueError, match=r"a\.npz: cannot be read \(.+\)"):
         nd.SweepResult.load(tmp_path / "a.npz")
+
+
+def endless(path):
+    """A terabyte of zeros, behind the mark of a chunk."""
+    with path.open("wb") as file:
+        file.write(MARK)
+        file.truncate(2**40)
+
+
+HOSTILE = [os.mkfifo, lambda p: p.mkdir(), lambda p: p.symlink_to("/dev/zero"), endless]
+
+
+@pytest.mark.parametrize("make", HOSTILE)
+def test_what_is_no_chunk_is_computed_again(tmp_path, make):
+    with Store(tmp_path / "chunks", QUESTION, 57) as store:
+        make(store.path(3))
+        assert store.read(3) is None
+        if store.path(3).is_symlink() or store.path(3).is_dir():
+            store.write(3, ARRAYS)
+            assert plain(store.read(3)) == plain(ARRAYS)
+
+
+@pytest.mark.parametrize("where", ["size", "arrays"])
+def test_a_file_larger_than_the_memory_is_refused_unread(tmp_path, monkeypatch, where):
+    path = zeros(tmp_path / "large.npz", 2**22)
+    size = path.stat().st_size
+    monkeypatch.setattr("ninedof.support.npz.memory", lambda: size - 1 if where == "size" else 2**22)
+    opened = []
+    monkeypatch.setattr(zipfile.ZipFile, "open", lambda *a, **k: opened.append(a))
+    with pytest.raises(ValueError, match="expected a whole one that `save` wrote"):
+        nd.SweepResult.load(path)
+    assert not opened
+
+
+def test_a_terabyte_in_the_place_of_arrays_is_refused(tmp_path):
+    endless(tmp_path / "sweep.npz")
+    with pytest.raises(ValueError, match=r"sweep\.npz: got no 'ninedof-sweep"):
+        nd.SweepResult.load(tmp_path / "sweep.npz")
