@@ -4,9 +4,9 @@
 /// No operation mixes lanes, and each is rounded according to IEEE 754, so that the bits of a result depend neither on
 /// the number of lanes nor on the instruction set.
 ///
-/// Kernel sources include only the headers of this folder and templates over the number type (xyz.hpp, hexagon.hpp)
-/// and constants (short_leg.hpp), and call no function of another file: code compiled here for AVX-512 must never be linked into code for other
-/// processors.
+/// Kernel sources include only the headers of this folder, templates over the number type (xyz.hpp, hexagon.hpp) and
+/// constants (short_leg.hpp), and call no function of another file: code compiled here for AVX-512 must never be linked
+/// into code for other processors.
 
 #ifndef NINEDOF_LEVEL
 #error "compile kernel sources with -DNINEDOF_LEVEL=<name>"
