@@ -73,18 +73,18 @@ def compute(
     asked: Callable[..., SweepResult], title: str, directory: Path, scheduler: str | None, screen: Screen
 ) -> SweepResult | None:
     """Compute with a progress bar and keep chunks in the run folder; return None if Ctrl-C ends the run."""
-    again = f"the same command with --out {shlex.quote(str(directory))} --resume continues the run"
     try:
         with _executor(scheduler) as executor, screen.points(title) as bar:
             return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
     except KeyboardInterrupt:
-        screen.print(bold("interrupted", f": finished chunks are kept in {directory}; {again}"))
+        screen.print(bold("interrupted", f": finished chunks are kept in {directory}"))
         screen.data({"interrupted": True, "run": str(directory)})
         return None
     except (Exception, CancelledError) as error:
         if scheduler is None or not is_of_cluster(error):
             raise
         reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        again = f"the same command with --out {shlex.quote(str(directory))} --resume continues the run"
         kept = f"finished chunks are kept in {directory}; {again}"
         raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}); {kept}") from None
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -97,9 +96,7 @@ def pareto(
         if front.limits:
             screen.print(front_table(front))
         if front.interrupted:
-            again = f"--out {shlex.quote(str(directory))} --resume"
-            kept = f"{_count(front)} solved so far and kept in {directory}"
-            screen.print(bold("interrupted", f": {kept}; the same command with {again} continues the run"))
+            screen.print(bold("interrupted", f": {_count(front)} solved so far and kept in {directory}"))
 
     drawn = figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
