@@ -53,10 +53,9 @@ def test_the_hint_to_resume_is_one_word_for_a_shell(capsys, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("ninedof.cli.commands.sweep.sweep_poses", interrupted)
-    status, out, _ = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b")
+    status, _, err = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b")
     assert status == 130
-    words = shlex.split(out)
-    assert words[words.index("--out") + 1] == "a [bold]b"
+    assert shlex.split(err.split("`")[1]) == ["ninedof", "resume", "a [bold]b"]
 
 
 @pytest.mark.parametrize(
