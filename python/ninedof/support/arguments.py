@@ -12,6 +12,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ninedof.support.printable import one_line
+
 LONGEST = 200  # characters of a value that a message repeats
 LONGEST_NAME, LONGEST_PATH = 255, 3500  # bytes: what systems take, with room for the names of parts in a folder
 TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # the direction of what follows them
@@ -34,8 +36,8 @@ def shown(value: Any) -> str:
 
 
 def cleaned(text: str) -> str:
-    """Return text of a file for a message as it stands: no control characters, cut where it is long."""
-    text = "".join(c if c.isprintable() else "?" for c in text)
+    """Return text of a file for a message as it stands: on one line, cut where it is long."""
+    text = one_line(text)
     return text if len(text) <= LONGEST else text[:LONGEST] + "..."
 
 

@@ -10,6 +10,7 @@ from rich.console import Console
 
 from ninedof.cli.app import main
 from ninedof.cli.screen import Screen, bold
+from ninedof.support.arguments import cleaned
 from ninedof.support.printable import MOST, escaped, one_line
 
 EVIL = "\x1b]0;title\x07\nninedof: all is well\x9b2J\u202e\u2028[/b][bold]:smile:"
@@ -143,3 +144,8 @@ def test_a_line_is_one_line_and_short():
     assert not {chr(code) for code in (*range(9), *range(11, 32), *range(127, 160), *range(0x202A, 0x202F))} & set(
         escaped("".join(map(chr, range(0x10000))))
     )
+
+
+def test_text_of_a_file_in_a_message_is_escaped_as_on_a_terminal_and_cut():
+    assert cleaned("a\x1b]0;b\nc\u202ed") == "a\\x1b]0;b\\nc\\u202ed"
+    assert cleaned("x" * 10_000) == "x" * 200 + "..."
