@@ -397,10 +397,10 @@ def test_an_interrupted_command_is_resumed(here, capsys):
     while not list(here.glob("run/chunks/chunk-*")) and time.monotonic() < deadline:
         time.sleep(0.005)
     process.send_signal(signal.SIGINT)
-    out, _ = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "finished chunks are kept in run" in " ".join(out.split())
-    assert "--resume" in out
+    assert "`ninedof resume run` continues the run" in err
     kept = len(list(here.glob("run/chunks/chunk-*")))
     assert kept >= 1
     status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --resume --no-figures")
