@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -26,7 +27,10 @@ class LengthStack {
 
 template <class T>
 py::array_t<T> array_of(const std::vector<T>& values) {
-  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+  // numpy would copy without the GIL, and a thread that asks for it while the interpreter ends is killed here.
+  py::array_t<T> out(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), out.mutable_data());
+  return out;
 }
 
 /// A configuration as fifteen doubles: p, Q row-major, s.

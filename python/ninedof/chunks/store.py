@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import shown, whole
 from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
 from ninedof.support.json import decode, plain
 from ninedof.support.lock import LOCK, FolderLock
@@ -168,7 +168,7 @@ def _manifest(path: Path) -> dict[str, Any]:
     try:
         data = decode(read_text(path, JSON))
         kind = data["format"]
-        if kind not in (FORMAT, EARLIER) or not isinstance(data["question"], dict) or not int(data["chunk"]) >= 1:
+        if kind not in (FORMAT, EARLIER) or not isinstance(data["question"], dict):
             raise ValueError
     except OSError as error:
         raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
@@ -176,4 +176,6 @@ def _manifest(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path}: got no {FORMAT!r} manifest, expected one written by ninedof") from None
     if kind == EARLIER:
         raise ValueError(f"{path}: got the chunks of an earlier version of ninedof, expected an empty folder")
-    return unsealed(data, path, required=True)
+    entries = unsealed(data, path, required=True)
+    whole(f"{path}: chunk", entries.get("chunk"), 1)
+    return entries

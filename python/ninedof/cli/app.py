@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -62,6 +63,8 @@ _register()
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end with its exit status; an error is one line on standard error."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if not os.environ.get("COLUMNS", "1").strip("0"):
+        del os.environ["COLUMNS"]  # nothing can be written on no columns: as wide as the terminal
     own_option = bool(given) and given[0] in ("-h", "--help", "--version")
     if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
         given.insert(0, "optimize")

@@ -14,6 +14,7 @@ from typing import Any
 from ninedof.runs.directory import COMMAND
 from ninedof.runs.folder import FILE as RECORD
 from ninedof.runs.objects import split
+from ninedof.support.arguments import LONGEST_NAME
 from ninedof.support.json import decode
 from ninedof.support.reading import JSON, read_text
 from ninedof.support.seal import unsealed, write_sealed
@@ -95,7 +96,11 @@ class Asked:
 
 def asked(arguments: tuple[str, ...], reads: Input | None) -> Asked:
     """Return the command line that is being run, with the file that it reads."""
-    return Asked(arguments, str(Path.cwd()), reads, versions()["ninedof"])
+    try:
+        place = str(Path.cwd())
+    except OSError:  # the folder is gone
+        place = ""
+    return Asked(arguments, place, reads, versions()["ninedof"])
 
 
 def read_command(file: Path) -> Asked:
@@ -113,6 +118,8 @@ def read_command(file: Path) -> Asked:
             data = unsealed(data, file, required=True)
         known = data["input"]
         kept = None if known is None else Input(*(_text(known[key]) for key in ("name", "text", "point")))
+        if kept is not None and not _is_file_name(kept.name):
+            raise KeyError("name")
         arguments = data["arguments"]
         status = data["status"]
         if data["format"] != FORMAT or not isinstance(arguments, list) or not arguments:
@@ -122,7 +129,7 @@ def read_command(file: Path) -> Asked:
         return Asked(tuple(map(_text, arguments)), _text(data["folder"]), kept, _text(data["ninedof"]), status)
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
-    except (KeyError, TypeError, RecursionError, UnicodeDecodeError):
+    except (KeyError, TypeError, RecursionError, UnicodeError):
         raise ValueError(f"{file}: got no whole {FORMAT!r} file, expected one written by ninedof") from None
     except ValueError as error:
         if str(error).startswith(f"{file}: "):
@@ -133,4 +140,9 @@ def read_command(file: Path) -> Asked:
 def _text(value: object) -> str:
     if not isinstance(value, str) or "\0" in value:
         raise TypeError
+    value.encode()  # raises for half a surrogate pair: no file has one
     return value
+
+
+def _is_file_name(name: str) -> bool:
+    return name not in ("", "..") and Path(name).name == name and len(name.encode()) <= LONGEST_NAME

@@ -49,9 +49,10 @@ def load_certificate(run: str | os.PathLike[str]) -> MachineCertificate:
 
     """
     file = path_argument("run", run)
-    if not file.name.startswith("certify") and not split(os.fspath(run))[0].exists():
-        raise ValueError(f"{os.fspath(run)}: cannot be read (No such file or directory)")
-    if not file.name.startswith("certify"):
+    place = split(os.fspath(run))[0]
+    if place.is_dir() or not file.name.startswith("certify"):  # a folder may have such a name too
+        if not place.exists():
+            raise ValueError(f"{os.fspath(run)}: cannot be read (No such file or directory)")
         file = certificate_file(run)
     try:
         data = decode(read_text(file, JSON))

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from ninedof.support.arguments import LARGEST, flag, items, number, shown, table, text, whole
+from ninedof.support.arguments import LARGEST, flag, items, number, shown, shown_key, table, text, whole
 
 T = TypeVar("T")
 
@@ -64,7 +64,8 @@ def value_of(name: str, value: Any, kind: Any) -> Any:
         return _tuple(name, value, inner)
     if origin in (dict, Mapping):
         return {
-            text(name, key): value_of(f"{name}.{key}", entry, inner[1]) for key, entry in table(name, value).items()
+            text(name, key): value_of(f"{name}.{shown_key(key)}", entry, inner[1])
+            for key, entry in table(name, value).items()
         }
     if is_dataclass(kind) and isinstance(kind, type):
         return made(kind, value, name)

@@ -15,7 +15,7 @@ from sweep_work import GRID, HOME, G
 
 import ninedof as nd
 from ninedof.chunks.store import FORMAT, Store
-from ninedof.support.seal import digest_of
+from ninedof.support.seal import digest_of, sealed
 from ninedof.sweep import sink
 
 QUESTION = {"kind": "test", "value": 0.1}
@@ -237,7 +237,7 @@ def test_the_chunk_size_of_a_folder_is_kept(tmp_path, expected):
         (
             "manifest.json",
             json.dumps({"format": "ninedof-chunks-2", "question": {}, "chunk": 0}),
-            "expected one written",
+            "expected it as it was",
         ),
     ],
 )
@@ -357,6 +357,18 @@ def test_a_manifest_that_was_changed_is_refused(tmp_path, entries):
     asked(tmp_path)
     changed(tmp_path / "manifest.json", **entries)
     with pytest.raises(ValueError, match=r"manifest.json: got a file that was changed or damaged since it was written"):
+        asked(tmp_path)
+
+
+@pytest.mark.parametrize("chunk", [1.5, "20", 0, None, True])
+def test_a_chunk_that_is_no_number_of_points_is_named(tmp_path, chunk):
+    """By somebody who knows how the file is sealed."""
+    asked(tmp_path)
+    manifest = tmp_path / "manifest.json"
+    data = json.loads(manifest.read_text()) | {"chunk": chunk}
+    del data["digest"]
+    manifest.write_text(json.dumps(sealed(data)))
+    with pytest.raises(ValueError, match=r"manifest.json: chunk: got .*, expected a whole number from 1"):
         asked(tmp_path)
 
 

@@ -18,10 +18,14 @@ def run(tmp_path_factory):
     return folder
 
 
-def status(*arguments):
+def main_status(*arguments):
     with pytest.raises(SystemExit) as end:
-        main(["certify", *map(str, arguments)])
+        main([*map(str, arguments)])
     return end.value.code
+
+
+def status(*arguments):
+    return main_status("certify", *arguments)
 
 
 def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
@@ -34,6 +38,15 @@ def test_a_run_is_proved_and_its_certificate_comes_back(run, capsys):
     assert certificate.condition[0] <= nd.load(run).condition_number * (1.0 + 1e-12)
     assert "the condition number is at most 3.76266." in nd.report(run, run / "page.html").read_text()
     assert certificate == nd.load_certificate(run / "certify.json")
+
+
+def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
+    named = tmp_path / "certify-1"
+    shutil.copytree(run, named)
+    assert status(named) == 0
+    assert status(named, "--resume") == 0
+    assert nd.load_certificate(named) == nd.load_certificate(named / "certify.json")
+    assert main_status("report", named) == 0
 
 
 def test_a_bound_that_does_not_hold_is_said(run, capsys):

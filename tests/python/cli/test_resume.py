@@ -215,6 +215,11 @@ def edited(**entries):
         (edited(arguments=["sweep", 3]), "got no whole"),
         (edited(arguments="sweep"), "got no whole"),
         (edited(input={"name": "a"}), "got no whole"),
+        *(
+            (edited(input={"name": name, "text": "", "point": ""}), "got no whole")
+            for name in ("..", "../../elsewhere", "", "a/b", 300 * "a")
+        ),
+        (edited(input={"name": "a.toml", "text": "\ud800", "point": ""}), "got no whole"),
         (edited(status="ended"), "got no whole"),
         (edited(arguments=["view", "--port", "1"]), "got the command 'view', expected one that can be resumed"),
         (edited(arguments=["resume", "run"]), "got the command 'resume', expected one that can be resumed"),
@@ -237,9 +242,7 @@ def test_a_remembered_command_writes_into_its_own_folder_alone(monkeypatch, tmp_
     interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run")
     file = tmp_path / "run" / "command.json"
     arguments = [*json.loads(file.read_text())["arguments"], "--out", "elsewhere", "--out=elsewhere"]
-    file.write_text(
-        edited(arguments=arguments, input={"name": "../../elsewhere", "text": "", "point": ""})(file.read_text())
-    )
+    file.write_text(edited(arguments=arguments)(file.read_text()))
     assert run("resume run") == 0
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["run"]
     assert isinstance(nd.load("run"), nd.SweepResult)

@@ -93,6 +93,20 @@ def test_streams_of_a_process(tmp_path, redirected, status):
     assert len(nd.load(tmp_path / "run")["condition_number"]) == 9
 
 
+@pytest.mark.parametrize("columns", ["0", "00", ""])
+def test_no_columns_are_as_many_as_the_terminal_has(tmp_path, columns):
+    done = shell(f"{shlex.quote(sys.executable)} -m ninedof evaluate --help", tmp_path, COLUMNS=columns)
+    assert "--help" in done.stdout
+
+
+def test_a_run_whose_working_folder_is_gone(tmp_path):
+    (tmp_path / "gone").mkdir()
+    line = f"{shlex.quote(sys.executable)} -m ninedof optimize --starts 1 --no-figures --out {tmp_path / 'run'}"
+    done = shell(f"cd gone && rmdir ../gone && {line}", tmp_path)
+    assert done.returncode == 0
+    assert nd.load(tmp_path / "run").condition_number > 3.7
+
+
 def test_help_to_a_reader_that_went_away(tmp_path):
     done = shell(f"{shlex.quote(sys.executable)} -m ninedof --help | true", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")

@@ -14,6 +14,7 @@ import ninedof as nd
 g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 one = nd.Configuration.neutral(3.9828, 2.3745)
 many = nd.Configuration.neutral(3.9828, np.linspace(2.0, 3.0, 200_000))
+lengths = np.tile(nd.leg_lengths(g, one), (2000, 1))
 study = nd.Study.paper()
 inside = threading.Semaphore(0)
 
@@ -30,6 +31,7 @@ def for_ever(call):
 CALLS = {
     "short": "lambda: nd.condition_number(g, one)",
     "stack": "lambda: nd.condition_number(g, many, threads=2)",
+    "modes": "lambda: nd.forward_position(g, lengths)",
     "search": "lambda: nd.optimize(study, starts=10**6, threads=2)",
     "with progress": "lambda: nd.optimize(study, starts=10**6, threads=2, progress=told)",
     "busy progress": "lambda: nd.optimize(study, starts=10**6, threads=1, progress=lambda *_: sum(range(10**6)))",

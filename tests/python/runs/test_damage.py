@@ -3,6 +3,7 @@
 NINEDOF_LONG damages each kind 5500 times.
 """
 
+import json
 import os
 import random
 import zipfile
@@ -174,9 +175,21 @@ def test_a_record_cannot_pass_for_an_earlier_one_without_a_digest(tmp_path, run,
         load_record(file)
 
 
-def test_a_record_of_an_earlier_release_has_no_digest_and_loads(tmp_path, run):
-    import json
+@pytest.mark.parametrize("entry", [("versions",), ("results", "optimization", "candidates", 0, "variables")])
+def test_a_key_of_a_record_forges_no_line(tmp_path, run, entry):
+    data = json.loads((run[0] / "record.json").read_text())
+    place = data
+    for key in entry:
+        place = place[key]
+    place["\x1b]0;evil\x07\nninedof: all is well"] = []
+    del data["digest"]
+    (tmp_path / "record.json").write_text(json.dumps(data | {"format": "ninedof-record-2"}))
+    with pytest.raises(ValueError, match="all is well") as error:
+        nd.load(tmp_path)
+    assert str(error.value).isprintable()
 
+
+def test_a_record_of_an_earlier_release_has_no_digest_and_loads(tmp_path, run):
     data = json.loads((run[0] / "record.json").read_text())
     del data["digest"]
     (tmp_path / "record.json").write_text(json.dumps(data | {"format": "ninedof-record-2"}))
