@@ -9,10 +9,8 @@ from ninedof.cli.screen import bold
 from ninedof.design.study import LENGTH
 from ninedof.optimize.prices import price_words
 from ninedof.optimize.result import Candidate, Result
+from ninedof.optimize.result_html import MOST_FIXED, SHOWN
 from ninedof.support.units import with_unit
-
-SHOWN = 4  # candidates, side by side
-MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
 def short(value: float) -> str:

@@ -10,6 +10,7 @@ from ninedof.design.limits import each, for_core
 from ninedof.design.study import Study
 from ninedof.support.arrays import Floats
 
+SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
 LEGS = {"leg_length": range(9), "external_length": range(3), "upper_length": range(3, 6), "lower_length": range(6, 9)}
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
 

@@ -12,7 +12,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 
 OUTWARD = 1.25  # half of a sample is drawn from a region larger by this and moved to the boundary
-ROOT = 1.1127756842787055  # of x^7 = x + 1: of the sequence in six dimensions with the least discrepancy known
+ROOT = 1.1127756842787055  # of x^7 = x + 1: powers of its inverse spread points evenly over six dimensions
 
 
 def places_o(region: Region) -> bool:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.leg_limits import SPREADS
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
@@ -38,7 +39,6 @@ SAME = 1e-6  # of the region: nearer poses are one
 BRANCH = 0.25  # of the region: a pose where the same thing is worst, nearer than that, has only moved
 NEAR = 1e-5  # relative: a pose where nothing is as near to its limit or to the worst does not rule
 SETTLED = 25  # rounds after which poses are added only, so that the exchange comes to an end
-SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
 
 
 @dataclass(frozen=True)

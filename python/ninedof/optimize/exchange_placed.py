@@ -20,7 +20,7 @@ from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.optimize.exchange import DENSE, MOST_ROUNDS, QUICK, SAME, At, Solve, first_poses, optimize_region
+from ninedof.optimize.exchange import DENSE, MOST_ROUNDS, NEAR, QUICK, SAME, At, Solve, first_poses, optimize_region
 from ninedof.optimize.leg_ranges import Range, common_range, leg_ranges
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import PASSED, RegionReport, posed
@@ -42,7 +42,6 @@ DECIDING = -1e-4  # one where it leaves less takes part when O is a variable
 NEIGHBOURS = 0.05  # of the region: of nearer poses only the worst does, since two of them say nearly the same
 SAME_END = 1e-6  # of logarithms of the index: starts that agree
 SETTLED = 12  # rounds after which poses are added only, so that the exchange comes to an end
-NEAR = 1e-5  # relative: as in `exchange`
 SHARE = 8  # one start in so many is run with O placed; the others with O shifted
 
 

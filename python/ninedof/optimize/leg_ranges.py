@@ -7,11 +7,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limits import each, for_core
 from ninedof.design.study import Study
 from ninedof.support.arrays import Floats
-
-SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
 
 Range = tuple[str, tuple[float, ...], tuple[float, ...], float]
 """A limit, the least and the greatest length of each leg, and what margins are parts of (0: they are logarithms)."""

@@ -11,6 +11,7 @@ import numpy as np
 from ninedof import _core
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
+from ninedof.design.region_stack import ROOT
 from ninedof.design.study import Study
 from ninedof.optimize.region_report import RegionMean, posed
 from ninedof.support.arrays import Floats
@@ -18,7 +19,6 @@ from ninedof.support.arrays import Floats
 NODES, MOST_NODES = 64, 256  # poses of the quadrature; doubled while its error is larger than TOLERANCE
 TOLERANCE = 2e-3  # relative
 REPLICATES, IN_REPLICATE = 8, 1024  # fresh poses, from which the mean and its standard error are estimated
-ROOT = 1.1127756842787055  # of x^7 = x + 1: powers of its inverse spread points evenly over six dimensions
 
 
 def uniform_poses(region: Region, count: int, seed: int) -> tuple[Pose, ...]:

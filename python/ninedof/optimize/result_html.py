@@ -10,6 +10,7 @@ from ninedof.support.html import html_table
 from ninedof.support.units import with_unit
 
 SHOWN = 4  # candidates, side by side
+MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
 def result_html(result: Any) -> str:

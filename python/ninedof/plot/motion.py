@@ -17,7 +17,6 @@ from ninedof.support.arrays import Floats
 KINDS = (("l", "external legs"), ("q", "upper internal legs"), ("r", "lower internal legs"))
 MOST_DRAWN = 800  # stretches of a curve
 MOST_MARGIN = 1.0  # drawn: beyond it a limit is far
-RANGE = 30.0  # times the least condition number: larger values are cut off
 
 
 def motion(
@@ -138,12 +137,12 @@ def _condition(axes: Any, t: Floats, kappa: Floats) -> None:
     axes.set(ylabel="condition number")
     _along(axes, t)
     finite = kappa[np.isfinite(kappa)]
-    if finite.size and finite.max() > RANGE * finite.min():
+    if finite.size and finite.max() > style.RANGE * finite.min():
         axes.set_yscale("log")
-        axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
+        axes.set_ylim(finite.min() * 0.8, style.RANGE * finite.min())
         style.one_two_five(axes.yaxis)
         most = "without a bound" if np.isinf(kappa).any() else f"{finite.max():.4g} at most"
-        axes.set_title(f"cut off at {RANGE * finite.min():.3g}; {most}", size=style.TEXT_SIZE, weight="normal")
+        axes.set_title(f"cut off at {style.RANGE * finite.min():.3g}; {most}", size=style.TEXT_SIZE, weight="normal")
     elif finite.size:
         room = max(0.08 * float(np.ptp(finite)), 0.005 * float(finite.max()))
         axes.set_ylim(finite.min() - room, finite.max() + room)

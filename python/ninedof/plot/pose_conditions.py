@@ -21,7 +21,6 @@ MOST_NAMED = 40  # poses with names; for more poses the axis has a few numbers
 LONGEST = 24  # letters of a name on the axis; longer ones are a list below it, by number
 WORST_NAMED = 9  # of more poses than MOST_NAMED, those in the list
 LETTER, LINE = 0.056, 0.135  # inches, of the list
-RANGE = 30.0  # times the least: larger values are arrows at the upper edge
 LEAST_SPAN = 0.2  # of the least value, shown by the axis
 WORST: Any = (0, (5, 3))
 
@@ -150,11 +149,11 @@ def _label(name: str, values: Floats) -> str:
 
 
 def _scale(axes: Any, values: Sequence[Floats]) -> None:
-    """Show the finite values up to RANGE times the least, on a logarithmic axis if they span a factor of 3."""
+    """Show the finite values up to style.RANGE times the least, on a logarithmic axis if they span a factor of 3."""
     every = np.concatenate(values)
     finite = every[np.isfinite(every)]
     low = float(finite.min()) if len(finite) else 1.0
-    high = min(float(finite.max()) if len(finite) else 2.0, RANGE * low)
+    high = min(float(finite.max()) if len(finite) else 2.0, style.RANGE * low)
     if high > 3.0 * low:
         axes.set_yscale("log")
         style.one_two_five(axes.yaxis)

@@ -34,6 +34,7 @@ GRID = "#E3E7EB"
 SERIES = ("#566370", "#AA3377", "#117799", "#B07D00")
 REGION = SERIES[3]  # the outline of a region of poses, in the viewer too
 ALARM = UPPER  # failures and warnings
+RANGE = 30.0  # times the least condition number: larger values are cut off
 CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-blind readers
 
 # Series in one figure differ in the dashes too: in grey print colours alone do not tell them apart.

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 PANELS = 6  # slices shown of a sweep over three coordinates
 MOST_CURVES = 9
-RANGE = 30.0  # times the least: larger values are cut off
 FINEST = 600  # values along an axis that a map can show
 MAP = "viridis"
 SMOOTH = 8  # values each way from which a map without gaps is drawn as bands between contours, else as cells
@@ -103,8 +102,8 @@ def _curves(result: SweepResult, name: str, dim: str, rows: Floats, labels: Any)
 def _crop(axes: Any, rows: Floats) -> None:
     """Cut off values of many times the least, near a singularity, and say so."""
     finite = rows[np.isfinite(rows)]
-    if finite.size and finite.max() > RANGE * finite.min():
-        axes.set_ylim(finite.min() * 0.8, RANGE * finite.min())
+    if finite.size and finite.max() > style.RANGE * finite.min():
+        axes.set_ylim(finite.min() * 0.8, style.RANGE * finite.min())
         axes.set_yscale("log")
         style.one_two_five(axes.yaxis)
         most = "without a bound" if np.isposinf(rows).any() else f"{finite.max():.4g} at most"
@@ -169,7 +168,7 @@ def _bands(values: Floats, name: str) -> tuple[Floats, bool]:
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     if high <= low + 1e-12 * abs(low):
         high = low + max(1e-6 * abs(low), 1e-12)
-    top = min(high, RANGE * low) if name.startswith("condition_number") and low > 0.0 else high
+    top = min(high, style.RANGE * low) if name.startswith("condition_number") and low > 0.0 else high
     if not name.startswith("condition_number"):
         return np.asarray(MaxNLocator(12, steps=[1, 2, 2.5, 5, 10]).tick_values(low, top)), False
     levels = style.round_levels(low, top)

@@ -21,7 +21,6 @@ from ninedof.support.printable import escaped
 MOST_SECTIONS = 3
 MOST_SHARES = 9
 LOWER = 1.93  # inches, the height of the lower row
-RANGE = 30.0  # times the least condition number: the colours end there
 USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest value if it is so little above it
 
 
@@ -120,7 +119,7 @@ def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, fl
         return np.array([1.0, 2.0]), None
     low, high = float(known.min()), float(known.max())
     usual = float(finite[0][: USUAL + 1].max()) if finite[0].size > USUAL else high
-    top = high if high <= usual + MORE * (usual - low) else min(usual, RANGE * low)
+    top = high if high <= usual + MORE * (usual - low) else min(usual, style.RANGE * low)
     bands = style.round_levels(low, top)
     most = np.inf if np.isposinf(percentiles if finite[0].size else drawn).any() else high
     return bands, most if most > bands[-1] else None

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limits import each, for_core
 from ninedof.design.region import Region
 from ninedof.design.region_placed import Placing
@@ -17,7 +18,6 @@ from ninedof.design.region_stack import configurations_at, samples
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
 
-SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
 MARGIN = 5e-4  # what a rule is to leave of every limit at the sampled poses, since others lie between them
 WEIGHT = 10.0  # of limits against the index, which may be a little worse
 SAMPLES = 400  # half of each of two kinds

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from ninedof.design.study import LENGTH
 from ninedof.optimize.prices import price_words
 from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.result_html import SHOWN
 from ninedof.report.markup import Html, beside, bullets, facts, joined, paragraphs, table, tag
 from ninedof.report.numbers import short
 from ninedof.support.units import with_unit
 
-SHOWN = 4  # candidates, side by side
 NO_CLAIM = "The best design found is shown below. It is not claimed to be an optimum."
 
 

@@ -9,9 +9,10 @@ from typing import Any
 from ninedof.design.region_outline import region_lines
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
+from ninedof.optimize.result_html import SHOWN
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin, proof, scene
-from ninedof.report.answer import SHOWN, answer
+from ninedof.report.answer import answer
 from ninedof.report.body import quick_body
 from ninedof.report.markup import Html, Section, paragraphs
 from ninedof.report.question import question

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ninedof.design.limits import Limit, each, label, parts, place, shown_unit
 from ninedof.design.study import Study
+from ninedof.optimize.result_html import MOST_FIXED
 from ninedof.redundancy.rules import MEANING, WORDS
 from ninedof.report.markup import Html, beside, joined, paragraphs, table
 from ninedof.support.angles import degrees_of
@@ -18,7 +19,6 @@ FAMILIES = {
     "symmetric_nonplanar": "joint triples with threefold symmetry, each at its own height",
     "general": "twelve free joints",
 }
-MOST_FIXED = 8  # variables; of more, only the free ones are listed
 
 
 def question(study: Study) -> Html:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
+from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -22,7 +23,6 @@ from ninedof.sheet.limit_rows import LINEAR
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 
-SPREADS = ("leg_ratio", "stroke_ratio", "stroke")
 CONES = {"base_cone": [0, 1, 2, 6, 7, 8], "platform_cone": [0, 1, 2, 3, 4, 5]}
 """Legs at the joints of a body."""
 

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.leg_limits import SPREADS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.pose_limits import SPREADS, PoseLimit
+from ninedof.sheet.pose_limits import PoseLimit
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.viewer.numbers import Yardstick, margins_at

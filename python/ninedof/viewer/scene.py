@@ -17,11 +17,11 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.clearance import leg_ends
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
+from ninedof.viewer.html import RED
 from ninedof.viewer.numbers import Numbers
 from ninedof.viewer.parts import EXTENT, light, nodes, rgb
 from ninedof.viewer.subject import robot_points
 
-RED = "#E0202F"
 SLEEVE = 0.42  # share of a leg that is the wider cylinder
 RADIUS = {"l": 0.030, "q": 0.023, "r": 0.023}  # of a rod, in the scene
 LABEL_AT = {"l": 0.5, "q": 0.4, "r": 0.5}  # of the length of a leg

@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof.design.leg_limits import SPREADS
 from ninedof.design.region import Region
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.optimize.result import Candidate, Result
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.pose_limits import SPREADS
 from ninedof.support.arrays import Floats
 from ninedof.workspace.region_share import leg_ranges_over
 from ninedof.workspace.study_criteria import EASE, LEGS, leg_ranges, own_fraction, study_criteria
