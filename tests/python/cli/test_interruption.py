@@ -31,6 +31,15 @@ sys.meta_path.insert(0, Loaded())
 """
 
 
+@pytest.fixture(autouse=True)
+def _heard():
+    """Under nohup the tests themselves begin with SIGHUP ignored, and so would what they start."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL) if hasattr(signal, "SIGHUP") else None
+    yield
+    if before is not None:
+        signal.signal(signal.SIGHUP, before)
+
+
 SIGNALS = [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 
 
