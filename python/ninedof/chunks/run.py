@@ -48,7 +48,8 @@ def run(
     executor : concurrent.futures.Executor, optional
         Retries and lost workers are its own matter: its exceptions end the run.
     out : path, optional
-        Folder of finished chunks: they are read from it and new ones kept in it.
+        Folder of finished chunks: they are read from it and new ones kept in it. One that cannot be written is
+        delivered all the same; a RuntimeWarning tells of the first.
     progress : callable, optional
         Called as progress(points done, points in all, None), first with the points read from the folder.
 
@@ -68,7 +69,8 @@ def run(
             cut = replace(work, chunk=store.chunk)  # type: ignore[type-var]  # every work is a dataclass
             _run(cut, begin(store.folder), store, executor, progress)
         except Exception as error:
-            error.add_note(f"Finished chunks are kept in {store.folder}: the same call goes on from there.")
+            if words := store.kept_words():
+                error.add_note(words)
             raise
 
 
@@ -99,7 +101,7 @@ def _run(
             if not work.fits(last - first, arrays):
                 raise RuntimeError(f"chunk {k}: got arrays that are not of its {last - first} points")
             if store is not None:
-                store.write(k, arrays)
+                store.keep(k, arrays)
             deliver(first, last, arrays)
             done += last - first
             if progress is not None:
