@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ninedof.support.arguments import shown, whole
-from ninedof.support.files import PART, Arrays, npz_bytes, write_whole
+from ninedof.support.files import Arrays, is_leftover, npz_bytes, write_whole
 from ninedof.support.json import decode, plain
 from ninedof.support.lock import LOCK, FolderLock
 from ninedof.support.npz import DAMAGE, read_npz
@@ -27,7 +27,7 @@ EARLIER = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
 MARK = b"ninedof chunk 2\n"
 DIGEST = 32  # bytes
-LEFTOVER = re.compile(rf"{re.escape(PART)}(chunk-\d{{8,}}|{re.escape(MANIFEST)})-[0-9a-f]{{8}}")  # of a killed run
+FILES = re.compile(rf"chunk-\d{{8,}}|{re.escape(MANIFEST)}")
 ASIDE = "not-a-"  # begins the new name of a folder in the place of a chunk
 
 
@@ -145,7 +145,7 @@ class Store:
         if os.path.lexists(manifest):
             _manifest(manifest)
             return True
-        others = sorted(p.name for p in self.folder.iterdir() if p.name != LOCK and not _is_leftover(p))
+        others = sorted(p.name for p in self.folder.iterdir() if p.name != LOCK and not is_leftover(p, FILES))
         if others:
             raise ValueError(
                 f"out: got {self.folder}, which holds {shown(others[0])} but no {MANIFEST}, expected it empty"
@@ -168,7 +168,7 @@ class Store:
             data = found
             self.chunk = found["chunk"]
         for entry in self.folder.iterdir():
-            if _is_leftover(entry):
+            if is_leftover(entry, FILES):
                 with suppress(OSError):
                     entry.unlink()
         if not ours:
@@ -179,10 +179,6 @@ class Store:
 def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
     """Return the entries in which two questions differ."""
     return sorted(name for name in {*one, *other} if one.get(name) != other.get(name))
-
-
-def _is_leftover(path: Path) -> bool:
-    return LEFTOVER.fullmatch(path.name) is not None and path.is_file() and not path.is_symlink()
 
 
 def _manifest(path: Path) -> dict[str, Any]:

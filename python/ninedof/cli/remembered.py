@@ -13,6 +13,7 @@ from pathlib import Path
 from ninedof.cli.interruption import INTERRUPTED
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.runs.command_file import FILE, Asked, Input, asked, read_command
+from ninedof.runs.directory import FILES
 from ninedof.support.files import is_leftover
 from ninedof.support.printable import one_line
 
@@ -95,7 +96,7 @@ def _ended(now: _Now, code: object) -> None:
     if code in (None, DONE, NO_RESULT):
         with suppress(OSError):
             for left in now.file.parent.iterdir():
-                if is_leftover(left):  # of a run that was killed
+                if is_leftover(left, FILES):  # of a run that was killed
                     left.unlink(missing_ok=True)
         with suppress(OSError):  # it would only be done again
             now.asked.ended(code if isinstance(code, int) else DONE).write(now.file)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 import os
+import re
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
+from ninedof.chunks.store import FILES as CHUNK_FILES
 from ninedof.chunks.store import MANIFEST
 from ninedof.support.command import at_end
 from ninedof.support.files import is_leftover, why_not_writable
@@ -18,6 +20,14 @@ from ninedof.support.lock import LOCK, FolderLock
 RUNS = Path("runs")
 COMMAND = "command.json"  # what the run was asked: written before the work
 LONGEST = "n" * 80  # no name that a run writes into its folder is longer, a folder of chunks between counted
+FILES = re.compile(
+    r"(record|command|certify(-\d+)?(\.begun|\.command)?)\.json|optimum\.certificate|report\.html"
+    r"|(map|certified|sweep|atlas|motion)\.npz|(legs|poses)\.csv"
+    r"|(mechanism|condition|poses|convergence|front|sweep(_[a-z_]+)?|atlas|motion|figure_[1-7]"
+    r"|workspace(_body)?|certified_workspace)\.(png|svg|pdf)"
+    r"|n{40}"  # the probe
+)
+"""Names of the files of a run folder, as far as the names of their parts repeat them."""
 
 
 def new_directory(out: Path | None) -> Path:
@@ -27,7 +37,7 @@ def new_directory(out: Path | None) -> Path:
     and leaves none that is empty.
     """
     directory, lock, made = _begun(out)
-    if not at_end(lambda: _give_back(directory, lock, made, _is_nothing)):
+    if not at_end(lambda: _give_back(directory, lock, made)):
         lock.close()
     return directory
 
@@ -39,15 +49,15 @@ def run_directory(out: Path | None) -> Iterator[Path]:
     It belongs to this run until the end of the block, or of the command that runs.
     """
     directory, lock, made = _begun(out)
-    later = at_end(lambda: _give_back(directory, lock, made, _is_nothing))
+    later = at_end(lambda: _give_back(directory, lock, made))
     try:
         yield directory
     except Exception:
-        _give_back(directory, lock, made, _is_preparation, only_empty=True)
+        _give_back(directory, lock, made, ended_at_once=True)
         raise
     finally:
         if not later:
-            _give_back(directory, lock, made, _is_nothing)
+            _give_back(directory, lock, made)
 
 
 @contextmanager
@@ -90,16 +100,18 @@ def _begun(out: Path | None) -> tuple[Path, FolderLock, list[Path]]:
     return directory, lock, made
 
 
-def _give_back(
-    directory: Path, lock: FolderLock, made: list[Path], is_nothing: Callable[[Path], bool], only_empty: bool = False
-) -> None:
-    """Let others have the folder; remove it where all that is in it is nothing. Without the lock nothing is touched."""
+def _give_back(directory: Path, lock: FolderLock, made: list[Path], ended_at_once: bool = False) -> None:
+    """Let others have the folder; remove it where all that is in it is nothing. Without the lock nothing is touched.
+
+    Of a run that ended at once the question is nothing too; if more is there, the folder stays with the command.
+    """
     if not lock.held:
         return
-    empty = all(map(is_nothing, _files(directory)))
+    prepared = (MANIFEST, COMMAND) if ended_at_once else ()
+    empty = all(path.name in prepared or _is_nothing(path, directory) for path in _files(directory))
     if empty:
         _clear(directory)  # while it is locked: behind the lock another run may have begun
-    if empty or not only_empty:
+    if empty or not ended_at_once:
         lock.close()
     if empty:
         _unmake(made)
@@ -123,12 +135,8 @@ def _files(directory: Path) -> list[Path]:
     return [path for path in directory.rglob("*") if path.is_symlink() or not path.is_dir()]
 
 
-def _is_nothing(path: Path) -> bool:
-    return path.name == LOCK or is_leftover(path)
-
-
-def _is_preparation(path: Path) -> bool:
-    return _is_nothing(path) or path.name in (MANIFEST, COMMAND)
+def _is_nothing(path: Path, directory: Path) -> bool:
+    return path.name == LOCK or is_leftover(path, FILES if path.parent == directory else CHUNK_FILES)
 
 
 def _of_now() -> tuple[Path, list[Path]]:
@@ -153,7 +161,7 @@ def _taken(path: Path) -> bool:
             raise ValueError("it is a link to nothing")
         if not path.is_dir():
             return os.path.lexists(path)
-        return not all(_is_nothing(entry) for entry in path.iterdir())
+        return not all(_is_nothing(entry, path) for entry in path.iterdir())
     except (OSError, ValueError) as error:  # a zero byte is a ValueError
         reason = error.strerror if isinstance(error, OSError) else error
         raise ValueError(f"out: got {path}, which cannot be used ({reason}), expected a new folder") from None

@@ -24,7 +24,7 @@ Arrays = dict[str, NDArray[Any]]
 PART = ".part-"  # begins the name of a file that is being written
 MOST_NAME = 120  # bytes of a name that is put into a folder
 
-_PART = re.compile(rf"{re.escape(PART)}.+-[0-9a-f]{{8}}", re.DOTALL)
+_PART = re.compile(rf"{re.escape(PART)}(.+)-[0-9a-f]{{8}}", re.DOTALL)
 _SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
 
 
@@ -33,14 +33,14 @@ def part_name(name: str) -> str:
     return f"{PART}{name[:_SHORT]}-{secrets.token_hex(4)}"
 
 
-def is_part(name: str) -> bool:
-    """Return whether a name is one that `part_name` returns: the file of a run that was killed while it wrote."""
-    return _PART.fullmatch(name) is not None
+def is_leftover(path: Path, names: re.Pattern[str]) -> bool:
+    """Return whether a path is the part of a file of one of these names, left by a run that was killed as it wrote.
 
-
-def is_leftover(path: Path) -> bool:
-    """Return whether a path is such a file, and no folder or link of that name."""
-    return is_part(path.name) and path.is_file() and not path.is_symlink()
+    A name has at most 40 characters, as in `part_name`. A folder or a link is none, and nor are files of other names:
+    they are somebody else's.
+    """
+    part = _PART.fullmatch(path.name)
+    return bool(part and names.fullmatch(part[1])) and path.is_file() and not path.is_symlink()
 
 
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:

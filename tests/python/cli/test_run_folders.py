@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 import ninedof as nd
+from ninedof.cli import long_run
 from ninedof.cli.app import main
 from ninedof.support.lock import FolderLock
 
+PLAIN = ["--no-figures", "--no-report"]
 SMALL = {
     "optimize": ["--starts", "1"],
     "pareto": ["--value", "2", "--starts", "1"],
@@ -39,6 +41,33 @@ def test_a_folder_in_use_is_refused_before_the_work(tmp_path, capsys, name):
     (line,) = [line for line in said.err.splitlines() if line.startswith("ninedof: ")]
     assert line == f"ninedof: --out: got {out}, which another run is using, expected another folder"
     assert not list(out.iterdir())
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_a_part_of_somebody_else_is_not_deleted(tmp_path, capsys, name):
+    foreign = tmp_path / ".part-thesis-cafebabe"
+    foreign.write_text("thesis")
+    code, said = ran(capsys, name, *SMALL[name], "--out", str(tmp_path))
+    assert code == 2
+    assert "exists and is not an empty folder" in said.err
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["thesis"]
+
+
+@pytest.mark.parametrize("arguments", [["pareto", "--against", "nonsense"], ["sweep", "--over", "x_p=-1:1:3", *PLAIN]])
+def test_a_part_of_somebody_else_that_comes_meanwhile_is_not_deleted(tmp_path, capsys, monkeypatch, arguments):
+    """Whether the run ends at once or goes on to its end."""
+    real = long_run.remember
+
+    def remember(directory, *more, **options):
+        (directory / ".part-thesis-cafebabe").write_text("thesis")
+        (directory / ".part-record.json-cafebabe").write_text("of a run that was killed")
+        real(directory, *more, **options)
+
+    monkeypatch.setattr(long_run, "remember", remember)
+    code, _ = ran(capsys, *arguments, "--out", str(tmp_path))
+    assert code == (2 if "nonsense" in arguments else 0)
+    assert (tmp_path / ".part-thesis-cafebabe").read_text() == "thesis"
+    assert (tmp_path / ".part-record.json-cafebabe").exists() == (code == 2)
 
 
 @pytest.mark.parametrize("name", ["sweep", "atlas", "pareto"])

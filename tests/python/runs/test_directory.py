@@ -8,10 +8,14 @@ import pytest
 
 from ninedof.chunks.store import ASIDE
 from ninedof.design.indices import computed
-from ninedof.runs import directory
-from ninedof.runs.directory import new_directory, run_directory, used_directory
+from ninedof.proof.optimum import FILE as CERTIFICATE
+from ninedof.report.report import FILE as REPORT
+from ninedof.runs import directory, folder
+from ninedof.runs.directory import COMMAND, new_directory, run_directory, used_directory
+from ninedof.runs.machine_file import begun_file, certificate_file
+from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE
 from ninedof.support.command import running
-from ninedof.support.files import part_name
+from ninedof.support.files import is_leftover, part_name
 from ninedof.support.lock import LOCK, FolderLock
 
 
@@ -88,6 +92,28 @@ def test_leftovers_of_a_run_that_was_killed_as_it_began_do_not_count(tmp_path):
         new_directory(tmp_path)
 
 
+@pytest.mark.parametrize("name", ["thesis", "film.mkv", "thesis.json", "chunk-00000001", "sweep.docx", "n" * 39])
+def test_a_part_that_somebody_else_writes_counts(tmp_path, name):
+    foreign = tmp_path / f".part-{name}-cafebabe"
+    foreign.write_text("thesis")
+    with pytest.raises(ValueError, match="exists and is not an empty folder"):
+        new_directory(tmp_path)
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["thesis"]
+
+
+def test_the_parts_of_all_files_of_a_run_are_known(tmp_path):
+    """Else a run that goes on after a kill would leave them."""
+    figures = ["mechanism", "workspace", "workspace_body", "certified_workspace", "figure_7", "sweep", "front"]
+    figures += [f"sweep_{name}" for name in computed()]
+    names = [f"{stem}.{kind}" for stem in figures for kind in ("png", "svg", "pdf")]
+    names += [*folder.ARRAYS.values(), folder.FILE, folder.CERTIFIED, COMMAND, directory.LONGEST, CERTIFICATE, REPORT]
+    names += [LEGS_FILE, POSES_FILE, ARRAYS_FILE, begun_file(certificate_file(f"{tmp_path}#1000")).name]
+    for name in names:
+        part = tmp_path / part_name(name)
+        part.touch()
+        assert is_leftover(part, directory.FILES), name
+
+
 def ended_by(error, out, *names):
     """A run that has made files, and folders for them, when an error ends it."""
     with run_directory(out) as folder:
@@ -112,7 +138,10 @@ def test_bad_input_leaves_no_folder_with_a_question_alone(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("name", ["record.json", ".mine", "chunks/chunk-00000000"])
+@pytest.mark.parametrize(
+    "name",
+    ["record.json", ".mine", "chunks/chunk-00000000", "chunks/.part-thesis-cafebabe", ".part-chunk-00000001-cafebabe"],
+)
 def test_what_was_kept_stays(tmp_path, name):
     with pytest.raises(ValueError, match="bad"):
         ended_by(ValueError("bad"), tmp_path / "out", name, "chunks/manifest.json")
