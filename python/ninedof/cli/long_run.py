@@ -43,6 +43,8 @@ def run_folder(out: Path | None, resume: bool, reads: Input | None = None) -> It
         return
     if out is None:
         raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
+    if (out / CHUNKS).is_symlink():  # nobody who typed --out chose where it leads
+        raise ValueError(f"--resume: got --out {out}, in which {CHUNKS} is a link, expected a folder in its place")
     if not (out / CHUNKS).is_dir() and not (out / FILE).is_file():
         raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
     with used_directory(out):

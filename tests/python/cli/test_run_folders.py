@@ -11,6 +11,7 @@ import pytest
 import ninedof as nd
 from ninedof.cli import long_run
 from ninedof.cli.app import main
+from ninedof.runs.command_file import Asked
 from ninedof.support.lock import FolderLock
 
 PLAIN = ["--no-figures", "--no-report"]
@@ -78,6 +79,33 @@ def test_a_folder_in_use_is_not_resumed(tmp_path, capsys, name):
         code, said = ran(capsys, name, *SMALL[name], "--out", str(out), "--resume")
     assert code == 2
     assert "which another run is using" in said.err
+
+
+@pytest.mark.parametrize("name", ["optimize", "pareto", "sweep", "atlas", "workspace"])
+@pytest.mark.parametrize("command", ["--resume", "resume"])
+def test_a_link_in_the_place_of_chunks_is_refused(tmp_path, capsys, name, command):
+    """It was written to where the link leads. The run folder itself may be a link."""
+    run, outside, link = (tmp_path / place for place in ("run", "outside", "link"))
+    asked = [name, *SMALL[name], *PLAIN, "--out"]
+    assert ran(capsys, *asked, str(run))[0] in (None, 0)
+    (run / "command.json").unlink()
+    (run / "chunks").rename(outside)
+    link.symlink_to(run)
+    for target in (outside, tmp_path / "nothing"):
+        (run / "chunks").symlink_to(target)
+        if command == "resume":
+            Asked(tuple(asked[:-1]), str(tmp_path)).write(run / "command.json")
+        (outside / "chunk-00000000").unlink(missing_ok=True)
+        before = {path: path.stat().st_mtime_ns for path in (*tmp_path.rglob("*"), run) if path.exists()}
+        code, said = ran(capsys, *(["resume", str(run)] if command == "resume" else [*asked, str(run), command]))
+        assert code == 2
+        said_of = f"--resume: got --out {run}, in which chunks is a link, expected a folder in its place"
+        assert said.err == f"ninedof: {said_of}\n"
+        assert {path: path.stat().st_mtime_ns for path in (*tmp_path.rglob("*"), run) if path.exists()} == before
+        (run / "chunks").unlink()
+    outside.rename(run / "chunks")
+    assert ran(capsys, *asked, str(link), "--resume")[0] in (None, 0)
+    assert (run / "chunks" / "chunk-00000000").is_file()
 
 
 def test_two_commands_with_one_folder_one_is_refused(tmp_path):
