@@ -33,6 +33,8 @@ for package in "$work"/cache/archives/*.deb; do dpkg-deb --extract "$package" "$
 libraries=$place/usr/lib/x86_64-linux-gnu
 python=$place/usr/bin/python$version
 patchelf --set-interpreter "$libraries/ld-linux-x86-64.so.2" --force-rpath --set-rpath "$libraries" "$python"
+# The header that stands for another one, which compilers look for in the system's folders only.
+cp "$place/usr/include/x86_64-linux-gnu/python$version/pyconfig.h" "$place/usr/include/python$version/pyconfig.h"
 # Where venv finds pip: the system's own folder has that of another release.
 sed -i "s|'/usr/share/python-wheels/'|'$place/usr/share/python-wheels/'|" "$place/usr/lib/python$version"/_sysconfigdata_*.py
 "$python" -c 'import ctypes, ssl, sqlite3, zlib' # what its own modules need is there
