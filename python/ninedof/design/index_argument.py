@@ -29,7 +29,10 @@ class _Own:
     function: OwnIndex
 
     def __call__(self, g: Geometry, c: Configuration, length: Any, threads: int | None) -> Floats:
-        found = np.asarray(self.function(g, c, length))
+        returned = self.function(g, c, length)
+        if isinstance(returned, np.ma.MaskedArray):
+            raise ValueError(f"index {self.name}: got a masked array, expected one without a mask, NaN for no value")
+        found = np.asarray(returned)
         if found.dtype.kind not in "biuf":
             raise ValueError(f"index {self.name}: got dtype {found.dtype}, expected real numbers")
         found = found.astype(np.float64, copy=False)

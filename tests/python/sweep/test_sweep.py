@@ -307,6 +307,26 @@ def test_bad_options_are_named(words, tmp_path):
     assert not (tmp_path / "out").exists(), "bad input leaves no folder"
 
 
+def _masked(g, c, length):
+    return np.ma.masked_less(nd.condition_number(g, c, length), 0.0)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        lambda: nd.sweep(G, HOME, {"x_p": [0.0, 0.1]}, _masked),
+        lambda: nd.sweep_designs({"a1": 0.4, "b1": 2.9, "b2": 0.3, "zp": 4.0, "zs": 2.4}, {"a2": [5.0, 6.0]}, _masked),
+        lambda: nd.workspace(
+            G, criteria={"condition_number": 9.0}, box=((-1, -1, 3), (1, 1, 5)), home=HOME, resolution=4, index=_masked
+        ),
+    ],
+)
+def test_a_masked_array_of_a_function_is_refused(asked):
+    """Its mask was ignored."""
+    with pytest.raises(ValueError, match=r"^index _masked: got a masked array, expected one without a mask"):
+        asked()
+
+
 def test_a_stack_as_home_is_refused():
     with pytest.raises(ValueError, match="home: got a stack"):
         nd.sweep(G, nd.Configuration.neutral(4.0, [2.0, 2.1]), {"x_p": [0.0]})
