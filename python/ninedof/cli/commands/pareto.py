@@ -79,6 +79,9 @@ def pareto(
     """Compute the least condition number for each value of a limit."""
     screen = Screen(json)
     thread_argument(threads)
+    for limit in value or ():
+        if not 0.0 < limit < math.inf:
+            raise ValueError(f"--value: got {limit:g}, expected a finite number above 0")
     reads = Input.of(None if study is None else str(study))
     study = None if study is None else Path(given(str(study)))
     asked, run = _asked(study)
