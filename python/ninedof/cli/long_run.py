@@ -39,7 +39,8 @@ def run_folder(out: Path | None, resume: bool, reads: Input | None = None) -> It
     if not resume:
         with run_directory(out) as directory:
             remember(directory, reads)
-            yield directory
+            with _as_typed(directory):
+                yield directory
         return
     if out is None:
         raise ValueError("--resume: got no --out, expected the run folder of the interrupted run")
@@ -49,7 +50,21 @@ def run_folder(out: Path | None, resume: bool, reads: Input | None = None) -> It
         raise ValueError(f"--resume: got --out {out}, which holds no chunks, expected the folder of an interrupted run")
     with used_directory(out):
         remember(out, reads, keep=True)
-        yield out
+        with _as_typed(out):
+            yield out
+
+
+@contextmanager
+def _as_typed(directory: Path) -> Iterator[None]:
+    """Name the run folder where its folder of chunks is refused, which nobody typed."""
+    try:
+        yield
+    except ValueError as error:
+        which = f"out: got {directory / CHUNKS}, which "
+        if not str(error).startswith(which):
+            raise
+        rest = str(error).removeprefix(which)
+        raise ValueError(f"out: got {directory}, whose folder {CHUNKS} {rest}") from None
 
 
 S = TypeVar("S", WorkspaceMap, CertifiedWorkspace)

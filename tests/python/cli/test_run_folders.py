@@ -108,6 +108,22 @@ def test_a_link_in_the_place_of_chunks_is_refused(tmp_path, capsys, name, comman
     assert (run / "chunks" / "chunk-00000000").is_file()
 
 
+def test_a_folder_of_chunks_that_is_refused_is_that_of_the_folder_that_was_typed(tmp_path, capsys):
+    out = tmp_path / "out"
+    sweep = ["sweep", *PLAIN, "--out", str(out)]
+    assert ran(capsys, *sweep, "--over", "x_p=-1:1:3")[0] in (None, 0)
+    code, said = ran(capsys, *sweep, "--over", "x_p=-1:1:4", "--resume")
+    assert code == 2
+    assert said.err.startswith(f"ninedof: --out: got {out}, whose folder chunks holds the chunks of another question (")
+    (out / "chunks" / "manifest.json").unlink()
+    code, said = ran(capsys, *sweep, "--over", "x_p=-1:1:3", "--resume")
+    assert code == 2
+    assert said.err == (
+        f"ninedof: --out: got {out}, whose folder chunks holds 'chunk-00000000' but no manifest.json, "
+        "expected it empty\n"
+    )
+
+
 def test_two_commands_with_one_folder_one_is_refused(tmp_path):
     """Both ended with status 0, and one record was lost."""
     path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
