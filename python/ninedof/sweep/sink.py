@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import shutil
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -33,17 +34,31 @@ class Sink:
 
     def begin(self, folder: Path | None) -> Callable[[int, int, Arrays], None]:
         """Allocate all values; return the function that stores those of points first ... last - 1."""
-        if 8 * sum(map(math.prod, self._shapes.values())) <= IN_MEMORY:
-            folder = None
+        size = 8 * sum(map(math.prod, self._shapes.values()))
         try:
-            for name, shape in self._shapes.items():
-                # The name of a caller's function may be no name of a file.
-                stem = name if is_plain_name(name) else f"array-{len(self._parts)}"
-                self._parts[name] = np.empty(shape) if folder is None else _File(folder / f"{stem}.npy", shape)
+            if folder is None or size <= IN_MEMORY:
+                self._parts.update((name, np.empty(shape)) for name, shape in self._shapes.items())
+            else:
+                self._begin_files(folder, size)
         except MemoryError:
-            expected = "what fits into memory, or out for a folder"
-            raise ValueError(f"over: got {' x '.join(map(str, self._grid))} points, expected {expected}") from None
+            raise self._too_many("what fits into memory, or out for a folder") from None
         return self._deliver
+
+    def _begin_files(self, folder: Path, size: int) -> None:
+        # The name of a caller's function may be no name of a file.
+        stems = [name if is_plain_name(name) else f"array-{k}" for k, name in enumerate(self._shapes)]
+        paths = [folder / f"{stem}.npy" for stem in stems]
+        for path in paths:
+            _part_of(path).unlink(missing_ok=True)  # of a run that was killed, or a link
+        free = _free(folder)
+        if size > free:
+            room = f"{size / 1e9:.3g} GB, and {free / 1e9:.3g} GB are free on the disk of out"
+            raise self._too_many(f"fewer: their values take {room}")
+        for (name, shape), path in zip(self._shapes.items(), paths, strict=True):
+            self._parts[name] = _File(path, shape)
+
+    def _too_many(self, expected: str) -> ValueError:
+        return ValueError(f"over: got {' x '.join(map(str, self._grid))} points, expected {expected}")
 
     def _deliver(self, first: int, last: int, arrays: Arrays) -> None:
         for name, part in self._parts.items():
@@ -64,12 +79,24 @@ class Sink:
         return {name: part.whole() if isinstance(part, _File) else part for name, part in self._parts.items()}
 
 
+def _part_of(path: Path) -> Path:
+    return path.with_name(f"{PART}{path.name}")
+
+
+def _free(folder: Path) -> float:
+    """Return the bytes that are free on a disk; infinity where it does not say."""
+    with suppress(OSError):
+        disk = shutil.disk_usage(folder)
+        if disk.total:
+            return disk.free
+    return math.inf
+
+
 class _File:
     """A .npy file written by position: a writeable memory map would fill the memory of the process."""
 
     def __init__(self, path: Path, shape: tuple[int, ...]) -> None:
-        self._path, self._part = path, path.with_name(f"{PART}{path.name}")
-        self._part.unlink(missing_ok=True)  # of a run that was killed, or a link
+        self._path, self._part = path, _part_of(path)
         np.lib.format.open_memmap(self._part, mode="w+", dtype=np.float64, shape=shape)
         self._file = self._part.open("r+b")
         np.lib.format.read_magic(self._file)
