@@ -13,7 +13,7 @@ from ninedof.design.study import Study
 from ninedof.proof.machine_limits import SPREADS, Plan
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
 from ninedof.proof.machine_seal import belongs, machine_digest, sealed
-from ninedof.proof.machine_search import ConditionSearch, extremes, met_at
+from ninedof.proof.machine_search import ConditionSearch, extremes
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -127,20 +127,23 @@ def certify(
             lambda how, boxes: _core.worst_condition(geometry, *there, characteristic_length, None, how, boxes, None),
             how,
             start + seconds,
+            True,
         )
         of_neutral.enclose([objective.neutral_condition_limit], tolerance)
+        if of_neutral.interrupted:
+            raise KeyboardInterrupt
         name = label("condition_limit", "neutral")
-        at_neutral.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance, True))
+        at_neutral.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance))
 
     def made(interrupted: bool) -> MachineCertificate:
-        of_condition = [_condition_proof(*bound, runs, tolerance, only_neutral) for bound in wanted.items()]
+        of_condition = [_condition_proof(*bound, runs, tolerance) for bound in wanted.items()]
         certificate = MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
             limits=(*proofs, *of_condition, *at_neutral),
             lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
             condition=(runs.low, runs.high),
-            condition_at=met_at(runs.end, only_neutral),
+            condition_at=runs.at,
             condition_boxes=runs.boxes,
             left=tuple(map(tuple, runs.left)),
             left_count=runs.left_count,
@@ -157,6 +160,7 @@ def certify(
         lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
         how,
         start + seconds,
+        only_neutral,
         None if keep is None else lambda: keep(made(True)),
     )
     if resume is not None:
@@ -195,12 +199,11 @@ def _rule(
     return rule
 
 
-def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: float, neutral: bool) -> LimitProof:
+def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: float) -> LimitProof:
     low, high = runs.low, runs.high
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
-    at = (met_at(runs.end, neutral),)
-    return LimitProof(name, "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", at, runs.boxes)
+    return LimitProof(name, "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", (runs.at,), runs.boxes)
 
 
 def _where(study: Study, only_neutral: bool) -> str:

@@ -51,7 +51,8 @@ STEPS = (0.3, 0.1)  # bounds on the way to the gap, relative to the worst condit
 class ConditionSearch:
     """Searches for the worst condition number, one after another.
 
-    With `keep`, which is called when there is a state worth keeping, they are cut into slices.
+    With `keep`, which is called when there is a state worth keeping, they are cut into slices. Outside of the boxes of
+    `left` the condition number is proved to be at most `target`.
     """
 
     def __init__(
@@ -59,12 +60,14 @@ class ConditionSearch:
         search: Callable[[dict[str, Any], Any], Any],
         how: dict[str, Any],
         end: float,
+        only_neutral: bool,
         keep: Callable[[], object] | None = None,
     ) -> None:
-        self._search, self._how, self._end, self._keep = search, how, end, keep
+        self._search, self._how, self._end, self._only_neutral, self._keep = search, how, end, only_neutral, keep
         self.low, self.high, self.target, self.boxes = 0.0, math.inf, math.inf, 0
         self.left: list[tuple[float, ...]] = []
-        self.end: Any = None
+        self.at = Met()
+        """Where `low` was met."""
         self.interrupted, self.left_count = False, 0
 
     def enclose(self, wanted: Sequence[float], tolerance: float) -> None:
@@ -76,26 +79,37 @@ class ConditionSearch:
     def _narrow(self) -> None:
         """Prove lower bounds up to the gap: slices and earlier certificates end with the bound that they began with."""
         gap = self._how["gap"]
-        while not self.left_count and not self.interrupted and self.high > self.low * (1.0 + gap) * (1.0 + 1e-9):
-            self._search_for([], 0.0, 0.0)  # looks at no box, and says what is met
+        while not self._within(gap) and (poses := self._all_poses()) and not self._within(gap):
             wide = self.high / self.low - 1.0
             step = next((step for step in STEPS if gap < step < 0.9 * wide), gap)
-            self._run(self.left, min(self.low * (1.0 + step), self.high))
+            self._run(poses, min(self.low * (1.0 + step), self.high))
 
     def _prove(self, wanted: Sequence[float], tolerance: float) -> None:
         for bound in sorted(wanted, reverse=True):
             goal = bound if self.low < bound else bound * (1.0 + tolerance)
-            if not self.left_count and not self.interrupted and self.low < goal < self.high:
-                self._search_for([], 0.0, 0.0)  # all poses, as boxes
-                self._run(self.left, goal)
+            if self.low < goal < self.high and (poses := self._all_poses()):
+                self._run(poses, goal)
+
+    def _within(self, gap: float) -> bool:
+        return self.high <= self.low * (1.0 + gap) * (1.0 + 1e-9)
+
+    def _all_poses(self) -> list[tuple[float, ...]]:
+        """Return all poses as boxes, and see what is met at once; none where a search was interrupted or left boxes."""
+        if self.left_count or self.interrupted:
+            return []
+        before = self.left, self.left_count, self.target
+        self._search_for([], 0.0, 0.0)  # looks at no box
+        poses = self.left
+        self.left, self.left_count, self.target = before
+        return [] if self.interrupted else poses
 
     def go_on(self, earlier: MachineCertificate, wanted: Sequence[float], tolerance: float) -> None:
         """Go on with the boxes of an earlier certificate; without any, below its bound or from the beginning."""
-        self.high, self.boxes = earlier.condition[1], earlier.condition_boxes
+        (self.low, self.high), self.at, self.boxes = earlier.condition, earlier.condition_at, earlier.condition_boxes
         if not earlier.left and math.isinf(self.high):
             self.enclose(wanted, tolerance)
             return
-        if earlier.left:
+        if earlier.left and self.low < earlier.target:
             self._run(list(earlier.left), earlier.target)
         self._narrow()
         self._prove(wanted, tolerance)
@@ -109,6 +123,8 @@ class ConditionSearch:
             self._search_for(boxes, target, seconds)
             now = perf_counter()
             if not self.left_count or self.interrupted or now - begin < seconds or now >= self._end:
+                if self.left_count and not self.left and boxes:  # more than are handed out: those that this began with
+                    self.left, self.left_count, self.target = boxes, len(boxes), target
                 return
             if self._keep and self.left:
                 self._keep()
@@ -124,8 +140,8 @@ class ConditionSearch:
         end, left, count, tried, stopped = self._search(
             self._how | {"seconds": seconds, "condition": target, "gap": gap}, boxes
         )
-        if self.end is None or end[0] > self.low:
-            self.low, self.end = end[0], end
+        if not self.low or end[0] > self.low:
+            self.low, self.at = end[0], met_at(end, self._only_neutral)
         self.high = min(self.high, end[1])
         self.boxes += end[6]
         self.left, self.left_count, self.target, self.interrupted = left, count, tried, stopped

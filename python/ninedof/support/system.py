@@ -50,7 +50,8 @@ def removes_open_files() -> bool:
 def memory() -> int:
     """Return the bytes of memory of this machine; more than any file has where the system does not say."""
     try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        pages = os.sysconf("SC_PHYS_PAGES")
+        return pages * os.sysconf("SC_PAGE_SIZE") if pages > 0 else 2**63
     except (AttributeError, OSError, ValueError):  # Windows; a name that is not known
         return 2**63
 

@@ -153,9 +153,9 @@ def test_the_bounds_hold_what_the_library_writes(published, neutral):
     assert len(pose) * 10_000 < reading.TOML
     values = list(np.random.default_rng(0).random(1000))
     swept = nd.sweep(published, neutral, {"x_p": values, "y_p": values[:1]})
-    assert len(encode(swept.attributes)) / 1000 * 10_000_000 < reading.JSON
+    assert len(encode(swept.attributes)) / 1000 * 10_000_000 < 2**29
     found = nd.optimize(nd.Study(objective={"poses": nd.poses.ball(0.2, 50)}), starts=2)
-    assert len(encode(found.best.to_dict())) / 50 * 10_000 * 4 * 100 < reading.JSON
+    assert len(encode(found.best.to_dict())) / 50 * 10_000 * 4 * 100 < 2**29
     row = ",".join([repr(-0.12345678901234567)] * 20)
     assert len(row) * 1_000_000 < reading.TABLE
 

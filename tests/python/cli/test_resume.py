@@ -130,8 +130,6 @@ sys.path[:] = {path}
 from ninedof.cli.app import main
 from ninedof.cli.commands import certify
 from ninedof.proof import machine_search
-from ninedof.cli.commands import certify
-from ninedof.proof import machine_search
 machine_search.SLICE = machine_search.LEAST = 0.01
 def save(made, file, write=certify.save_certificate):
     write(made, file)
@@ -181,6 +179,14 @@ def test_a_certificate_whose_time_was_over_goes_on_and_one_that_time_does_not_he
     assert run("resume solved") == 0
     assert "nothing to resume (not proved, and no matter of time: condition number violated)" in capsys.readouterr().out
     assert nd.load_certificate("solved") == before
+
+
+def test_a_certificate_that_is_gone_is_made_anew():
+    fixed()
+    assert run("certify solved --condition 1.5") == 3
+    Path("solved/certify.json").unlink()
+    assert run("resume solved") == 3
+    assert nd.load_certificate("solved").limits[-1].answer == "violated"
 
 
 def test_an_earlier_certificate_is_read_when_the_folder_is_locked(monkeypatch):

@@ -5,6 +5,7 @@ by points on them. None of it shares code with the proofs.
 """
 
 import math
+import time
 from dataclasses import replace
 from fractions import Fraction
 
@@ -369,6 +370,65 @@ def test_a_certificate_of_a_wider_gap_goes_on_below_its_bound():
     narrow = certify(study(SMALL), geometry, neutral, 150.0, gap=0.02, resume=wide)
     assert narrow.condition[1] <= narrow.condition[0] * 1.02 * (1.0 + 1e-9)
     assert not narrow.left_count
+
+
+def test_a_certificate_that_has_the_gap_stays_as_it_is_when_gone_on_with():
+    geometry, neutral, made = proved(SMALL, gap=0.02)
+    for seconds in (0.0, 150.0):
+        again = certify(study(SMALL), geometry, neutral, 150.0, gap=0.02, resume=made, time_limit=seconds)
+        for name in ("condition", "condition_at", "left", "left_count", "interrupted"):
+            assert getattr(again, name) == getattr(made, name)
+        assert [one.answer for one in again.limits] == [one.answer for one in made.limits]
+
+
+class Scripted:
+    """A search whose answers are (low, high, boxes left, their number, interrupted); then it never ends."""
+
+    def __init__(self, *answers):
+        self.answers = list(answers)
+
+    def __call__(self, how, boxes):
+        low, high, left, count, stopped = self.answers.pop(0)
+        end = (low, high, (0.0,) * 3, (0.0,) * 3, 0.0, -1, 1)
+        return end, left, count, how["condition"] or 4.0, stopped
+
+
+BOX, OTHER = (0.0, 1.0), (1.0, 2.0)
+
+
+@pytest.mark.parametrize("wanted", [[], [3.9]])
+def test_an_interruption_between_two_searches_is_one(wanted):
+    """Ctrl-C as a search began that looks at no box: another search followed, and its end was an ordinary one."""
+    gap = 0.01 if not wanted else 0.5
+    asked = Scripted((3.0, 4.0, [], 0, False), (3.0, 9.0, [BOX], 1, True))
+    search = machine_search.ConditionSearch(asked, {"gap": gap}, time.perf_counter() + 60.0, False)
+    search.enclose(wanted, 1e-6)
+    assert search.interrupted
+    assert not asked.answers
+    assert (search.low, search.high, search.left, search.left_count) == (3.0, 4.0, [], 0)
+
+
+def test_boxes_that_are_not_handed_out_are_those_that_the_search_began_with():
+    asked = Scripted((3.0, 9.0, [BOX, OTHER], 2, False), (3.1, 9.0, [], 30_000, True))
+    search = machine_search.ConditionSearch(asked, {"gap": 0.01}, 0.0, False)
+    search.enclose([], 1e-6)
+    assert (search.left_count, search.left) == (2, [BOX, OTHER])
+    began = search.left
+    search._run(began, 4.0)
+    assert (search.left_count, search.left, search.target) == (2, began, 4.0)
+
+
+def test_an_interruption_at_the_neutral_pose_is_one(monkeypatch):
+    class Interrupted(machine_search.ConditionSearch):
+        def _search_for(self, *given):
+            super()._search_for(*given)
+            self.interrupted = True
+
+    monkeypatch.setattr("ninedof.proof.machine.ConditionSearch", Interrupted)
+    limited = nd.Study(objective={"region": {"box": [0.01] * 3}, "neutral_condition_limit": 5.0})
+    geometry = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0)
+    with pytest.raises(KeyboardInterrupt):
+        certify(limited, geometry, nd.Configuration.neutral([4.0], [2.4]), 150.0)
 
 
 def test_poses_beyond_the_doubles_are_undecided():

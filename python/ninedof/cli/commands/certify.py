@@ -59,9 +59,11 @@ def certify(
     file = certificate_file(run)
     begun = begun_file(file)
 
+    kept = []
+
     def keep(so_far: MachineCertificate) -> None:
-        with suppress(OSError):  # a full disk: the proof goes on, and is said
-            save_certificate(so_far, begun)
+        with suppress(OSError):  # a full disk: the proof is worth more than its states
+            kept.append(save_certificate(so_far, begun))
 
     try:
         with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
@@ -78,8 +80,8 @@ def certify(
                 keep=keep,
             )
     except KeyboardInterrupt:
-        kept = "what is proved so far is kept" if begun.exists() else "the run folder is as it was"
-        screen.print(bold("interrupted", f" before the limits were proved: {kept}"))
+        what = "what is proved so far is kept" if kept else "the run folder is as it was"
+        screen.print(bold("interrupted", f" before the limits were proved: {what}"))
         raise typer.Exit(INTERRUPTED) from None
 
     def words() -> None:

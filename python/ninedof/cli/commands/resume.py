@@ -12,7 +12,7 @@ import typer
 
 from ninedof.cli.remembered import resuming
 from ninedof.cli.screen import NO_RESULT
-from ninedof.proof.machine_record import PROVED, VIOLATED, MachineCertificate
+from ninedof.proof.machine_record import PROVED, VIOLATED
 from ninedof.runs.command_file import FILE, Asked, read_command
 from ninedof.runs.machine_file import load_certificate
 from ninedof.support.arguments import shown
@@ -36,7 +36,8 @@ def resume(
     A proof that ended before all was decided goes on too, for the time that its command has.
     """
     files = _commands(run)
-    found = next((one for one in map(_unfinished, files) if one is not None), None)
+    found = next((one for one in map(read_command, files) if one.status is None), None)
+    found = found or next((one for one in map(_improvable, files) if one is not None), None)
     if found is None:
         typer.echo(one_line(f"{run}: the run has ended, there is nothing to resume{''.join(map(_why_not, files))}"))
         return
@@ -69,24 +70,30 @@ def _commands(run: Path) -> list[Path]:
     return files
 
 
-def _unfinished(file: Path) -> Asked | None:
-    """Return what is left to do of a command; None if it has ended, and more time would not change how."""
+def _improvable(file: Path) -> Asked | None:
+    """Return the command of a proof that has ended, if more time helps, as one that has not; also if it is gone."""
     found = read_command(file)
-    proof = _unproved(file, found)
-    helps = proof is not None and proof.left_count and all(one.answer != VIOLATED for one in proof.limits)
-    return replace(found, status=None) if found.status is None or helps else None
+    if found.status != NO_RESULT or not _of_certificate(file):
+        return None
+    again = replace(found, status=None)
+    if not _certificate_of(file).exists():
+        return again
+    proof = load_certificate(_certificate_of(file))
+    return again if proof.left_count and all(one.answer != VIOLATED for one in proof.limits) else None
 
 
 def _why_not(file: Path) -> str:
     """Return what a proof that has ended does not prove; "" where that is nothing."""
-    proof = _unproved(file, read_command(file))
-    if proof is None:
+    if read_command(file).status != NO_RESULT or not _of_certificate(file):
         return ""
+    proof = load_certificate(_certificate_of(file))
     limits = ", ".join(f"{one.name.replace('_', ' ')} {one.answer}" for one in proof.limits if one.answer != PROVED)
     return f" (not proved, and no matter of time: {limits})"
 
 
-def _unproved(file: Path, found: Asked) -> MachineCertificate | None:
-    """Return the certificate of a command that has ended without proving everything."""
-    stem = file.name.removesuffix(f".{FILE}")
-    return load_certificate(file.with_name(f"{stem}.json")) if stem != file.name and found.status == NO_RESULT else None
+def _of_certificate(file: Path) -> bool:
+    return file.name != FILE
+
+
+def _certificate_of(file: Path) -> Path:
+    return file.with_name(f"{file.name.removesuffix(f'.{FILE}')}.json")
