@@ -10,7 +10,7 @@ namespace ninedof::kernels::inline NINEDOF_LEVEL {
 /// Number of rows transposed at a time: a multiple of the pack size, and their columns fit the first-level cache.
 constexpr long chunk = 64;
 
-using Two = double __attribute__((vector_size(16), aligned(sizeof(double)), may_alias));
+using Two = double __attribute__((vector_size(16)));
 
 /// The columns of `rows` rows; the last row is repeated to fill the chunk.
 template <int width>
@@ -26,11 +26,11 @@ NINEDOF_INLINE void gather(const double* from, long step, long rows, double (*co
     const double* two = from + (k + 1 < rows ? k + 1 : rows - 1) * step;
 #pragma GCC unroll 4
     for (int j = 0; j + 1 < width; j += 2) {
-      const Two a = *reinterpret_cast<const Two*>(one + j), b = *reinterpret_cast<const Two*>(two + j);
-      *reinterpret_cast<Two*>(&column[j][k]) = Two{a[0], b[0]};
-      *reinterpret_cast<Two*>(&column[j + 1][k]) = Two{a[1], b[1]};
+      const Two a = vector_at<Two>(one + j), b = vector_at<Two>(two + j);
+      put_vector(Two{a[0], b[0]}, &column[j][k]);
+      put_vector(Two{a[1], b[1]}, &column[j + 1][k]);
     }
-    if constexpr (width % 2 == 1) *reinterpret_cast<Two*>(&column[width - 1][k]) = Two{one[width - 1], two[width - 1]};
+    if constexpr (width % 2 == 1) put_vector(Two{one[width - 1], two[width - 1]}, &column[width - 1][k]);
   }
 }
 

@@ -23,11 +23,23 @@ constexpr int register_bytes = 16;
 #endif
 
 using Register = double __attribute__((vector_size(register_bytes)));
-using Unaligned = double __attribute__((vector_size(register_bytes), aligned(sizeof(double)), may_alias));
 using RegisterMask = decltype(Register{} < Register{});
 constexpr int per_register = register_bytes / static_cast<int>(sizeof(double));
 
 #define NINEDOF_INLINE [[gnu::always_inline]] inline
+
+/// Vectors from and to memory that is aligned for one number only. One instruction each; clang forgets in templates what
+/// alignment a vector type was declared with.
+template <class V>
+NINEDOF_INLINE V vector_at(const double* from) {
+  V v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+template <class V>
+NINEDOF_INLINE void put_vector(V v, double* to) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
 
 /// One truth value per lane.
 template <int N>
@@ -135,10 +147,10 @@ struct PackOf {
   NINEDOF_INLINE friend PackOf square(const PackOf& a) { return a * a; }
 
   NINEDOF_INLINE static PackOf load(const double* from) {
-    return each([&](int i) { return *reinterpret_cast<const Unaligned*>(from + i * per_register); });
+    return each([&](int i) { return vector_at<Register>(from + i * per_register); });
   }
   NINEDOF_INLINE friend void store(const PackOf& a, double* to) {
-    for (int i = 0; i < registers; ++i) *reinterpret_cast<Unaligned*>(to + i * per_register) = a.part[i];
+    for (int i = 0; i < registers; ++i) put_vector(a.part[i], to + i * per_register);
   }
 
  private:
