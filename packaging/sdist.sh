@@ -14,8 +14,9 @@ export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore
 rm -f dist/ninedof-*.tar.gz
 "$room/venv/bin/python" -m build --sdist --outdir dist . >"$room/log" 2>&1 || { cat "$room/log" >&2; exit 1; }
 archive=$(realpath dist/ninedof-*.tar.gz)
+tar -tzf "$archive" >"$room/names" # not through a pipe: grep -q leaves it early
 for part in LICENSE licenses/NLopt.txt licenses/README.md packaging/nlopt.sh cpp/CMakeLists.txt; do
-  tar -tzf "$archive" | grep -q "^ninedof-[^/]*/$part\$" || { echo "the archive lacks $part" >&2; exit 1; }
+  grep -q "^ninedof-[^/]*/$part\$" "$room/names" || { echo "the archive lacks $part" >&2; exit 1; }
 done
 cd "$room"
 venv/bin/pip install -q "$archive"
