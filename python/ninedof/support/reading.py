@@ -10,8 +10,8 @@ import stat
 from ninedof.support.system import memory
 
 TOML = 4 * 2**20  # bytes of a study or a design: 10 000 poses have 1 MB
-# Of a record, a certificate of a machine or a manifest, of which none is written that is larger: 10^7 listed values have
-# 300 MB. A damaged one of empty lists takes fifty times its bytes of memory.
+# Of a record, a certificate of a machine or a manifest, of which none is written that is larger: 10^7 listed values
+# have 300 MB. A damaged one of empty lists takes fifty times its bytes of memory.
 JSON = min(2**29, memory() // 64)
 TABLE = 2**29  # of a path: a million poses, with all that `ninedof path` writes of them, have 440 MB
 PROOF = 2**31  # of a certificate of an optimum, which is not parsed here: 147 MB for six variables
