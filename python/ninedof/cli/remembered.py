@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ninedof.cli.interruption import INTERRUPTED
-from ninedof.cli.screen import DONE, NO_RESULT
-from ninedof.runs.command_file import FILE, Asked, Input, asked, read_command
+from ninedof.cli.screen import BAD_INPUT, DONE, NO_RESULT
+from ninedof.runs.command_file import FILE, MOST, Asked, Input, asked, read_command
 from ninedof.runs.directory import FILES
-from ninedof.support.files import is_leftover
+from ninedof.support.files import is_leftover, write_whole
 from ninedof.support.printable import one_line
+from ninedof.support.reading import read_file
 
 
 @dataclass
@@ -27,6 +28,8 @@ class _Now:
     given: str | None = None
     """What stands for the file that a resumed command reads."""
     file: Path | None = None
+    before: bytes | None = None
+    """What was there: a command that is refused does not take the place of another."""
     asked: Asked | None = None
 
 
@@ -65,6 +68,8 @@ def remember(directory: Path, reads: Input | None, file: str = FILE, keep: bool 
     if now is None:  # called from Python
         return
     now.file, now.asked = directory / file, now.resumed
+    with suppress(OSError):
+        now.before = read_file(now.file, MOST)
     if now.asked is None:
         now.asked = anew = asked(now.arguments, reads)
         if keep and now.file.exists():
@@ -100,6 +105,12 @@ def _ended(now: _Now, code: object) -> None:
                     left.unlink(missing_ok=True)
         with suppress(OSError):  # it would only be done again
             now.asked.ended(code if isinstance(code, int) else DONE).write(now.file)
+    elif code == BAD_INPUT:
+        with suppress(OSError):
+            if now.before is not None:
+                write_whole(now.file, now.before)
+            else:
+                now.file.unlink(missing_ok=True)
     elif code == INTERRUPTED:
         with suppress(OSError, ValueError):  # nobody reads
             again = f"ninedof resume {shlex.quote(str(now.file.parent))}"

@@ -270,6 +270,27 @@ def test_a_remembered_command_calls_nobody(monkeypatch, capsys, words):
     assert "the run was on a cluster: it goes on here" in capsys.readouterr().err
 
 
+def test_a_refused_command_does_not_take_the_place_of_the_remembered_one(monkeypatch, capsys):
+    interrupted(monkeypatch, "sweep --over x_p=-1:1:40 --no-figures --out run", 1)
+    file = Path("run/command.json")
+    before = file.read_bytes()
+    assert run("sweep --over x_p=-1:1:41 --no-figures --out run --resume") == 2
+    assert "another question" in capsys.readouterr().err
+    assert file.read_bytes() == before
+    assert run("resume run") == 0
+    assert len(nd.load("run")["condition_number"]) == 40
+
+
+def test_a_refused_certificate_leaves_nothing_to_resume(capsys):
+    Path("none.toml").write_text("[constraints]\nleg_ratio = { max = 0.5 }\n")
+    assert run("optimize none.toml --starts 2 --no-figures --out none") == 3
+    assert run("certify none") == 2
+    assert not list(Path("none").glob("certify*"))
+    capsys.readouterr()
+    assert run("resume none") == 0
+    assert "nothing to resume" in capsys.readouterr().out
+
+
 def test_resuming_with_another_study_remembers_that_one(monkeypatch, tmp_path, capsys):
     """The folder of a run that was killed before it kept anything takes another; the same one keeps its own."""
     (tmp_path / "a.toml").write_text(STUDY)
