@@ -36,6 +36,7 @@ patchelf --set-interpreter "$libraries/ld-linux-x86-64.so.2" --force-rpath --set
 # The header that stands for another one, which compilers look for in the system's folders only.
 cp "$place/usr/include/x86_64-linux-gnu/python$version/pyconfig.h" "$place/usr/include/python$version/pyconfig.h"
 # Where venv finds pip: the system's own folder has that of another release.
-sed -i "s|'/usr/share/python-wheels/'|'$place/usr/share/python-wheels/'|" "$place/usr/lib/python$version"/_sysconfigdata_*.py
+wheels=/usr/share/python-wheels/
+sed -i "s|'$wheels'|'$place$wheels'|" "$place/usr/lib/python$version"/_sysconfigdata_*.py
 "$python" -c 'import ctypes, ssl, sqlite3, zlib' # what its own modules need is there
 echo "$python"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from time import perf_counter
+from typing import Any
 
 from ninedof import _core
 from ninedof.design.limits import label
@@ -120,15 +121,26 @@ def certify(
     objective = study.objective
     bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
     wanted = {name: bound for name, bound in bounds.items() if bound is not None}
-    at_neutral = []
-    if objective.neutral_condition_limit is not None:
-        there = (alone.position, alone.rotation, alone.internal_point)
-        of_neutral = ConditionSearch(
-            lambda how, boxes: _core.worst_condition(geometry, *there, characteristic_length, None, how, boxes, None),
+
+    def search(
+        posed: Configuration,
+        over: dict[str, Any] | None,
+        told: Any,
+        only_neutral: bool,
+        keep: Callable[[], object] | None = None,
+    ) -> ConditionSearch:
+        arrays = (posed.position, posed.rotation, posed.internal_point)
+        return ConditionSearch(
+            lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, over, how, boxes, told),
             how,
             start + seconds,
-            True,
+            only_neutral,
+            keep,
         )
+
+    at_neutral = []
+    if objective.neutral_condition_limit is not None:
+        of_neutral = search(alone, None, None, True)
         of_neutral.enclose([objective.neutral_condition_limit], tolerance)
         if of_neutral.interrupted:
             raise KeyboardInterrupt
@@ -155,14 +167,7 @@ def certify(
         )
         return sealed(certificate, machine)
 
-    arrays = (stack.position, stack.rotation, stack.internal_point)
-    runs = ConditionSearch(
-        lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, boxes, progress),
-        how,
-        start + seconds,
-        only_neutral,
-        None if keep is None else lambda: keep(made(True)),
-    )
+    runs = search(stack, shape, progress, only_neutral, None if keep is None else lambda: keep(made(True)))
     if resume is not None:
         runs.go_on(resume, list(wanted.values()), tolerance)
     else:
