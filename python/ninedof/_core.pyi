@@ -314,7 +314,9 @@ def prove_optimum(
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...
-def check_certificate(certificate: bytes, progress: _Progress | None, /) -> tuple[bool, str, int, int]: ...
+def check_certificate(
+    certificate: bytes, progress: _Progress | None, /
+) -> tuple[bool, str, int, int, list[str]]: ...
 
 workspace_limits: list[str]
 

@@ -39,6 +39,7 @@ std::string completed(std::string body) {
 }
 
 double within(const Range& x, double share) {
+  if (std::isinf(x.a) && std::isinf(x.b)) return 20.0 * share - 10.0;  // an angle that may be any
   return std::isinf(x.b) ? x.a + share / (1.0 - share) : std::clamp(x.a + share * (x.b - x.a), x.a, x.b);
 }
 
@@ -50,8 +51,9 @@ double share(int sample, std::size_t k) {
 }
 
 bool allowed(const Certificate& c, const char* name, double value) {
-  const auto limit = c.limits.find(name);
-  return limit == c.limits.end() || (value >= limit->second.a && value <= limit->second.b);
+  return std::all_of(c.limits.begin(), c.limits.end(), [&](const checker::Bound& limit) {
+    return limit.name != name || (value >= limit.range.a && value <= limit.range.b);
+  });
 }
 
 /// A design of the certificate's study is not better than the target, but for rounding.
@@ -74,7 +76,7 @@ void look_for_better(const Certificate& c) {
   for (int sample = 0; sample < samples; ++sample) {
     std::array<double, 9> x{};
     for (std::size_t k = 0; k < std::min(c.variables.size(), x.size()); ++k)
-      x[k] = within(c.variables[k].second, share(sample, k));
+      x[k] = within(c.variables[k].range, share(sample, k));
     try {
       if (c.family == "hexagonal") judge(c, Geometry::hexagonal(x[0], x[1], x[2], x[3]), x[4], x[5], x[6]);
       else

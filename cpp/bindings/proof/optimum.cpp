@@ -41,7 +41,7 @@ py::tuple checked(const std::string& certificate, const py::object& progress) {
       control.progress(static_cast<long>(done), static_cast<long>(total), std::nan(""));
     });
   });
-  return py::make_tuple(found.proved, found.words, found.leaves, found.recut);
+  return py::make_tuple(found.proved, found.words, found.leaves, found.recut, found.study);
 }
 
 }  // namespace

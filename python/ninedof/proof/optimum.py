@@ -188,6 +188,8 @@ class Checked:
     boxes: int
     recut: int
     """Boxes that were cut further than by the search."""
+    study: tuple[str, ...] = ()
+    """Of a proof: the designs that it is about, one line each, as the checker read them; angles in radians."""
 
 
 def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None = None) -> Checked:
@@ -220,8 +222,5 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
     progress_argument(progress)
-    try:
-        proved, words, boxes, recut = _core.check_certificate(data, progress)
-    except UnicodeDecodeError:  # the reason repeats bytes of the file
-        return Checked(False, "the certificate has bytes that are no text where names and numbers belong", 0, 0)
-    return Checked(proved, "".join(c if c.isprintable() or c == "\n" else "?" for c in words), boxes, recut)
+    proved, words, boxes, recut, study = _core.check_certificate(data, progress)
+    return Checked(proved, words, boxes, recut, tuple(study))

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace ninedof::checker {
 
 struct Verdict {
   bool proved = false;
   std::string words;  ///< what is proved, or why the certificate is refused
+  std::vector<std::string> study;  ///< of a proof: the designs that it is about, as the checker read them
   long leaves = 0;    ///< boxes looked at
   long recut = 0;     ///< of these, boxes that were cut further to see it
 };

@@ -1,9 +1,7 @@
 #pragma once
 /// What a certificate says, before anything of it is believed.
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "proof/checker/ranges.hpp"
@@ -13,15 +11,24 @@ namespace ninedof::checker {
 /// Throws std::runtime_error: the certificate is not accepted.
 [[noreturn]] void refuse(const std::string& why);
 
-/// Bounds are as they stand in the file, in the unit of the study.
+/// A variable or a limit, in the unit of the study.
+struct Bound {
+  std::string name;
+  Range range;
+};
+
 struct Certificate {
   std::string family;
   double target = 0.0, length = 0.0;
-  std::vector<std::pair<std::string, Range>> variables;
-  std::map<std::string, Range> limits;
+  std::vector<Bound> variables, limits;
+  std::vector<std::string> left_out;  ///< limits of the study that the proof does without
   std::string tree;
 };
 
+/// Accepts one spelling of each certificate: that in which its lines are written anew from what was read.
 Certificate read(const std::string& bytes);
+
+/// The study for people, one line each: what was read is what is checked and what is printed.
+std::vector<std::string> study_of(const Certificate& c);
 
 }  // namespace ninedof::checker

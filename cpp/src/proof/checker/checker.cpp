@@ -135,6 +135,7 @@ Verdict check(const std::string& certificate, const Reading& reading) {
         if (!r.sound() || !(r.a > 0.0) || !(r.b < inf)) refuse("the domain has no bounds");
       Walk(d, c.tree, out, reading).run();
     }
+    out.study = study_of(c);
     out.words = "no design of this study has a condition number below " + rounded_down(c.target);
     out.proved = true;
   } catch (const std::exception& error) {

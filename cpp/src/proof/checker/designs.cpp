@@ -19,32 +19,19 @@ Range below_x(Range s1, Range s2) {
   return blurred(s1.b > 0.0 ? angle(s1.b, s2.a) : pi / 2.0, s2.b > 0.0 ? angle(s1.a, s2.b) : pi / 6.0);
 }
 
-/// tan(theta/2) of an angle that may be turned back, doubled over and counted from either side.
+/// tan(theta/2), theta folded into [0, pi]: an angle counts modulo 2 pi and without its sign.
 Range half_tangent(Range theta) {
-  if (!(theta.b - theta.a < 2.0 * pi)) return {0.0, inf};
-  double low = inf, high = 0.0;
-  for (int turn = -40; turn <= 40; ++turn) {
-    const double a = theta.a - 2.0 * pi * turn, b = theta.b - 2.0 * pi * turn;
-    if (b < -pi - 1e-9 || a > pi + 1e-9) continue;
-    const bool through_zero = a <= 0.0 && b >= 0.0, through_pi = b >= pi - 1e-12 || a <= -pi + 1e-12;
-    const double near = through_zero ? 0.0 : std::min(std::abs(a), std::abs(b));
-    const double far = through_pi ? pi : std::max(std::abs(a), std::abs(b));
-    low = std::min(low, std::tan(std::max(near - 1e-13, 0.0) / 2.0));
-    high = far > pi - 1e-9 ? inf : std::max(high, std::tan((far + 1e-13) / 2.0));
-    if (high == inf) break;
-  }
-  if (low == inf) return {0.0, inf};  // an angle of more than forty turns
-  return {std::max(low * (1.0 - 1e-14), 0.0), high * (1.0 + 1e-14)};
-}
-
-Range variable(const Certificate& c, std::size_t k, const char* name) {
-  if (k >= c.variables.size() || c.variables[k].first != name) refuse(std::string("variable ") + name + " is missing");
-  return c.variables[k].second;
-}
-
-Range positive(Range x, const char* name) {
-  if (!(x.a > 0.0) || !(x.b < inf)) refuse(std::string("the bounds of ") + name + " are not positive and finite");
-  return x;
+  constexpr double turn = 2.0 * pi, most = 40.0 * turn,
+                   blur = 1e-13;  // blur: far more than the rounding of forty turns
+  if (!(theta.b - theta.a < turn - blur) || !(size(theta) < most)) return {0.0, inf};
+  const Range wide{theta.a - blur, theta.b + blur};
+  const auto meets = [&](double angle) {
+    return std::floor((wide.b - angle) / turn) != std::floor((wide.a - angle) / turn);
+  };
+  const double a = std::abs(std::remainder(theta.a, turn)), b = std::abs(std::remainder(theta.b, turn));
+  const double near = meets(0.0) ? 0.0 : std::min(a, b) - blur, far = meets(pi) ? pi : std::max(a, b) + blur;
+  return {std::max(std::tan(std::max(near, 0.0) / 2.0) * (1.0 - 1e-14), 0.0),
+          far < pi - 1e-9 ? std::tan(far / 2.0) * (1.0 + 1e-14) : inf};
 }
 
 bool disjoint(Range x, Range y) {
@@ -54,46 +41,64 @@ bool disjoint(Range x, Range y) {
 }  // namespace
 
 Domain domain_of(const Certificate& c) {
+  using Names = std::vector<std::string>;
+  const Names hexagon{"a1", "a2", "b1", "b2", "zp", "zs", "theta_z"};
+  const Names plates{"base_external_radius",
+                     "base_internal_radius",
+                     "base_internal_angle",
+                     "platform_external_radius",
+                     "platform_external_angle",
+                     "platform_internal_radius",
+                     "platform_internal_angle",
+                     "zp",
+                     "zs"};
+  const bool hexagonal = c.family == "hexagonal";
+  if (!hexagonal && c.family != "symmetric") refuse("the family is neither hexagonal nor symmetric");
+  const Names& names = hexagonal ? hexagon : plates;
+  if (c.variables.size() != names.size()) refuse("the variables are not those of the family");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (c.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
   if (!(c.target > 1.0) || !(c.target < inf)) refuse("the target is not a finite number above 1");
   if (!(c.length > 0.0) || !(c.length < inf)) refuse("the characteristic length is not positive and finite");
   Domain d;
   d.target = c.target;
   Range angle;
   const auto size_of = [&](Range x) { return meet(x / c.length, {0.0, inf}); };
-  if (c.family == "hexagonal") {
-    const Range a1 = variable(c, 0, "a1"), a2 = variable(c, 1, "a2"), b1 = variable(c, 2, "b1"),
-                b2 = variable(c, 3, "b2");
+  const auto variable = [&](std::size_t k) { return c.variables[k].range; };
+  const auto positive = [&](std::size_t k) {
+    if (!(variable(k).a > 0.0) || !(variable(k).b < inf))
+      refuse("the bounds of " + names[k] + " are not positive and finite");
+    return size_of(variable(k));
+  };
+  if (hexagonal) {
+    const Range a1 = variable(0), a2 = variable(1), b1 = variable(2), b2 = variable(3);
     for (const Range side : {a1, a2, b1, b2})
       if (!(side.a >= 0.0) || !(side.b < inf)) refuse("the bounds of a side are negative or infinite");
     d.R = d.R_internal = size_of(radius(a1, a2));
     d.U = d.U_internal = size_of(radius(b1, b2));
-    d.zp = variable(c, 4, "zp");
-    d.zs = variable(c, 5, "zs");
-    angle = variable(c, 6, "theta_z") + below_x(a1, a2) - below_x(b1, b2);
-  } else if (c.family == "symmetric") {
-    d.dimension = 7;
-    d.R = size_of(positive(variable(c, 0, "base_external_radius"), "base_external_radius"));
-    d.R_internal = size_of(positive(variable(c, 1, "base_internal_radius"), "base_internal_radius"));
-    d.U = size_of(positive(variable(c, 3, "platform_external_radius"), "platform_external_radius"));
-    d.U_internal = size_of(positive(variable(c, 5, "platform_internal_radius"), "platform_internal_radius"));
-    angle = variable(c, 4, "platform_external_angle");
-    d.zp = variable(c, 7, "zp");
-    d.zs = variable(c, 8, "zs");
+    d.zp = positive(4);
+    d.zs = variable(5);
+    angle = variable(6) + below_x(a1, a2) - below_x(b1, b2);
   } else {
-    refuse("the family is neither hexagonal nor symmetric");
+    d.dimension = 7;
+    d.R = positive(0);
+    d.R_internal = positive(1);
+    d.U = positive(3);
+    d.U_internal = positive(5);
+    angle = variable(4);
+    d.zp = positive(7);
+    d.zs = variable(8);
   }
-  d.zp = size_of(positive(d.zp, "zp"));
   if (!(d.zs.a >= 0.0)) refuse("the bounds of zs are negative");
   d.zs = size_of(d.zs);
   for (const auto& [name, range] : c.limits) {
     if (name == "zs_fraction") d.fraction = meet(d.fraction, range);
     else if (name == "radius_ratio") d.radius_ratio = meet(d.radius_ratio, range);
-    else if (name == "leg_ratio") d.leg_ratio = range.b;
+    else if (name == "leg_ratio") d.leg_ratio = std::min(d.leg_ratio, range.b);
     else refuse("the proof knows no limit " + name);
   }
 
   // Below the target: R U sin(theta) >= zp / target, and 1/q and y/t at most target * sqrt(N).
-  const bool hexagonal = d.dimension == 5;
   const Range area = Range(d.zp.a) / d.target;
   Range& U = d.box[0];
   U = meet(d.U, {(area / d.R.b).a, inf});

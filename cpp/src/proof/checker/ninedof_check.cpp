@@ -19,6 +19,7 @@ int main(int count, char** words) {
     return 2;
   }
   const ninedof::checker::Verdict found = ninedof::checker::check(bytes);
+  for (const std::string& line : found.study) std::printf("%s\n", line.c_str());
   std::printf("%s: %s (%ld boxes, %ld cut further)\n", found.proved ? "Proved" : "Refused", found.words.c_str(),
               found.leaves, found.recut);
   return found.proved ? 0 : 1;

@@ -1,0 +1,293 @@
+"""Certificates whose head was changed and sealed anew: what still counts as proved must be true.
+
+Oracle: the closed form of the condition number on the symmetry axis in numpy, minimized over samples of the designs
+that the changed head allows. It shares nothing with the search or the checker. A design below the target shows a false
+proof.
+"""
+
+import math
+import zlib
+
+import numpy as np
+import pytest
+from sizes import size
+
+import ninedof as nd
+
+FIRST = "ninedof certificate 1\nchecksum "
+PLATES = ("base_external_radius", "base_internal_radius", "platform_external_radius", "platform_internal_radius")
+HEIGHTS = {"zp": (1.0, 9.0), "zs": (0.3, 8.0)}
+COUPLED = {"a1": 0.0, "a2": 4.0, "b1": 0.0, "b2": (2.0, 2.2)}
+SYMMETRIC = dict(zip(PLATES, (4.0, 2.5, (2.0, 2.2), 1.8), strict=True)) | HEIGHTS
+STUDIES = {
+    "hexagonal, up to a half turn": nd.Study(
+        variables=COUPLED | HEIGHTS | {"theta_z": (2.5, math.pi)}, constraints={"radius_ratio": (None, 2.0)}
+    ),
+    "hexagonal, all sides": nd.Study(
+        variables={"a1": (0.1, 0.2), "a2": 5.0, "b1": 2.5, "b2": 0.1, "theta_z": (-0.2, 0.3)} | HEIGHTS,
+        constraints={"zs_fraction": (0.2, 0.8), "leg_ratio": (None, 3.0)},
+        characteristic_length=0.7,
+    ),
+    "symmetric, up to a half turn": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC | {"platform_external_angle": (2.9, math.pi)},
+        constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 3.0)},
+    ),
+    "symmetric, a turn further": nd.Study(
+        "symmetric",
+        variables=SYMMETRIC | {"platform_external_angle": (2.0 * math.pi - 0.4, 2.0 * math.pi + 0.2)},
+        constraints={"zs_fraction": (0.1, 0.9)},
+    ),
+}
+
+
+def condition(R, R_in, U, U_in, theta, zp, zs):
+    """Condition numbers with l_c = 1: theory of the symmetry axis, one 2x2 block for each kind of motion."""
+    e = np.array([U * np.cos(theta) - R, U * np.sin(theta), zp])
+    up, low = np.array([-U_in, 0.0 * zs, zs - zp]), np.array([-R_in, 0.0 * zs, zs])
+    e, up, low = (v / np.sqrt((v * v).sum(axis=0)) for v in (e, up, low))
+    arm = (U * np.cos(theta), U * np.sin(theta))
+    m = np.array([arm[1] * e[2], -arm[0] * e[2], arm[0] * e[1] - arm[1] * e[0]])
+    n = np.array([0.0 * zs, -U_in * up[2], 0.0 * zs])
+
+    def ends(mx, ex, nx, ux, c):
+        total = abs(mx) ** 2 + abs(ex) ** 2 + (abs(nx) ** 2 + abs(ux) ** 2) / (1.0 + c)
+        product = np.abs(mx * ux - ex * nx) / np.sqrt(1.0 + c)
+        largest = 0.5 * (total + np.sqrt(np.maximum(total**2 - 4.0 * product**2, 0.0)))
+        return largest, product**2 / largest
+
+    def across(v):
+        return v[0] + 1j * v[1]
+
+    axial = ends(m[2], e[2], n[2], up[2], (up[2] / low[2]) ** 2)
+    transverse = ends(*map(across, (m, e, n, up)), abs(across(up)) ** 2 / abs(across(low)) ** 2)
+    largest = np.maximum(3.0 * axial[0], 1.5 * transverse[0])
+    return np.sqrt(largest / np.minimum(3.0 * axial[1], 1.5 * transverse[1]))
+
+
+class Head:
+    """The lines before the tree, as words."""
+
+    def __init__(self, certificate):
+        head, self.tree = certificate.split(b"\ntree ", 1)
+        self.lines = [line.split(" ") for line in head.decode().splitlines()[2:]]
+
+    def numbers(self):
+        return [(i, j) for i, line in enumerate(self.lines) for j, word in enumerate(line) if j and is_number(word)]
+
+    def sealed(self):
+        body = "\n".join(" ".join(line) for line in self.lines).encode() + b"\ntree " + self.tree
+        return f"{FIRST}{zlib.crc32(body):x}\n".encode() + body
+
+    def changed(self, at, value):
+        new = Head.__new__(Head)
+        new.tree, new.lines = self.tree, [list(line) for line in self.lines]
+        new.lines[at[0]][at[1]] = spelled(value)
+        return new
+
+    def value(self, *key):
+        """The numbers of the line that begins with these words."""
+        for line in self.lines:
+            if line[: len(key)] == list(key):
+                return [float.fromhex(word) for word in line[len(key) :]]
+        return None
+
+
+def is_number(word):
+    try:
+        float.fromhex(word)
+    except ValueError:
+        return False
+    return "0x" in word or "inf" in word
+
+
+def spelled(x):
+    """As the file has it: hexadecimal without needless digits."""
+    if math.isinf(x):
+        return "inf" if x > 0.0 else "-inf"
+    mantissa, exponent = float(x).hex().split("p")
+    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{exponent}"
+
+
+def best(head, rng, count=3000, rounds=6):
+    """The least condition number found among the designs of a head; infinite if no sample keeps the limits."""
+    hexagonal = head.lines[0][1] == "hexagonal"
+    lc = head.value("characteristic_length")[0]
+    names = ("a1", "a2", "b1", "b2", "theta_z") if hexagonal else (*PLATES, "platform_external_angle")
+    names = (*names, "zp", "zs")
+    low, high = (np.array([head.value("variable", name)[k] for name in names]) for k in (0, 1))
+    low, high = np.maximum(low, -20.0), np.minimum(high, np.maximum(low, 0.0) + 1e3)
+    fraction = head.value("limit", "zs_fraction") or (0.0, 1.0)
+    ratio = head.value("limit", "radius_ratio") or (0.0, np.inf)
+    legs = head.value("limit", "leg_ratio") or (0.0, np.inf)
+    found, middle, width = np.inf, None, 1.0
+    for _ in range(rounds):
+        t = rng.beta(0.6, 0.6, (len(names), count)) if middle is None else rng.uniform(-1, 1, (len(names), count))
+        x = (
+            low[:, None] + t * (high - low)[:, None]
+            if middle is None
+            else middle[:, None] + width * t * (high - low)[:, None]
+        )
+        x = np.clip(x, low[:, None], high[:, None])
+        if hexagonal:
+            a1, a2, b1, b2, theta, zp, zs = x
+            R = R_in = np.sqrt((a1**2 + a1 * a2 + a2**2) / 3.0)
+            U = U_in = np.sqrt((b1**2 + b1 * b2 + b2**2) / 3.0)
+            theta = theta + np.arctan2(3**0.5 * (a1 + 2 * a2), 3 * a1) - np.arctan2(3**0.5 * (b1 + 2 * b2), 3 * b1)
+        else:
+            R, R_in, U, U_in, theta, zp, zs = x
+        external = np.sqrt(R**2 + U**2 - 2 * R * U * np.cos(theta) + zp**2)
+        upper, lower = np.hypot(U_in, zp - zs), np.hypot(R_in, zs)
+        longest, shortest = np.maximum.reduce([external, upper, lower]), np.minimum.reduce([external, upper, lower])
+        ratios = np.maximum(R, R_in) / np.maximum(U, U_in)
+        kept = (zs > 0.0) & (zs < zp) & (zs >= fraction[0] * zp) & (zs <= fraction[1] * zp)
+        kept &= (ratios >= ratio[0]) & (ratios <= ratio[1]) & (longest <= legs[1] * shortest)
+        with np.errstate(all="ignore"):
+            kappa = np.where(kept, condition(*(v / lc for v in (R, R_in, U, U_in)), theta, zp / lc, zs / lc), np.inf)
+        at = int(np.argmin(np.where(np.isnan(kappa), np.inf, kappa)))
+        if kappa[at] < found:
+            found, middle = float(kappa[at]), x[:, at]
+        if middle is not None:
+            width *= 0.5 if width < 1.0 else 0.25
+    return found
+
+
+@pytest.fixture(scope="module", params=list(STUDIES))
+def genuine(request):
+    study = STUDIES[request.param]
+    known = nd.optimize(study, starts=8).condition_number
+    proof = nd.prove_optimum(study, known, gap=0.2)
+    assert proof.complete
+    return known, Head(proof.certificate)
+
+
+def verdict(head, tmp_path):
+    path = tmp_path / "certificate"
+    path.write_bytes(head.sealed())
+    return nd.check_certificate(path)
+
+
+def other(value, name, rng):
+    """Another number in the place of one."""
+    if name.endswith("angle") or name == "theta_z":
+        return rng.choice(
+            [value + rng.normal(), value + 2.0 * math.pi, -value, 12.0 * rng.normal(), math.copysign(math.inf, value)]
+        )
+    if math.isinf(value):
+        return 10.0 ** rng.uniform(-1.0, 1.0)
+    return rng.choice(
+        [value * math.exp(0.3 * rng.normal()), value * 10.0 ** rng.normal(), value + rng.normal(), 0.0, math.inf]
+    )
+
+
+def test_the_oracle_finds_the_best_design_of_each_study(genuine):
+    known, head = genuine
+    found = best(head, np.random.default_rng(5), 20_000, 12)
+    assert known * (1.0 - 1e-9) <= found <= known * 1.02
+
+
+def test_what_is_proved_of_a_changed_head_is_true(genuine, tmp_path):
+    known, head = genuine
+    assert verdict(head, tmp_path).proved
+    rng = np.random.default_rng(27)
+    places, proved, refused, below = head.numbers(), 0, 0, 0
+    for _ in range(size(500, 5000)):
+        forged = head
+        for k in rng.choice(len(places), rng.integers(1, 3), replace=False):
+            i, j = places[k]
+            line = head.lines[i]
+            forged = forged.changed((i, j), other(float.fromhex(line[j]), line[1], rng))
+        if not verdict(forged, tmp_path).proved:
+            refused += 1
+            continue
+        proved += 1
+        target = forged.value("target")[0]
+        assert best(forged, rng, 500) >= target * (1.0 - 1e-12), forged.lines
+        below += target < known
+    assert proved > 20  # smaller sets and smaller targets stay proved
+    assert refused > 20
+
+
+@pytest.mark.parametrize("name", ["theta_z", "platform_external_angle"])
+def test_an_angle_past_a_half_turn_counts_on_the_other_side(name, tmp_path):
+    """As far as pi such designs are poor; past it come those of the next turn, which are better."""
+    hexagonal = name == "theta_z"
+    study = STUDIES["hexagonal, up to a half turn" if hexagonal else "symmetric, up to a half turn"]
+    known = nd.optimize(study, starts=8).condition_number
+    head = Head(nd.prove_optimum(study, known, gap=0.01).certificate)
+    assert verdict(head, tmp_path).proved
+    at = next((i, 3) for i, line in enumerate(head.lines) if line[1] == name)
+    wider = head.changed(at, 4.5 if hexagonal else 5.5)
+    assert best(wider, np.random.default_rng(1)) < 0.9 * known
+    assert not verdict(wider, tmp_path).proved
+    assert not verdict(head.changed(at, math.inf), tmp_path).proved
+    # The same angles, a turn further and counted from the other side.
+    low, high = head.value("variable", name)
+    for shift, sign in ((2.0 * math.pi, 1.0), (-20.0 * math.pi, 1.0), (0.0, -1.0)):
+        if sign < 0.0 and hexagonal and head.value("variable", "a1") != [0.0, 0.0]:
+            continue
+        ends = sorted((sign * low + shift, sign * high + shift))
+        same = head.changed((at[0], 2), ends[0] + 1e-9).changed((at[0], 3), ends[1] - 1e-9)
+        assert verdict(same, tmp_path).proved
+
+
+@pytest.mark.parametrize("ends", [(2.5, 4.5), (-4.5, -2.5), (8.0, 10.0), (3.0, 3.3), (-0.3, 6.2), (250.0, 251.0)])
+def test_proofs_of_angles_anywhere_are_checked(ends, tmp_path):
+    study = nd.Study(variables=COUPLED | HEIGHTS | {"theta_z": ends})
+    proof = nd.prove_optimum(study, nd.optimize(study, starts=8).condition_number, gap=0.05)
+    assert proof.complete
+    assert verdict(Head(proof.certificate), tmp_path).proved
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("limit radius_ratio 0x0p+0 0x1p+1", "limit radius_ratio 0 10", "is not a hexadecimal number"),
+        ("0x1p+1", "0X1P+1", "is not a hexadecimal number"),
+        ("limit radius_ratio 0x0p+0 0x1p+1", "limit radius_ratio 0x0p+0 0x2p+0", "not written as the search"),
+        ("0x1p+1", "0x1.0p+1", "not written as the search"),
+        ("0x1p+1", "0x1p1", "not written as the search"),
+        ("0x1p+1", "+0x1p+1", "is not a hexadecimal number"),
+        ("0x1p+1", "0xnan", "is not a hexadecimal number"),
+        ("family hexagonal", "family hexagonal ", "family is neither"),
+        ("family hexagonal", "family hexagonal\nfamily hexagonal", "not written as the search"),
+        ("family hexagonal", "family \x1b[2Jhexagonal", "no text"),
+        ("variable a1", "variable a9", "variable a1 is missing"),
+        ("variable zp", "variable zz 0x0p+0 0x1p+0\nvariable zp", "variables are not those of the family"),
+        ("limit radius_ratio", "limit hope", "knows no limit hope"),
+        ("limit radius_ratio", "hope radius_ratio", "means nothing"),
+        ("limit radius_ratio 0x0p+0 0x1p+1", "limit radius_ratio 0x1p+2 0x1p+1", "inverted"),
+        ("limit radius_ratio 0x0p+0 0x1p+1", "limit radius_ratio 0x1p+1", "lacks a bound"),
+        ("limit radius_ratio", "\nlimit radius_ratio", "means nothing"),
+    ],
+)
+def test_only_one_spelling_is_accepted(old, new, words, tmp_path):
+    study = STUDIES["hexagonal, up to a half turn"]
+    head = Head(nd.prove_optimum(study, 2.0, gap=0.0).certificate)
+    assert verdict(head, tmp_path).proved
+    text = "\n".join(" ".join(line) for line in head.lines)
+    assert old in text
+    head.lines = [line.split(" ") for line in text.replace(old, new).split("\n")]
+    found = verdict(head, tmp_path)
+    assert not found.proved
+    assert words in found.words
+    assert found.study == ()
+
+
+def test_what_is_printed_is_what_was_checked(tmp_path):
+    study = STUDIES["hexagonal, all sides"]
+    found = verdict(Head(nd.prove_optimum(study, 1.5, gap=0.0).certificate), tmp_path)
+    assert found.proved
+    assert found.study == (
+        "hexagonal designs with 0 < zs < zp",
+        "characteristic length 0.7",
+        "a1 from 0.1 to 0.2",
+        "a2 5",
+        "b1 2.5",
+        "b2 0.1",
+        "zp from 1 to 9",
+        "zs from 0.3 to 8",
+        "theta_z from -0.2 to 0.3",
+        "zs_fraction from 0.2 to 0.8",
+        "leg_ratio from 0 to 3",
+    )
