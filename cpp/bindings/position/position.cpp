@@ -124,7 +124,7 @@ void bind_position(py::module_& m) {
   m.def("forward_position", &forward_position_stack);
   m.def("track", &track_stack);
   py::list names;
-  for (const TrackStatus s : {TrackStatus::tracked, TrackStatus::lost, TrackStatus::infeasible})
+  for (const TrackStatus s : {TrackStatus::tracked, TrackStatus::lost, TrackStatus::infeasible, TrackStatus::unproved})
     names.append(to_string(s));
   m.attr("track_statuses") = names;
 }

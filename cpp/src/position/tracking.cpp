@@ -23,10 +23,12 @@ constexpr double ball = 2.0 / (3.0 * std::numbers::sqrt3);  // of the separation
 constexpr double hopeless = 2.0;  // certificate above which a step is not tried
 constexpr int uncertified_steps = 12;  // of Newton's method where it is not proved to converge
 constexpr int most_halvings = 5;  // of the lengths of a step, for its proof
-constexpr double shortest = 0x1p-18;  // step, as a fraction of the path
+constexpr double shortest = 0x1p-44;  // step, as a fraction of the path: next to a singularity little above rounding
 constexpr double aim = 0.4;  // desired certificate of a step; it grows with the length of the step
-constexpr int most_attempts = 1000;
+constexpr int most_attempts = 20'000;
 constexpr double known_to = 1e-13;  // residual of a mode that is known
+constexpr double touches_plane = 1e-6;  // height of O relative to the longest leg: below it rounding hides the plane
+constexpr double merged = 8.0;  // separation in roots of the error of the equations: below it rounding hides a fold
 
 /// The robot, and three numbers of the start that no step lets change their sign: the heights of O over the two plates,
 /// which are det B and det C but for positive factors, and such a multiple of det N.
@@ -192,6 +194,15 @@ Step step_to(const Robot& robot, const Waypoint& start, const Vec9& lengths, con
   return out;
 }
 
+/// Whether the mode ends here as far as rounding tells: O in a plane of internal joints, or two modes that are one.
+bool ends_at(const Robot& robot, const Waypoint& at, const Mat3& rotation) {
+  const double least = std::min(std::abs(at.lower.height), std::abs(at.upper.height));
+  if (least <= touches_plane * at.lengths.maxCoeff()) return true;
+  std::optional<Target> here;
+  if (set_target(robot, at.lengths, rotation, here) != Reach::yes) return false;
+  return here->beta * merged * std::sqrt(here->error) >= 1.0;
+}
+
 /// Of the unit of the robot; 0 where a plate would be lost in it.
 int usable_exponent(const Geometry& g) {
   const int exponent = unit_exponent(largest_coordinate(g));
@@ -216,7 +227,7 @@ Tracked tracked(const Step& s, int steps) {
   return {TrackStatus::tracked, s.configuration, s.certificate, s.alone_within, s.separation, steps, 1.0};
 }
 
-Tracked lost(TrackStatus status, double reached, int steps) {
+Tracked not_reached(TrackStatus status, double reached, int steps) {
   Tracked out = Tracked::not_tried();
   out.status = status;
   out.reached = reached;
@@ -231,13 +242,14 @@ const char* to_string(TrackStatus status) {
     case TrackStatus::tracked: return "tracked";
     case TrackStatus::lost: return "lost";
     case TrackStatus::infeasible: return "infeasible";
+    case TrackStatus::unproved: return "unproved";
   }
   return "";
 }
 
 Tracked Tracked::not_tried() {
   const Configuration nowhere{Vec3::Constant(not_a_number), Mat3::Constant(not_a_number), Vec3::Constant(not_a_number)};
-  return {TrackStatus::lost, nowhere, not_a_number, not_a_number, not_a_number, 0, 0.0};
+  return {TrackStatus::unproved, nowhere, not_a_number, not_a_number, not_a_number, 0, 0.0};
 }
 
 Tracker::Tracker(const Geometry& g)
@@ -261,12 +273,12 @@ Tracked Tracker::follow(const Vec9& leg_lengths, const Configuration& start) con
                     platform_.height(o), scaled_det_n(geometry_, {start.internal_point, o}, start.rotation)};
   const double unit = leg_lengths.maxCoeff();
   if (!(std::min(std::abs(robot.base_height), std::abs(robot.platform_height)) > least_height * unit))
-    return Tracked::not_tried();
+    return not_reached(TrackStatus::lost, 0.0, 0);
   const Vec9 from = ninedof::leg_lengths(geometry_, start);
   Waypoint at(robot, from, {start.internal_point, o}, Vec3::Zero());
   const Step whole = step_to(robot, at, leg_lengths, start.rotation);
   if (whole.reach == Reach::yes) return tracked(whole, 1);
-  if (whole.reach == Reach::infeasible) return lost(TrackStatus::infeasible, 0.0, 0);
+  if (whole.reach == Reach::infeasible) return not_reached(TrackStatus::infeasible, 0.0, 0);
 
   Mat3 rotation = start.rotation;
   double reached = 0.0, stride = 0.5;
@@ -287,7 +299,7 @@ Tracked Tracker::follow(const Vec9& leg_lengths, const Configuration& start) con
     at = Waypoint(robot, lengths, {s.configuration.internal_point, platform_point(s.configuration)}, Vec3::Zero());
     stride = adapted;
   }
-  return lost(TrackStatus::lost, reached, steps);
+  return not_reached(ends_at(robot, at, rotation) ? TrackStatus::lost : TrackStatus::unproved, reached, steps);
 }
 
 Tracked track(const Geometry& g, const Vec9& leg_lengths, const Configuration& start) {

@@ -20,9 +20,11 @@ class TrackStatus(StrEnum):
     TRACKED = "tracked"
     """Reached, and proved to be where the start's mode goes along the straight path of the lengths."""
     LOST = "lost"
-    """Not reached: on the path the mode meets another, or O reaches a plane of internal joints, or nearly so."""
+    """The mode ends on the path: as far as rounding tells it meets another, or O reaches a plane of internal joints."""
     INFEASIBLE = "infeasible"
     """The internal legs do not meet, or an external leg is too long or too short for the position of O."""
+    UNPROVED = "unproved"
+    """Neither is known: too many steps, a plate too small to place O, or a step after one that was not tracked."""
 
 
 class Tracked(Configuration):
@@ -81,7 +83,8 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     form from three spheres. The rotation follows by Newton's method on SO(3). "tracked" is a proof: while the lengths
     go straight from those of the start to the given ones, no singularity is passed, and the mode returned is the one
     that the start's becomes. It uses Kantorovich's theorem with bounds over the whole step; where they are too wide the
-    step is divided. At a singularity the mode can continue in two ways: it is lost there, and NaN is returned.
+    step is divided. At a singularity the mode can continue in two ways: it is "lost" there, and NaN is returned. Where
+    neither could be proved, the status is "unproved".
 
     Parameters
     ----------
@@ -98,9 +101,9 @@ def track(geometry: Geometry, leg_lengths: ArrayLike, start: Configuration, thre
     -------
     Tracked
         Configurations of the shape of `leg_lengths` without its last dimension, with `status`, `certificate`,
-        `alone_within`, `separation`, `steps` and `reached`. NaN from the step on where the mode is lost or
-        the lengths are infeasible, or where a row of lengths has NaN, which counts as lost. `forward_position` lists
-        the modes for such lengths.
+        `alone_within`, `separation`, `steps` and `reached`. NaN from the first step on that is not
+        tracked; the steps after it are not tried and "unproved", and so is a row of lengths with NaN.
+        `forward_position` lists the modes for such lengths.
 
     Raises
     ------

@@ -13,17 +13,17 @@ namespace ninedof {
 
 enum class TrackStatus {
   tracked,     ///< reached, and proved to be where the start's mode goes along the straight path of the lengths
-  lost,  ///< not reached: on the path the mode meets another, or O a plane of internal joints, or nearly so; or a
-         ///< plate is so small beside its internal legs that they do not place O
+  lost,  ///< the mode ends on the path: as far as rounding tells it meets another, or O a plane of internal joints
   infeasible,  ///< the internal legs do not meet, or an external leg is too long or too short for the position of O
+  unproved,  ///< none of these is known: too many steps, a plate too small to place O, or a step after one not tracked
 };
 
-/// "tracked", "lost", "infeasible".
+/// "tracked", "lost", "infeasible", "unproved".
 const char* to_string(TrackStatus status);
 
 /// A configuration and its certificate.
 struct Tracked {
-  TrackStatus status = TrackStatus::lost;
+  TrackStatus status = TrackStatus::unproved;
   Configuration configuration;  ///< NaN unless tracked
   /// Kantorovich's number h = sqrt(3) beta eta of the equations at the end, at the start of the last step. For h <= 1/2
   /// a mode exists near the start and is the only one within `alone_within`. Above, the mode is nearer to the start
@@ -37,7 +37,7 @@ struct Tracked {
   int steps = 0;  ///< number of steps into which the path was divided
   double reached = 0.0;  ///< fraction of the path from the lengths of the start: 1 if tracked
 
-  /// Lost without a step, as all steps after a lost one are.
+  /// Unproved without a step, as all steps after one that was not tracked.
   static Tracked not_tried();
 };
 
