@@ -1,4 +1,7 @@
+#include <pybind11/stl.h>
+
 #include "ninedof/kinematics/velocity.hpp"
+#include "ninedof/robot/legs.hpp"
 #include "support/lengths.hpp"
 #include "support/module.hpp"
 #include "support/motion.hpp"
@@ -19,6 +22,11 @@ void bind_kinematics(py::module_& m) {
             batch::leg_lengths(g, c.view(first, last), to);
           });
         });
+  m.attr("idle_share") = idle_share;
+  m.def("idle_legs", [](const Array& shortest, const Array& longest) {
+    return idle_legs(Eigen::Map<const Vec9>(rows("shortest", shortest, 1, 9)),
+                     Eigen::Map<const Vec9>(rows("longest", longest, 1, 9)));
+  });
   m.def("jacobian",
         [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& length, int threads) {
           const ConfigurationStack c(p, q, s);

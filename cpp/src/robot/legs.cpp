@@ -82,4 +82,14 @@ Vec9 leg_lengths(const Geometry& g, const Configuration& c) {
   return out;
 }
 
+std::array<bool, 9> idle_legs(const Vec9& shortest, const Vec9& longest) {
+  std::array<bool, 9> out{};
+  const double most = idle_share * longest.maxCoeff();
+  for (std::size_t k = 0; k < 9; ++k) {
+    const auto leg = static_cast<Eigen::Index>(k);
+    out[k] = longest[leg] - shortest[leg] <= most;
+  }
+  return out;
+}
+
 }  // namespace ninedof

@@ -1,31 +1,14 @@
-"""Where O is at the poses of a study, and which legs never move because of it."""
+"""Where O is at the poses of a study."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ninedof.design.pose import ZERO, Pose
 from ninedof.redundancy.rules import WORDS
-from ninedof.robot.leg_names import LEGS
-from ninedof.support.arrays import Floats
 
-IDLE = 1e-9  # of the longest length: a leg whose stroke is shorter does not move
 GIVEN = "given"
-
-
-def idle_legs(lengths: Floats) -> NDArray[np.bool_]:
-    """Return which legs have the same length at all poses, of which there are several; lengths (n, 9)."""
-    low, high = lengths.min(axis=0), lengths.max(axis=0)
-    return np.asarray((high - low <= IDLE * high) & (len(lengths) > 1))
-
-
-def idle_words(lengths: Floats) -> str:
-    """Return the names of the legs that never move; "" if all do."""
-    return ", ".join(name for name, idle in zip(LEGS, idle_legs(lengths), strict=True) if idle)
 
 
 def rule_words(poses: Sequence[Pose]) -> str:

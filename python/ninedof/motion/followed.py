@@ -11,6 +11,7 @@ import numpy as np
 from ninedof.motion.trajectory import Trajectory
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
+from ninedof.robot.idle import idle_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
@@ -108,8 +109,7 @@ class Followed(Saved):
     @property
     def idle_legs(self) -> tuple[str, ...]:
         """Legs whose length never changes."""
-        spread = np.ptp(self.leg_lengths, axis=0)
-        return tuple(leg for leg, s in zip(LEGS, spread, strict=True) if s <= 1e-12 * self.leg_lengths.max())
+        return idle_names(self.leg_lengths)
 
     def to_dict(self) -> dict[str, Any]:
         """Return a summary as plain values: extremes of each leg, the worst poses, limits that break, the check."""

@@ -8,7 +8,7 @@ from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ninedof.design.internal_points import idle_words, rule_words
+from ninedof.design.internal_points import rule_words
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
@@ -25,6 +25,7 @@ from ninedof.proof.placed import rule_of
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.idle import idle_names
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arguments import choice, finite, instance, items
 from ninedof.support.fields import entries_of
@@ -209,7 +210,7 @@ class Result:
         if best is None or len(self.solved.objective.poses) < 2:
             return ""
         where = rule_words(self.solved.objective.poses)
-        idle = idle_words(leg_lengths(best.geometry, best.configurations))
+        idle = ", ".join(idle_names(leg_lengths(best.geometry, best.configurations)))
         if not idle:
             return where
         said = f'{where}; {idle} never move, with internal_point = "best" they would'

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.design.internal_points import IDLE
 from ninedof.kinematics.acceleration import inverse_acceleration
 from ninedof.kinematics.velocity import internal_velocity, inverse_velocity
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.idle import IDLE
 from ninedof.support.arguments import choice, finite, shown
 from ninedof.support.arrays import Floats, as_floats
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.design.internal_points import idle_legs
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.idle import idle_legs
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.clearance import leg_ends
 from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates

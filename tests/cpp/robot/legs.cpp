@@ -94,6 +94,22 @@ TEST_SUITE("legs") {
     }
   }
 
+  TEST_CASE(
+      "idle: a change of 1e-9 of the longest leg and no more, whatever the length of the leg itself and the unit") {
+    for (const double unit : {1e-6, 1.0, 350.0, 1e9}) {
+      Vec9 shortest, longest;
+      shortest << 1.0, 1e-6, 2.0, 3.0, 0.5, 0.25, 1.0, 1.0, 4.0;
+      longest = shortest;
+      longest[0] += 3.9e-9;  // of 4
+      longest[1] += 3.9e-9;
+      longest[2] += 4.1e-9;
+      longest[3] += 1e-13;
+      longest[4] += 1e-7;
+      const std::array<bool, 9> idle = idle_legs(unit * shortest, unit * longest);
+      CHECK(idle == std::array{true, true, false, true, false, true, true, true, true});
+    }
+  }
+
   TEST_CASE("NaN gives NaN") {
     Configuration c = neutral(2, 1);
     c.internal_point.x() = not_a_number;

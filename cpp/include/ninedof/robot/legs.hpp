@@ -1,6 +1,8 @@
 #pragma once
 /// Inverse position analysis: the nine legs of a configuration. The solution always exists and is unique.
 
+#include <array>
+
 #include "ninedof/math/types.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"
@@ -23,5 +25,11 @@ Legs legs(const Geometry& g, const Configuration& c);
 
 /// l1 l2 l3 q1 q2 q3 r1 r2 r3, the order of eq. (35b).
 Vec9 leg_lengths(const Geometry& g, const Configuration& c);
+
+/// Of the longest leg: a leg whose length changes by no more over some poses does not move.
+inline constexpr double idle_share = 1e-9;
+
+/// Which legs do not move, from the shortest and the longest length of each over the poses.
+std::array<bool, 9> idle_legs(const Vec9& shortest, const Vec9& longest);
 
 }  // namespace ninedof

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "math/numbers.hpp"
+#include "ninedof/robot/legs.hpp"
 
 namespace ninedof {
 
@@ -30,7 +31,7 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
     const double reach =
         chart.positional() ? std::abs(k) * (chart.high() - chart.low()).norm() : std::min(one.at[0].norm(), arm.norm());
     size = std::max({size, one.at[0].norm(), arm.norm(), std::abs(k) * chart.low().norm()});
-    constant_.push_back(reach <= 1e-12 * size);
+    constant_.push_back(reach <= idle_share * size);
     if (!constant_.back()) legs_.push_back(std::move(one));
   }
   rounding_ = 1e-12 * size;
