@@ -39,10 +39,11 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables) {
   out.characteristic_length = design.state.characteristic_length;
   for (Eigen::Index k = 0; k < design.margins.size(); ++k) {
     const std::string& name = p.margin_name(static_cast<int>(k));
-    const Eigen::VectorXd gradient = design.margin_gradient.row(k).transpose();
-    if (out.margins.empty() || out.margins.back().name != name)
-      out.margins.push_back({name, design.margins[k], gradient});
-    else if (design.margins[k] < out.margins.back().value) out.margins.back() = {name, design.margins[k], gradient};
+    const auto [value, slope] = p.shown_margin(static_cast<int>(k), design.margins[k]);
+    const bool first = out.margins.empty() || out.margins.back().name != name;
+    if (!first && !(value < out.margins.back().value)) continue;
+    if (first) out.margins.emplace_back();
+    out.margins.back() = {name, value, slope * design.margin_gradient.row(k).transpose()};
   }
   return out;
 }

@@ -39,7 +39,10 @@ class OnePose {
 
   Eigen::Index margins() const { return static_cast<Eigen::Index>(p_.margins.size()); }
   Eigen::Index size() const { return margins() + 1 + 18; }
-  const std::string& name(Eigen::Index k) const { return p_.margin_name(static_cast<int>(k)); }
+  RegionWorst::Limit limit(Eigen::Index k, double margin, const Vec6& at) const {
+    const auto row = static_cast<int>(k);
+    return {p_.margin_name(row), row, p_.shown_margin(row, margin).value, at};
+  }
 
   void evaluate(const Pose& pose, Eigen::VectorXd& out) {
     for (std::size_t k = 1; k < specs_.size(); ++k) specs_[k].pose = pose;
@@ -148,8 +151,7 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
   };
   for (const Least& end : starts) {
     for (Eigen::Index k = 0; k < index; ++k)
-      if (end.value[k] < infinity)
-        out.limits.push_back({shape.name(k), static_cast<int>(k), end.value[k], end.at[at_index(k)]});
+      if (end.value[k] < infinity) out.limits.push_back(shape.limit(k, end.value[k], end.at[at_index(k)]));
     if (end.value[index] < infinity) out.index.push_back({-end.value[index], end.at[at_index(index)]});
   }
   for (Eigen::Index leg = 0; leg < 9; ++leg) {

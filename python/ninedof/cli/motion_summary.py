@@ -16,6 +16,7 @@ from ninedof.redundancy.rules import where_o
 from ninedof.sheet.path_limits import LENGTHS, PathLimits, row_words
 from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, heading, per
 
 SHOWN = 12  # breaks of limits
@@ -31,7 +32,7 @@ def legs_table(found: Followed) -> Table:
     columns |= {"low": "low", "high": "high", "margin": "margin"} if limited else {}
     columns |= {"speed": "speed", "acceleration": "accel."}
     columns |= {"push": "push", "pull": "pull"} if found.leg_forces is not None else {}
-    units = dict.fromkeys(("shortest", "longest", "low", "high", "margin"), found.unit)
+    units = dict.fromkeys(("shortest", "longest", "low", "high"), found.unit)
     units |= {"speed": per(found.unit, "s"), "acceleration": per(found.unit, "s²")}
     for key, words in columns.items():
         table.add_column(heading(words, units.get(key, "")), justify="right")
@@ -41,7 +42,10 @@ def legs_table(found: Followed) -> Table:
     if found.leg_forces is not None:
         largest["push"] = largest["pull"] = max(largest["push"], largest["pull"])
     for k, (name, leg) in enumerate(legs.items()):
-        table.add_row(name, *(_text(leg[key], largest[key]) for key in columns), end_section=k % 3 == 2)
+        cells = (
+            margin_words(leg[key], "length") if key == "margin" else _text(leg[key], largest[key]) for key in columns
+        )
+        table.add_row(name, *cells, end_section=k % 3 == 2)
     return table
 
 
@@ -109,9 +113,5 @@ def draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory
 
 def _margins(found: Followed) -> dict[str, Floats]:
     """Return the least margin of the limits of leg lengths, relative to them; nothing without limits."""
-    low, high = found.limits
-    with np.errstate(divide="ignore", invalid="ignore"):
-        least = np.where(low > 0.0, found.leg_lengths / low - 1.0, np.inf).min(axis=1)
-        most = np.where(np.isfinite(high), 1.0 - found.leg_lengths / high, np.inf).min(axis=1)
-    margin = np.minimum(least, most)
+    margin = found.leg_margins.min(axis=1)
     return {"leg lengths": margin} if np.isfinite(margin).all() else {}

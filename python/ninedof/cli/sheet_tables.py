@@ -9,10 +9,11 @@ import numpy as np
 from rich.table import Table
 
 from ninedof.cli.result_table import short
-from ninedof.sheet.limit_rows import limit_amount, margin_words
+from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Extreme, Sheet
 from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, heading, per, times, with_unit
 
 ROUNDING = 1e-11  # of the largest number of a column

@@ -37,8 +37,10 @@ class DesignPoint:
     gradient: dict[str, float]
     """d(objective)/d(variable); NaN where singular. Where singular values or poses tie, that of one of them."""
     margins: dict[str, float]
-    """Smallest margin of each constraint, relative to its limit: 0.01 is one per cent to spare, negative is violated.
-    Of singularity_free: determinant less its limit. A limit at the neutral pose alone is named "leg_ratio at neutral".
+    """Smallest margin of each constraint: 1 - value / max or value / min - 1, so that 0.01 is one per cent to spare and
+    negative is violated; of singularity_free, which has no scale, value - min.
+
+    A limit at the neutral pose alone is named "leg_ratio at neutral".
     """
     margin_gradients: dict[str, dict[str, float]]
     """d(margin)/d(variable) of that margin."""

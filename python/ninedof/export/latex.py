@@ -10,6 +10,7 @@ import numpy as np
 from ninedof.export.model import Model
 from ninedof.export.points import JOINTS, LEGS, O, P, base_frame, own_frame
 from ninedof.sheet.limit_rows import LimitRow
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, with_unit
 
 HEAD = r"""% {title}: joints, neutral pose, legs and limits, written by ninedof.
@@ -89,9 +90,9 @@ def _end_symbol(name: str) -> str:
 
 
 def _limits(limits: Sequence[LimitRow], unit: str) -> str:
-    rows = []
+    rows, percent = [], r"\,\%"
     for one in limits:
-        margin = f"${one.margin:.4f}$" if one.unit == "sign" else rf"${round(100.0 * one.margin, 2) + 0.0:.2f}\,\%$"
+        margin = f"${margin_words(one.margin, one.unit).replace(' %', percent)}$"
         sign = r"$\geq$" if one.side == "min" else r"$\leq$"
         rows.append([escaped(one.name), sign, *(_measure(one, x, unit) for x in (one.limit, one.value)), margin])
     return _tabular("Limits of the study", "lcrrr", [_row(["limit", "", "allowed", "here", "margin"])], rows)

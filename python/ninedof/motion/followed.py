@@ -17,10 +17,10 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
+from ninedof.support.margins import ROUNDING, margin_of
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
 
-ROUNDING = 1e-9  # of a limit: a length that passes it by less keeps it
 DETERMINANTS = {"det_n": "det N", "det_b": "det B", "det_c": "det C"}
 
 
@@ -74,7 +74,7 @@ class Followed(Saved):
     tracked: bool
     """Whether `track` returns every pose from its leg lengths, to 1e-9 and each step with its proof."""
     tracked_until: float
-    """The time of the last pose before one that it loses or returns differently, as beyond a singularity."""
+    """The time of the last pose before one that it does not reach or returns differently, as beyond a singularity."""
     tracking_error: float
     """Largest difference of a pose that `track` reached: of Q, and of p and O over the largest leg length."""
     unit: str = ""
@@ -88,20 +88,29 @@ class Followed(Saved):
 
     @property
     def leg_margins(self) -> Floats:
-        """Distance of each leg to its nearer limit, negative outside, shape (n, 9); infinite without limits."""
-        low, high = self.limits
-        found: Floats = np.minimum(np.where(low > 0.0, self.leg_lengths - low, np.inf), high - self.leg_lengths)
+        """What each leg leaves of its nearer limit, in parts of it, shape (n, 9); infinite without limits."""
+        found: Floats = np.minimum(*self._margins)
         return found
+
+    @property
+    def _margins(self) -> tuple[Floats, Floats]:
+        """Those of the least and of the greatest lengths."""
+        sides = zip(("min", "max"), self.limits, strict=True)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            every = [margin_of("length", side, limit, self.leg_lengths) for side, limit in sides]
+        low, high = (
+            np.where((limit > 0.0) & np.isfinite(limit), margin, np.inf)
+            for limit, margin in zip(self.limits, every, strict=True)
+        )
+        return low, high
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
         """Stretches of time in which a leg passes its limit (by more than 1e-9 of it), and singularities passed."""
-        low, high = self.limits
         found: list[LimitBreak] = []
         for k, leg in enumerate(LEGS):
-            lengths = self.leg_lengths[:, k]
-            found += stretches(f"{leg} low", self.time, lengths, lengths - low[k], low[k])
-            found += stretches(f"{leg} high", self.time, lengths, high[k] - lengths, high[k])
+            for side, margins in zip(("low", "high"), self._margins, strict=True):
+                found += stretches(f"{leg} {side}", self.time, self.leg_lengths[:, k], margins[:, k])
         for name, word in DETERMINANTS.items():
             found += _crossings(word, self.time, getattr(self.singularity_margins, name))
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
@@ -191,15 +200,15 @@ class Followed(Saved):
         return cls(geometry=geometry, trajectory=moving, configurations=poses, **known)
 
 
-def stretches(name: str, time: Floats, lengths: Floats, margin: Floats, limit: float) -> list[LimitBreak]:
+def stretches(name: str, time: Floats, values: Floats, margin: Floats) -> list[LimitBreak]:
     """Return the stretches of a margin that is negative beyond rounding."""
-    outside = np.concatenate([[False], margin < -ROUNDING * limit, [False]])
+    outside = np.concatenate([[False], margin < -ROUNDING, [False]])
     found = []
     for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
         worst = first + int(np.argmin(margin[first:after]))
         begin = time[first] if first == 0 else _zero(time, margin, first - 1)
         end = time[-1] if after == len(time) else _zero(time, margin, after - 1)
-        found.append(LimitBreak(name, float(begin), float(end), float(lengths[worst]), float(time[worst])))
+        found.append(LimitBreak(name, float(begin), float(end), float(values[worst]), float(time[worst])))
     return found
 
 

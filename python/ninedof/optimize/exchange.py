@@ -203,17 +203,15 @@ def _spreads(lengths: Floats, margins: Mapping[str, float]) -> Iterator[tuple[st
     """
     longest, shortest = np.diag(lengths[:9]), np.diag(lengths[9:])
     strokes, ratios = longest - shortest, longest / shortest
+    # Shares of the largest spread that the limit is on, the longest legs first.
+    shares = {
+        "leg_ratio": [*(longest / longest.max()), *(shortest.min() / shortest)],
+        "stroke": [*(strokes / max(strokes.max(), 1e-300))] * 2,
+        "stroke_ratio": [*(ratios / ratios.max())] * 2,
+    }
     for name in SPREADS:
-        if name not in margins:
-            continue
-        if name == "leg_ratio":
-            less = [*np.log(longest.max() / longest), *np.log(shortest / shortest.min())]
-        elif name == "stroke_ratio":
-            less = [*np.log(ratios.max() / ratios)] * 2
-        else:
-            less = [*((1.0 - margins[name]) * (1.0 - strokes / max(strokes.max(), 1e-300)))] * 2
-        for k, by in enumerate(less):
-            yield name, k, margins[name] + float(by)
+        for k, share in enumerate(shares[name] if name in margins else ()):
+            yield name, k, 1.0 - (1.0 - margins[name]) * float(share)
 
 
 def _joined(

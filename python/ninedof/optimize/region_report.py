@@ -50,7 +50,7 @@ class RegionReport:
     """The largest value of the index found."""
     objective_at: Pose
     margin: float
-    """The least margin of a limit found: below zero it is passed, relative to its value. Infinite without limits."""
+    """The least margin of a limit found: below zero it is passed, in parts of it. Infinite without limits."""
     limit: str
     """The name of that limit; "" without limits."""
     mean: RegionMean | None = None

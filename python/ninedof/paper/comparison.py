@@ -111,8 +111,8 @@ def _row(title: str, variables: dict[str, float], active: tuple[str, ...]) -> Ro
     configuration = Configuration.neutral(variables["zp"], variables["zs"], variables["theta_z"])
     kappa = float(condition_number(geometry, configuration))
     l, _, _, q, _, _, r, _, _ = leg_lengths(geometry, configuration).tolist()
-    margin = Study.paper().evaluate(variables).margins["radius_ratio"]  # log(2 / ratio)
-    ratio = 2.0 * np.exp(-margin)
+    margin = Study.paper().evaluate(variables).margins["radius_ratio"]  # 1 - ratio / 2
+    ratio = 2.0 * (1.0 - margin)
     gain = 100.0 * (1.0 - kappa / KAPPA)
     return Row(title, variables, kappa, (l, q, r), float(ratio), gain, active, geometry, configuration)
 

@@ -14,8 +14,9 @@ from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
 
 CONDITION_LIMIT = "condition_limit"
-MOST_STEPS = 100  # of Newton's method; it takes about ten
+MOST_STEPS = 100  # two are enough where the value is not far from the limit that is tried
 SMALL = 1e-8  # margin from which one more step is exact
+EPS, LEAST = 2.0**-52, 1e-300  # rounding of a margin; a value below the least is zero
 
 
 def without_degrees(against: Any) -> tuple[Any, bool]:
@@ -98,21 +99,19 @@ def own_value(study: Study, against: str) -> float | None:
 def value_at(study: Study, against: str, variables: Mapping[str, float]) -> float:
     """Return the least limit that allows a design: the limit at which the design's margin is zero.
 
-    A margin is log(limit / value) or 1 - value / limit. Newton's method acts on the limit or on its logarithm,
-    depending on the sign of the margin; each is exact for one of the two forms.
+    A margin is 1 - value / limit, known to rounding of 1: a second step gives a small value all its digits.
     """
     name = split_label(against)[0]
     options = {key: value for key, value in _entry(study, against).items() if key not in ("min", "max")}
-    limit, before = own_value(study, against) or 1.0, 0.0
+    limit = own_value(study, against) or 1.0
     for _ in range(MOST_STEPS):
         alone = replace(study, constraints={name: options | {"max": limit}})
         margin = alone.evaluate(variables).margins[against]
-        if margin == before == 1.0:  # 1 - value / limit is 1 at two limits: the value is zero
-            return 0.0
-        limit *= math.exp(-margin) if margin > 0.0 else 1.0 - margin
+        limit *= max(1.0 - margin, EPS)
         if abs(margin) <= SMALL:
             break
-        before = margin
+        if limit < LEAST:
+            return 0.0
     return limit
 
 

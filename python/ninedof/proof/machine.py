@@ -20,6 +20,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import finite, instance, shown, whole
 from ninedof.support.arrays import MOST_THREADS
+from ninedof.support.margins import margin_of
 from ninedof.support.progress import Progress, phase
 
 
@@ -208,7 +209,8 @@ def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: 
     low, high = runs.low, runs.high
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
-    return LimitProof(name, "ratio", "max", limit, answer, (low, high), 1.0 - high / limit, "", (runs.at,), runs.boxes)
+    margin = float(margin_of("ratio", "max", limit, high))
+    return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", (runs.at,), runs.boxes)
 
 
 def _where(study: Study, only_neutral: bool) -> str:

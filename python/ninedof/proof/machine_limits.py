@@ -14,6 +14,7 @@ from ninedof.proof.machine_record import LimitProof, Met
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
+from ninedof.support.margins import margin_of
 
 Enclosure = tuple[float, float]
 Key = tuple[Any, ...]
@@ -175,13 +176,12 @@ class Plan:
         if side == "max":
             edge = bound * (1.0 + self._tolerance)
             answer = "proved" if high <= edge else "violated" if low > edge else "undecided"
-            margin = 1.0 - high / bound
         else:
             edge = bound * (1.0 - self._tolerance)
             # A determinant of zero is a singularity.
             proved = low > 0.0 if bound == 0.0 else low >= edge
             answer = "proved" if proved else "violated" if high < edge or high <= 0.0 == bound else "undecided"
-            margin = low if bound == 0.0 else low / bound - 1.0
+        margin = float(margin_of(kind, side, bound, high if side == "max" else low))
         return LimitProof(label, kind, side, bound, answer, (low, high), margin, which, at, boxes)
 
     def _scale(self, of: str) -> float:

@@ -57,7 +57,7 @@ class LimitProof:
     value: tuple[float, float]
     """The worst value over all poses is in here, rigorously; one end was met at a pose."""
     margin: float
-    """What is proved, relative to the limit: negative where the limit is not proved."""
+    """What is proved to be left of the limit, as `margin_of`: negative where the limit is not proved."""
     which: str
     """The leg, pair of legs or determinant that is worst."""
     at: tuple[Met, ...]

@@ -11,6 +11,7 @@ from ninedof.report.markup import Html, Section, beside, facts, joined, paragrap
 from ninedof.report.numbers import short
 from ninedof.report.pages import Page
 from ninedof.sheet.path_limits import row_words
+from ninedof.support.margins import is_violated
 from ninedof.support.units import per, with_unit
 
 SHOWN = 24  # lines of a table
@@ -58,7 +59,7 @@ def _page(record: Any, name: str, said: str, answer: Html, top: list[tuple[str, 
 
 def _of_motion(motion: dict[str, Any], record: Any, name: str, again: Section) -> Page:
     unit, kappa, near = record.asked.get("unit", ""), motion["condition_number"], motion["nearest_singularity"]
-    broken = len(motion["breaks"]) + sum(limit["margin"] < 0.0 for limit in motion.get("limits", ()))
+    broken = len(motion["breaks"]) + sum(is_violated(limit["margin"]) for limit in motion.get("limits", ()))
     rows: list[tuple[object, object]] = [
         ("condition number, worst", f"{kappa['worst']:.4f} at t = {kappa['at']:.6g}"),
         ("at the start and at the end", f"{kappa['first']:.4f}, {kappa['last']:.4f}"),

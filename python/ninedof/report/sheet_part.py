@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from ninedof.report.markup import Html, beside, joined, paragraphs, table
 from ninedof.report.numbers import degrees, short
-from ninedof.sheet.limit_rows import limit_amount, margin_words
+from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Sheet
 from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per, with_unit
 
 

@@ -23,7 +23,7 @@ from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit
 
 LEGS_FILE, POSES_FILE, ARRAYS_FILE = "legs.csv", "poses.csv", "motion.npz"
-LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z", "leg_margin")  # columns of poses.csv
+LENGTHS = ("x", "y", "z", "o_x", "o_y", "o_z")  # columns of poses.csv
 RATE, ACCELERATION, FORCE = "_rate", "_acceleration", "_force"
 
 
@@ -95,9 +95,9 @@ def _legs(found: Followed) -> tuple[list[str], Iterable[Floats]]:
 
 def _poses(found: Followed, margins: Mapping[str, Floats]) -> tuple[list[str], Iterable[Floats]]:
     c = found.configurations
-    x, y, z, o_x, o_y, o_z, margin = (with_unit(name, found.unit) for name in LENGTHS)
+    x, y, z, o_x, o_y, o_z = (with_unit(name, found.unit) for name in LENGTHS)
     names = ["t", x, y, z, *(f"Q{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), o_x, o_y, o_z, "condition_number"]
-    names += [*found.singularity_margins._fields, margin, *(f"margin_{name}" for name in margins)]
+    names += [*found.singularity_margins._fields, "leg_margin", *(f"margin_{name}" for name in margins)]
     last = (found.condition_number, *found.singularity_margins, found.leg_margins.min(axis=1), *margins.values())
     return names, (found.time[:, None], c.position, c.rotation.reshape(-1, 9), c.internal_point, np.stack(last, axis=1))
 

@@ -10,10 +10,8 @@ from typing import Any
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
+from ninedof.support.margins import value_of
 from ninedof.support.units import amount
-
-# Their margins are differences in parts of the limit; those of the others are logarithms of the ratio to the limit.
-LINEAR = ("stroke", "joint_height", "joint_spacing", "leg_clearance", "base_cone", "platform_cone")
 
 
 @dataclass(frozen=True)
@@ -29,7 +27,7 @@ class LimitRow:
     value: float
     """In the unit of the limit."""
     margin: float
-    """Relative to the limit, negative if violated: `DesignPoint.margins`."""
+    """As `margin_of`, negative if violated: `DesignPoint.margins`."""
     unit: str
     """"ratio", "length", "angle" or "sign" as in the table of constraints; "ratio" for a length over zp or a radius."""
 
@@ -39,11 +37,6 @@ def limit_amount(row: LimitRow, value: float, number: Callable[[float], str], un
     if row.unit == "angle":
         return f"{math.degrees(value):.2f}{degree}"
     return amount(number(value), unit if row.unit == "length" else "")
-
-
-def margin_words(margin: float, kind: str) -> str:
-    """Return a margin in per cent of the limit; that of a "sign" as it is."""
-    return f"{margin:.4f}" if kind == "sign" else f"{round(100.0 * margin, 2) + 0.0:.2f} %"
 
 
 def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, ...]:
@@ -60,20 +53,10 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
             objective = replace(study.objective, **no_limit)
             alone = replace(study, constraints={name: options | {side: bound}}, objective=objective)
             ((label, margin),) = alone.evaluate(variables).margins.items()
-            rows.append(LimitRow(label, side, bound, _value(name, side, bound, margin), margin, kind))
+            rows.append(LimitRow(label, side, bound, value_of(kind, side, bound, margin), margin, kind))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:
             objective = replace(study.objective, **(no_limit | {name: bound}))
             ((label, margin),) = replace(study, constraints={}, objective=objective).evaluate(variables).margins.items()
-            rows.append(LimitRow(label, "max", bound, bound * math.exp(-margin), margin, "ratio"))
+            rows.append(LimitRow(label, "max", bound, value_of("ratio", "max", bound, margin), margin, "ratio"))
     return tuple(rows)
-
-
-def _value(name: str, side: str, limit: float, margin: float) -> float:
-    """Return the value whose margin this is."""
-    if ROWS[name].kind == "sign":
-        return limit + margin
-    sign = 1.0 if side == "min" else -1.0
-    if name in LINEAR:
-        return limit * (1.0 + sign * margin)
-    return limit * math.exp(sign * margin) if sign * margin < 700.0 else math.inf

@@ -13,10 +13,10 @@ from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.study import Study
 from ninedof.motion.followed import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
-from ninedof.sheet.limit_rows import margin_words
 from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount
 
 LENGTHS = ("leg_clearance", "stroke")
@@ -36,7 +36,7 @@ class PathLimits:
         """Stretches of time in which a limit is passed by more than 1e-9 of it; angles in radians."""
         found: list[LimitBreak] = []
         for one in self.limits:
-            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, 1.0)
+            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin)
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
 
     @property

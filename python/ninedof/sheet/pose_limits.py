@@ -19,9 +19,9 @@ from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.clearance import clearances
 from ninedof.sheet.legs import angle, directions
-from ninedof.sheet.limit_rows import LINEAR
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import margin_of
 
 CONES = {"base_cone": [0, 1, 2, 6, 7, 8], "platform_cone": [0, 1, 2, 3, 4, 5]}
 """Legs at the joints of a body."""
@@ -41,7 +41,7 @@ class PoseLimit(NamedTuple):
     value: Floats
     """Shape (n,), in the unit of the limit."""
     margin: Floats
-    """Relative to the limit, negative where it is passed, as in `DesignPoint.margins`; shape (n,)."""
+    """As `margin_of`, negative where the limit is passed; shape (n,)."""
 
     @property
     def label(self) -> str:
@@ -86,10 +86,11 @@ def pose_limits(
         for part, values in _values(name, given["axis"], g, c, neutral, beside):
             for side, limit in (("min", unit * given["low"]), ("max", unit * given["high"])):
                 if side in ROWS[name].sides and math.isfinite(limit) and limit > 0.0:
-                    found.append(PoseLimit(name, part, side, limit, values, _margin(name, side, limit, values)))
+                    margin = margin_of(ROWS[name].kind, side, limit, values)
+                    found.append(PoseLimit(name, part, side, limit, values, margin))
     if (most := study.objective.condition_limit) is not None:
         kappa = np.asarray(condition_number(g, c, characteristic_length))
-        found.append(PoseLimit("condition_limit", "", "max", most, kappa, _margin("", "max", most, kappa)))
+        found.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))
     return found
 
 
@@ -134,13 +135,3 @@ def cone_angles(g: Geometry, c: Configuration, neutral: Configuration, name: str
 
 def _stack_of(c: Configuration) -> Configuration:
     return Configuration(c.position[None], c.rotation[None], c.internal_point[None])
-
-
-def _margin(name: str, side: str, limit: float, values: Floats) -> Floats:
-    sign = 1.0 if side == "max" else -1.0
-    if name == "singularity_free":
-        return values - limit
-    if name in LINEAR:
-        return np.asarray(sign * (1.0 - values / limit))
-    with np.errstate(divide="ignore"):
-        return np.asarray(sign * (math.log(limit) - np.log(values)))

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from ninedof.redundancy.rules import WORDS
-from ninedof.sheet.limit_rows import limit_amount, margin_words
+from ninedof.sheet.limit_rows import limit_amount
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per, times
 
 HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "accel.", "base cone", "platf. cone")

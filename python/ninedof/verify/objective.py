@@ -73,13 +73,13 @@ class ObjectiveRule:
         return np.concatenate([poses, jacobian(robot.geometry, robot.neutral, robot.length)[None]])
 
     def condition_margins(self, robot: Robot) -> dict[str, Floats]:
-        """Return log(limit / condition number) of each pose with a limit, in the order of `matrices`, by limit."""
+        """Return 1 - condition number / limit of each pose with a limit, in the order of `matrices`, by limit."""
         stated = {
             "condition_limit": (self.condition_limit, robot.poses),
             "condition_limit at neutral": (self.neutral_condition_limit, robot.neutral),
         }
         return {
-            name: np.log(limit / np.asarray(condition_number(robot.geometry, poses, robot.length)))
+            name: 1.0 - np.asarray(condition_number(robot.geometry, poses, robot.length)) / limit
             for name, (limit, poses) in stated.items()
             if math.isfinite(limit)
         }

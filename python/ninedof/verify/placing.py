@@ -166,7 +166,7 @@ def _ranges_margin(study: Study, best: Any, report: RegionReport) -> float:
             out = min(out, float((1.0 - (high - low) / size).min()))
         else:
             ratio = high / low if limit.name == "stroke_ratio" else high.max() / low.min()
-            out = min(out, float(np.min(math.log(limit.high) - np.log(ratio))))
+            out = min(out, float(np.min(1.0 - ratio / limit.high)))
     return out
 
 

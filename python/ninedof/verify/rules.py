@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -57,7 +56,7 @@ def limit_of(name: str, entry: Entry) -> Limit:
 
 
 def margins(limit: Limit, robot: Robot) -> Floats:
-    """Return every margin of a limit: relative to the limit, negative if violated.
+    """Return every margin of a limit: what is left of it in parts of it, negative if violated.
 
     Returns
     -------
@@ -69,13 +68,10 @@ def margins(limit: Limit, robot: Robot) -> Floats:
     out = []
     if math.isfinite(limit.high) and rule.upper is not None:
         values = rule.upper(robot, limit)
-        out.append(_log(limit.high) - _log(values) if rule.is_log else 1.0 - values / limit.high)
+        out.append(1.0 - values / limit.high)
     if rule.lower is not None and (limit.low > 0.0 or rule.is_sign):
         values = rule.lower(robot, limit)
-        if rule.is_sign:
-            out.append(values - limit.low)
-        else:
-            out.append(_log(values) - _log(limit.low) if rule.is_log else values / limit.low - 1.0)
+        out.append(values - limit.low if rule.is_sign else values / limit.low - 1.0)
     return np.concatenate(out) if out else np.empty(0)
 
 
@@ -95,24 +91,17 @@ def _where(limit: Limit, robot: Robot) -> Robot:
     return replace(robot, poses=Configuration(c.position[None], c.rotation[None], c.internal_point[None]))
 
 
-def _log(value: Any) -> Any:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.log(value)
-
-
 Values = Callable[[Robot, Limit], Floats]
 
 
 @dataclass(frozen=True)
 class Rule:
-    """The values that a constraint limits, and the form of its margins."""
+    """The values that a constraint limits."""
 
     upper: Values | None = None
     lower: Values | None = None
-    is_log: bool = True
-    """Whether margins are logarithms; otherwise differences in parts of the limit."""
     is_sign: bool = False
-    """Whether margins are plain differences."""
+    """Whether margins are plain differences, for want of a scale."""
 
 
 def _legs(robot: Robot) -> Floats:
@@ -192,18 +181,18 @@ RULES: Mapping[str, Rule] = {
     "leg_ratio": Rule(_leg_ratios, _leg_ratio),
     "stroke_ratio": Rule(_stroke_ratio),
     "zs_fraction": Rule(_fraction, _fraction),
-    "stroke": Rule(_stroke, is_log=False),
+    "stroke": Rule(_stroke),
     "leg_length": _some_legs(0, 9),
     "external_length": _some_legs(0, 3),
     "upper_length": _some_legs(3, 6),
     "lower_length": _some_legs(6, 9),
     "height": Rule(lambda r, _: np.array([_height(r)]), lambda r, _: np.array([_height(r)])),
     "footprint": Rule(lambda r, _: _radii(r, "base"), lambda r, _: _radii(r, "base").max(keepdims=True)),
-    "joint_height": Rule(_joint_height, is_log=False),
-    "joint_spacing": Rule(lower=_joint_spacing, is_log=False),
-    "leg_clearance": Rule(lower=lambda r, limit: spacing.between_legs(r) / _unit(r, limit), is_log=False),
-    "base_cone": Rule(lambda r, limit: directions.cone(r, "base", limit.axis), is_log=False),
-    "platform_cone": Rule(lambda r, limit: directions.cone(r, "platform", limit.axis), is_log=False),
+    "joint_height": Rule(_joint_height),
+    "joint_spacing": Rule(lower=_joint_spacing),
+    "leg_clearance": Rule(lower=lambda r, limit: spacing.between_legs(r) / _unit(r, limit)),
+    "base_cone": Rule(lambda r, limit: directions.cone(r, "base", limit.axis)),
+    "platform_cone": Rule(lambda r, limit: directions.cone(r, "platform", limit.axis)),
     "singularity_free": Rule(
         lower=lambda r, limit: directions.determinants(r, limit.steps if limit.at == "poses" else 0), is_sign=True
     ),

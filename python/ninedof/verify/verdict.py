@@ -231,7 +231,7 @@ def _numbers(space: DesignSpace, objective: ObjectiveRule, best: Any) -> Iterato
     yield Finding("objective", figure <= EQUAL * max(1.0, float(ours.max())), figure, sentence)
     for name, each in objective.condition_margins(robot).items():
         margin = float(each.min())
-        sentence = f"the largest condition number is {math.exp(-margin):.9f} of its limit"
+        sentence = f"the largest condition number is {1.0 - margin:.9f} of its limit"
         yield Finding(name, margin >= -FEASIBLE, margin, sentence)
 
 

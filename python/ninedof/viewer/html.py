@@ -7,6 +7,7 @@ from html import escape
 
 from ninedof.plot.style import LEG_COLOURS
 from ninedof.robot.leg_names import LEGS
+from ninedof.support.margins import margin_words
 from ninedof.support.units import amount
 from ninedof.viewer.numbers import DETERMINANTS, Limit, Numbers
 
@@ -64,15 +65,6 @@ def number(value: float, digits: int = 4) -> str:
     return f"{value:.{digits - 1}e}"
 
 
-def percent(margin: float) -> str:
-    """Return a margin in per cent of its limit."""
-    if math.isinf(margin):
-        return "∞" if margin > 0.0 else "-∞"
-    value = 100.0 * margin
-    text = f"{value:+.1f}" if abs(value) < 100.0 else f"{value:+.0f}"
-    return f"{'0.0' if text in ('+0.0', '-0.0') else text} %"
-
-
 def _singular_values(found: Numbers) -> str:
     most = float(found.singular_values[0])
     bars = []
@@ -115,7 +107,7 @@ def _beside(margin: float) -> str:
     """Return the margin of a leg, which goes below its length in a narrow window."""
     if margin == math.inf:
         return ""
-    return f' <span style="{_FAINT};white-space:nowrap;font-size:0.85em">{percent(margin)}</span>'
+    return f' <span style="{_FAINT};white-space:nowrap;font-size:0.85em">{margin_words(margin, "length")}</span>'
 
 
 def _limit(one: Limit, unit: str) -> str:
@@ -126,5 +118,5 @@ def _limit(one: Limit, unit: str) -> str:
     end = f"{sign}{number(one.limit)}{of}" if one.side else "of the design"
     name = escape(one.name.replace("_", " "))
     cells = (f"<td>{name}</td>", *(f'<td style="text-align:right">{text}</td>' for text in (here, end)))
-    margin = f"{one.margin:+.3f}" if one.unit == "sign" else percent(one.margin)
+    margin = margin_words(one.margin, one.unit)
     return f'<tr style="{red}">{"".join(cells)}<td style="text-align:right">{margin}</td></tr>'

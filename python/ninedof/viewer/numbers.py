@@ -11,7 +11,7 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limits import ROWS
+from ninedof.design.limits import ROWS, split_label
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -20,8 +20,8 @@ from ninedof.robot.leg_names import LEGS
 from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
+from ninedof.support.margins import is_violated, margin_of
 
-PASSED = 1e-9  # of a limit: an optimum lies on some of its limits, and rounding is no breach
 DETERMINANTS = ("det N", "det B", "det C")
 
 
@@ -37,14 +37,14 @@ class Limit:
     """Angles in degrees; NaN for a limit of the design."""
     value: float
     margin: float
-    """Relative to the limit, negative where it is passed."""
+    """As `margin_of`, negative where the limit is passed."""
     unit: str
     """"ratio", "length", "angle" or "sign"."""
 
     @property
     def passed(self) -> bool:
         """Whether the limit is passed."""
-        return not self.margin >= -PASSED
+        return is_violated(self.margin)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,7 @@ class Numbers:
     @property
     def legs_out(self) -> tuple[bool, ...]:
         """Whether each leg is beyond a limit of its length."""
-        return tuple(bool(margin < -PASSED) for margin in self.leg_margins)
+        return tuple(is_violated(margin) for margin in self.leg_margins)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,9 +98,7 @@ def margins_at(yard: Yardstick, g: Geometry, c: Configuration) -> list[PoseLimit
     for k, name in enumerate(LEGS):
         for side, end in (("min", yard.leg_low[k]), ("max", yard.leg_high[k])):
             if 0.0 < end < math.inf and (k, side) not in given:
-                sign = 1.0 if side == "max" else -1.0
-                with np.errstate(divide="ignore"):
-                    margin = sign * (math.log(end) - np.log(lengths[:, k]))
+                margin = margin_of("length", side, end, lengths[:, k])
                 found.append(PoseLimit("leg_range", name, side, float(end), lengths[:, k], margin))
     return found
 
@@ -115,7 +113,7 @@ def numbers(yard: Yardstick, g: Geometry, c: Configuration) -> Numbers:
         margin = float(one.margin[0])
         if one.part in LEGS and (one.name in OF_LENGTHS or one.name in SPREADS or one.name == "leg_range"):
             legs[LEGS.index(one.part)] = min(legs[LEGS.index(one.part)], margin)
-        elif one.name in CONES and not margin >= -PASSED:
+        elif one.name in CONES and is_violated(margin):
             cones.add((one.name.partition("_")[0], LEGS.index(one.part)))
     return Numbers(
         condition_number=float(condition_number(g, c, yard.length)),
@@ -137,17 +135,22 @@ def _worst(found: Sequence[PoseLimit]) -> list[Limit]:
             worst[key] = one
     rows = []
     for (name, side), one in worst.items():
-        kind = "length" if name == "leg_range" else ROWS[name].kind if name in ROWS else "ratio"
+        kind = "length" if name == "leg_range" else _kind(name)
         limit, value = (math.degrees(x) if kind == "angle" else float(x) for x in (one.limit, one.value[0]))
         rows.append(Limit(one.label, side, limit, value, float(one.margin[0]), kind))
     return rows
+
+
+def _kind(label: str) -> str:
+    name = split_label(label)[0]
+    return ROWS[name].kind if name in ROWS else "ratio"
 
 
 def _of_design(yard: Yardstick, found: Sequence[PoseLimit]) -> list[Limit]:
     """Return the limits that belong to the design and not to a pose."""
     of_pose = {one.name for one in found}
     return [
-        Limit(name, "", math.nan, math.nan, margin, "ratio")
+        Limit(name, "", math.nan, math.nan, margin, _kind(name))
         for name, margin in yard.design_margins
         if name not in of_pose and not name.startswith("condition")
     ]

@@ -212,13 +212,9 @@ inline double margin(const Problem& p, const Limit& limit, const Eigen::VectorXd
     return least;
   }
   const Range range = measured(limit, hand::design(p, x));
-  const bool linear = limit.name == "stroke" || limit.name.starts_with("joint_") || limit.name == "leg_clearance" ||
-                      limit.name.ends_with("_cone");
   double least = infinity;
-  if (limit.high < infinity)
-    least = std::min(least, linear ? 1.0 - range.most / limit.high : std::log(limit.high / range.most));
-  if (limit.low > 0.0)
-    least = std::min(least, linear ? range.least / limit.low - 1.0 : std::log(range.least / limit.low));
+  if (limit.high < infinity) least = std::min(least, 1.0 - range.most / limit.high);
+  if (limit.low > 0.0) least = std::min(least, range.least / limit.low - 1.0);
   return least;
 }
 

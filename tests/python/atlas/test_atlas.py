@@ -88,7 +88,7 @@ def test_the_radius_ratio_is_that_of_the_studies(all_designs):
     study = nd.Study(constraints={"radius_ratio": (None, 2.0)})
     for x, squared in zip(all_designs[:50], squared_radius_ratio(all_designs[:50]), strict=True):
         point = study.evaluate(dict(zip(HEXAGONAL, x.tolist(), strict=True)))
-        assert 2.0 * np.exp(-point.margins["radius_ratio"]) == pytest.approx(np.sqrt(squared), rel=1e-12)
+        assert 2.0 * (1.0 - point.margins["radius_ratio"]) == pytest.approx(np.sqrt(squared), rel=1e-12)
         radii = [np.linalg.norm(t[0]) for t in (point.geometry.base_external, point.geometry.platform_external)]
         assert radii[0] / radii[1] == pytest.approx(np.sqrt(squared), rel=1e-12)
 

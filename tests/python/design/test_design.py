@@ -43,13 +43,13 @@ def log_kappa(x, lc=1.0):
 def margins(x):
     """Smallest margin of each constraint of STUDY, from leg lengths and circumradii."""
     m = robot(x)
-    ratio = math.log(np.linalg.norm(m.r[0]) / np.linalg.norm(m.u[0]))
-    legs = np.log(model.lengths(m))
-    fraction = math.log(x[5] / x[4])
+    ratio = np.linalg.norm(m.r[0]) / np.linalg.norm(m.u[0])
+    legs = model.lengths(m)
+    fraction = x[5] / x[4]
     return {
-        "radius_ratio": min(math.log(2.0) - ratio, ratio - math.log(0.5)),
-        "leg_ratio": math.log(3.0) - (legs.max() - legs.min()),
-        "zs_fraction": min(math.log(0.9) - fraction, fraction - math.log(0.1)),
+        "radius_ratio": min(1.0 - ratio / 2.0, ratio / 0.5 - 1.0),
+        "leg_ratio": 1.0 - legs.max() / legs.min() / 3.0,
+        "zs_fraction": min(1.0 - fraction / 0.9, fraction / 0.1 - 1.0),
     }
 
 
@@ -121,9 +121,9 @@ def test_least_leg_ratio_has_a_margin_of_its_own():
     study = nd.Study(constraints={"leg_ratio": (2.0, None)})
     for x in designs("random")[:8]:
         x[6] = 0.0
-        legs = np.log(model.lengths(robot(x)))
+        legs = model.lengths(robot(x))
         p = point(x, study)
-        assert p.margins["leg_ratio"] == pytest.approx(legs.max() - legs.min() - math.log(2.0), abs=1e-13)
+        assert p.margins["leg_ratio"] == pytest.approx(legs.max() / legs.min() / 2.0 - 1.0, abs=1e-13)
 
 
 def test_a_design_point_has_its_robot_and_poses():

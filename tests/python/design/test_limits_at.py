@@ -95,7 +95,7 @@ CASES = list(cases())
 
 
 def hand(name, options, g, c):
-    """The limited values of a constraint and the form of its margins, at one configuration."""
+    """The limited values of a constraint at one configuration."""
     zp = c.position[2]
     base, platform = (np.vstack(pair) for pair in (
         (g.base_external, g.base_internal), (g.platform_external, g.platform_internal)
@@ -142,21 +142,20 @@ def hand(name, options, g, c):
         "platform_cone": lambda: angles(np.vstack([-along[:3], along[3:6]]) @ c.rotation),
         "singularity_free": determinants,
     }
-    linear = name.startswith("joint_") or name.endswith("_cone") or name == "leg_clearance"
-    return np.array(values[name]()), "plain" if name == "singularity_free" else "linear" if linear else "log"
+    return np.array(values[name]())
 
 
 def hand_margin(name, options, g, c):
     """The smallest margin, as docs/study-file.md defines it."""
-    values, form = hand(name, options, g, c)
+    values = hand(name, options, g, c)
     low = options.get("min", 2.0 * options["radius"] if "radius" in options else None)
     high = math.radians(options["max_deg"]) if "max_deg" in options else options.get("max")
     found = []
     if high is not None:
-        found.append(1.0 - values.max() / high if form == "linear" else math.log(high / values.max()))
+        found.append(1.0 - values.max() / high)
     if low is not None:
         least = values.min()
-        found.append({"linear": least / low - 1.0, "plain": least - low}.get(form) or math.log(least / low))
+        found.append(least - low if name == "singularity_free" else least / low - 1.0)
     return min(found)
 
 
@@ -246,7 +245,7 @@ def test_without_poses_both_hold_at_the_neutral_pose():
     point = study("hexagonal", design, {"leg_ratio": [{"max": 3.0}, {"max": 2.0, "at": "neutral"}]}, []).evaluate(
         design
     )
-    assert point.margins["leg_ratio"] - point.margins["leg_ratio at neutral"] == pytest.approx(math.log(1.5))
+    assert (1.0 - point.margins["leg_ratio at neutral"]) / (1.0 - point.margins["leg_ratio"]) == pytest.approx(1.5)
 
 
 # --- Forms ------------------------------------------------------------------------------------------------------------

@@ -117,7 +117,7 @@ def test_limits_break_when_the_length_passes_them(published):
         assert broken.end == 4.0
         assert broken.worst == pytest.approx(lengths[-1])
         assert broken.at == 4.0
-    assert found.leg_margins.min() == pytest.approx(high - lengths[-1])
+    assert found.leg_margins.min() == pytest.approx(1.0 - lengths[-1] / high)
 
 
 def test_a_limit_that_breaks_twice_has_two_stretches(published):

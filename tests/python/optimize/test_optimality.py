@@ -69,7 +69,7 @@ def neighbour(study, base, size, rng):
         if isinstance(bound, tuple):
             step = size * rng.normal() * (1.0 if name == "theta_z" else base["zp"])
             x[name] = min(max(x[name] + step, bound[0]), bound[1])
-    scale = math.exp(0.5 * max(0.0, -study.evaluate(x).margins.get("radius_ratio", 0.0)))
+    scale = math.sqrt(1.0 + max(0.0, -study.evaluate(x).margins.get("radius_ratio", 0.0)))
     x |= {"a1": x["a1"] / scale, "a2": x["a2"] / scale}
     x |= {n: min(x[n] * scale, study.variables[n][1]) for n in ("b1", "b2")}
     point = study.evaluate(x)

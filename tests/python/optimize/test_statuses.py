@@ -289,7 +289,7 @@ def scaled(family, rng):
 
 def largest(study, name, variables):
     """Return the least limit `name <= max` that allows a design."""
-    return 1e6 * math.exp(-replace(study, constraints={name: (None, 1e6)}).evaluate(variables).margins[name])
+    return 1e6 * (1.0 - replace(study, constraints={name: (None, 1e6)}).evaluate(variables).margins[name])
 
 
 @pytest.mark.parametrize("seed", range(size(12, 300)))
@@ -304,7 +304,7 @@ def test_two_limits_in_conflict_are_named_and_nothing_else(seed):
     legs = (
         0.9
         * 1e-9
-        * math.exp(replace(study, constraints={"leg_length": (1e-9, None)}).evaluate(large).margins["leg_length"])
+        * (1.0 + replace(study, constraints={"leg_length": (1e-9, None)}).evaluate(large).margins["leg_length"])
     )
     constraints, bound = (
         ({"leg_length": (legs, None), "external_length": (None, 0.8 * legs)}, {}),

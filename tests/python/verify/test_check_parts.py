@@ -99,17 +99,17 @@ def least(robot, name, **limit):
 def test_ratios_and_lengths_by_hand():
     r = robot()
     legs = nd.leg_lengths(r.geometry, r.neutral)
-    assert least(r, "radius_ratio", high=3.0) == pytest.approx(math.log(3.0 / 2.0))
-    assert least(r, "radius_ratio", low=1.5) == pytest.approx(math.log(2.0 / 1.5))
-    assert least(r, "leg_ratio", high=3.0) == pytest.approx(math.log(3.0 * legs.min() / legs.max()))
-    assert least(r, "leg_ratio", low=1.2) == pytest.approx(math.log(legs.max() / legs.min() / 1.2))
-    assert least(r, "zs_fraction", high=0.5) == pytest.approx(math.log(0.5 / 0.6))
-    assert least(r, "height", low=4.0, high=6.0) == pytest.approx(math.log(6.0 / 5.0))
-    assert least(r, "footprint", high=3.0) == pytest.approx(math.log(0.75))
-    assert least(r, "lower_length", high=1.0, of="zp") == pytest.approx(-math.log(math.sqrt(13.0) / 5.0))
-    assert least(r, "upper_length", low=2.0) == pytest.approx(math.log(math.sqrt(5.0) / 2.0))
-    assert least(r, "external_length", high=9.0) == pytest.approx(math.log(9.0 / legs[0]))
-    assert least(r, "leg_length", low=1.0) == pytest.approx(math.log(legs.min()))
+    assert least(r, "radius_ratio", high=3.0) == pytest.approx(1.0 - 2.0 / 3.0)
+    assert least(r, "radius_ratio", low=1.5) == pytest.approx(2.0 / 1.5 - 1.0)
+    assert least(r, "leg_ratio", high=3.0) == pytest.approx(1.0 - legs.max() / legs.min() / 3.0)
+    assert least(r, "leg_ratio", low=1.2) == pytest.approx(legs.max() / legs.min() / 1.2 - 1.0)
+    assert least(r, "zs_fraction", high=0.5) == pytest.approx(1.0 - 0.6 / 0.5)
+    assert least(r, "height", low=4.0, high=6.0) == pytest.approx(1.0 - 5.0 / 6.0)
+    assert least(r, "footprint", high=3.0) == pytest.approx(1.0 - 4.0 / 3.0)
+    assert least(r, "lower_length", high=1.0, of="zp") == pytest.approx(1.0 - math.sqrt(13.0) / 5.0)
+    assert least(r, "upper_length", low=2.0) == pytest.approx(math.sqrt(5.0) / 2.0 - 1.0)
+    assert least(r, "external_length", high=9.0) == pytest.approx(1.0 - legs[0] / 9.0)
+    assert least(r, "leg_length", low=1.0) == pytest.approx(legs.min() - 1.0)
 
 
 def test_joints_by_hand():
@@ -134,7 +134,7 @@ def test_strokes_by_hand():
     stroke = np.ptp(legs, axis=0).max()
     assert least(r, "stroke", high=1.0) == pytest.approx(1.0 - stroke)
     assert least(r, "stroke", high=0.2, of="zp") == pytest.approx(1.0 - stroke / 5.0 / 0.2)
-    assert least(r, "stroke_ratio", high=2.0) == pytest.approx(math.log(2.0 * upper.min() / upper.max()))
+    assert least(r, "stroke_ratio", high=2.0) == pytest.approx(1.0 - upper.max() / upper.min() / 2.0)
 
 
 def test_cones_by_hand():

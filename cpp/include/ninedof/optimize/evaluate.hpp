@@ -17,7 +17,7 @@ struct Evaluation {
   double characteristic_length;
   struct Margin {
     std::string name;
-    double value;
+    double value;  ///< 1 - value / high or value / low - 1; of a determinant value - low
     Eigen::VectorXd gradient;
   };
   std::vector<Margin> margins;  ///< the smallest of each constraint

@@ -4,6 +4,11 @@
 
 namespace ninedof {
 
+ShownMargin share_of_limit(Side side, double logarithm) {
+  const double sign = side == Side::high ? -1.0 : 1.0;
+  return {sign * std::expm1(sign * logarithm), std::exp(sign * logarithm)};
+}
+
 std::pair<Side, int> Constraint::item_of(int row) const {
   const int high = has_high() ? items(Side::high) : 0;
   if (row < high) return {Side::high, row};

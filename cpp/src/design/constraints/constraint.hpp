@@ -12,6 +12,14 @@ namespace ninedof {
 /// The side of a limit that a margin belongs to.
 enum class Side { high, low };
 
+/// A margin as people read it, and its derivative by the margin of the row that the solver has.
+struct ShownMargin {
+  double value, slope;
+};
+
+/// Of a row log(limit / value), or log(value / limit) for a low limit: the share of the limit that is to spare.
+ShownMargin share_of_limit(Side side, double logarithm);
+
 class Constraint {
  public:
   explicit Constraint(const Limit& limit) : limit_(limit), label_(limit.label()) {}
@@ -23,6 +31,10 @@ class Constraint {
   double margin(const DesignState& v, int row) const;
   void add_gradient(const DesignState& v, int row, Row out) const;
   Side side_of(int row) const { return item_of(row).first; }
+  /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
+  ShownMargin shown(int row, double margin) const {
+    return form() == Form::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
+  }
   /// The limited value of a design whose margin on that side is given.
   double value_at(Side side, double margin) const;
 

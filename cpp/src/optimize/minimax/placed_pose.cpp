@@ -101,6 +101,12 @@ double PlacedPose::value(const Row& row) const {
   return largest_row;
 }
 
+double PlacedPose::shown_margin(const Row& row, double margin) const {
+  if (row.kind == Row::Kind::limit) return p_.shown_margin(row.item, margin).value;
+  if (goal_.ranges[at_index(row.range)].size > 0.0) return margin;
+  return share_of_limit(row.kind == Row::Kind::longest ? Side::high : Side::low, margin).value;
+}
+
 Vec3 PlacedPose::gradient(const Row& row) const {
   const PoseState& at = design_.state.pose(1);
   const auto free = [&](const auto& gradients) {
@@ -236,8 +242,9 @@ PlacedEnd PlacedPose::end(const Placed& placed) {
     const Row& row = rows_[k];
     const double v = values_[static_cast<Eigen::Index>(k)];
     if (row.kind == Row::Kind::index) out.log_index = std::max(out.log_index, v + goal_.log_index);
-    else if (row.kind <= Row::Kind::shortest && -v < out.margin) {
-      out.margin = -v;
+    if (row.kind == Row::Kind::index || row.kind > Row::Kind::shortest) continue;
+    if (const double margin = shown_margin(row, -v); margin < out.margin) {
+      out.margin = margin;
       out.limit = row.kind == Row::Kind::limit ? p_.margin_name(row.item) : goal_.ranges[at_index(row.range)].limit;
     }
   }

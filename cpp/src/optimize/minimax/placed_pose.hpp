@@ -58,6 +58,7 @@ class PlacedPose {
   void list_rows(const Eigen::VectorXd& variables);
   double evaluate(const Vec3& shift);
   double value(const Row& row) const;
+  double shown_margin(const Row& row, double margin) const;
   Vec3 gradient(const Row& row) const;
   void select(double least);
   void differentiate();

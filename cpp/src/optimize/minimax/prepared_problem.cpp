@@ -171,6 +171,11 @@ double PreparedProblem::margin_price(int k) const {
   return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->price_factor(row);
 }
 
+ShownMargin PreparedProblem::shown_margin(int k, double margin) const {
+  const auto [constraint, row] = margins[at_index(k)];
+  return constraint < 0 ? share_of_limit(Side::high, margin) : constraints[at_index(constraint)]->shown(row, margin);
+}
+
 double PreparedProblem::violation_factor(int k) const {
   const auto [constraint, row] = margins[at_index(k)];
   return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->violation_factor(row);

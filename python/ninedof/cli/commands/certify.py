@@ -23,6 +23,7 @@ from ninedof.runs.directory import used_directory
 from ninedof.runs.machine_file import begun_file, certificate_file, load_certificate, save_certificate
 from ninedof.runs.objects import load, split
 from ninedof.support.arguments import finite
+from ninedof.support.margins import margin_words
 from ninedof.support.units import with_unit
 
 PLACE = 4
@@ -116,11 +117,9 @@ def _table(certificate: MachineCertificate) -> Table:
     for one in certificate.limits:
         word = "at most" if one.side == "max" else "at least"
         limit = "above 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
-        on_limit = abs(one.margin) <= certificate.tolerance
+        on_limit = abs(one.margin) <= certificate.tolerance * (one.limit if one.kind == "sign" else 1.0)
         proved = f"{word} {one.worded(9 if on_limit else 6)}"
-        margin = (
-            "" if one.limit == 0.0 else f"within {certificate.tolerance:g}" if on_limit else f"{100 * one.margin:.3g} %"
-        )
+        margin = f"within {certificate.tolerance:g}" if on_limit else margin_words(one.margin, one.kind)
         table.add_row(with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer)
     low, high = certificate.condition
     if not any(one.name == "condition_number" for one in certificate.limits):

@@ -1,0 +1,179 @@
+"""A margin is one number and one text wherever it is shown, for every limit; by hand from value and limit."""
+
+import io
+import re
+
+import numpy as np
+import pytest
+from rich.console import Console
+from sizes import size
+
+import ninedof as nd
+from ninedof.cli.commands import certify as certify_command
+from ninedof.cli.sheet_tables import limits_table
+from ninedof.design.limits import CONSTRAINTS, ROWS, split_label
+from ninedof.export.latex import _limits as latex_limits
+from ninedof.proof.machine import certify
+from ninedof.sheet.limit_rows import limit_rows
+from ninedof.support.margins import is_violated, margin_of, margin_words, value_of
+from ninedof.verify.objective import ObjectiveRule
+from ninedof.verify.robot import DesignSpace
+from ninedof.verify.rules import limits_of, margins
+from ninedof.viewer.html import limits_html
+from ninedof.viewer.numbers import Yardstick, numbers
+
+LIMITS = {
+    "radius_ratio": {"min": 0.1, "max": 2.5},
+    "leg_ratio": (None, 3.0),
+    "stroke_ratio": (None, 1.3),
+    "zs_fraction": (0.1, 0.9),
+    "stroke": {"max": 0.4, "of": "zp"},
+    "leg_length": (0.5, 9.0),
+    "external_length": {"max": 2.0, "of": "zp"},
+    "upper_length": (None, 8.0),
+    "lower_length": (0.001, 8.0),
+    "height": (None, 9.0),
+    "footprint": (None, 9.0),
+    "joint_height": {"max": 2.0, "of": "radius"},
+    "joint_spacing": {"min": 0.1},
+    "leg_clearance": {"radius": 0.05},
+    "base_cone": [{"max_deg": 60, "axis": [0, 0, 1]}, {"max_deg": 50, "axis": [0, 0, 1], "at": "neutral"}],
+    "platform_cone": {"max_deg": 40},
+    "singularity_free": {"min": 0.01, "steps": 1},
+}
+
+
+def machine(seed):
+    """A random design, its study with every limit, and its poses."""
+    objective = {"poses": nd.poses.box(half=(0.1, 0.15, 0.1)), "condition_limit": 40.0}
+    study = nd.Study(family="symmetric_nonplanar", constraints=LIMITS, objective=objective, characteristic_length=1.0)
+    problem = study.problem()
+    variables = dict(zip(problem.names, problem.starts(1, seed)[0].tolist(), strict=True))
+    return study, variables, study.evaluate(variables)
+
+
+def by_hand(row):
+    """What is left of a limit: a share of it, or the distance where there is no scale."""
+    away = row.limit - row.value if row.side == "max" else row.value - row.limit
+    return away if row.unit == "sign" else away / row.limit
+
+
+def text(margin, kind):
+    if kind == "sign":
+        return f"{margin:.4f}"
+    return "over 10000 %" if margin >= 100.0 else "below -10000 %" if margin <= -100.0 else f"{100.0 * margin:.2f} %"
+
+
+def test_every_limit_is_here():
+    assert set(LIMITS) == set(CONSTRAINTS)
+
+
+@pytest.mark.parametrize("seed", range(size(3, 40)))
+def test_every_place_has_the_same_margin(seed):
+    study, variables, point = machine(seed)
+    rows = limit_rows(study, variables)
+    expected = {(row.name, row.side): by_hand(row) for row in rows}
+    for row in rows:
+        assert row.margin == pytest.approx(expected[row.name, row.side], rel=1e-12, abs=1e-12)
+    for name, margin in point.margins.items():
+        least = min(found for (label, _), found in expected.items() if label == name)
+        assert margin == pytest.approx(least, rel=1e-12, abs=1e-12)
+    # `ninedof check`
+    robot = DesignSpace(study, variables).robot(np.array([variables[name] for name in study.problem().names]))
+    for limit in limits_of(study):
+        least = min(found for (label, _), found in expected.items() if label == limit.label)
+        assert margins(limit, robot).min() == pytest.approx(least, rel=1e-9, abs=1e-9)
+    (condition,) = ObjectiveRule.of(study).condition_margins(robot).values()
+    assert condition.min() == pytest.approx(expected["condition_limit", "max"], rel=1e-9, abs=1e-9)
+    # The viewer, at each pose
+    g, home = point.geometry, point.configuration
+    yard = Yardstick(
+        study, home, point.characteristic_length, np.zeros(9), np.full(9, np.inf),
+        nd.leg_lengths(g, point.configurations), tuple(point.margins.items()),
+    )  # fmt: skip
+    shown = {}
+    for k in range(len(point.configurations)):
+        for one in numbers(yard, g, point.configurations[k]).limits:
+            key = one.name.split(" ")[0] if one.side else one.name, one.side
+            shown.setdefault(key, []).append(one.margin)
+    assert len(shown) > 15
+    for (name, side), found in shown.items():
+        if name == "singularity_free":  # the study looks at the ways to the poses too
+            assert min(found) >= expected[name, "min"] - 1e-9
+            continue
+        sides = [side] if side else [s for label, s in expected if label == name]
+        assert min(found) == pytest.approx(min(expected[name, s] for s in sides), rel=1e-9, abs=1e-9)
+    # `ninedof certify`
+    proved = certify(study, g, point.configurations, point.characteristic_length, time_limit=20.0, gap=1e-6)
+    found = {(one.name, one.side): one for one in proved.limits[1:]}
+    assert set(found) == set(expected)
+    for key, one in found.items():
+        if key[0] != "singularity_free":
+            widest = (one.value[1] - one.value[0]) / one.limit
+            assert expected[key] - widest - 1e-9 <= one.margin <= expected[key] + 1e-9
+            assert one.answer == "violated" or one.value[1] - one.value[0] <= 0.05 * one.value[1]
+    regular = proved.limits[0]
+    assert regular.margin == regular.value[0]
+
+
+@pytest.mark.parametrize("seed", range(size(2, 20)))
+def test_every_place_has_the_same_text(seed):
+    study, variables, point = machine(seed)
+    rows = limit_rows(study, variables)
+    every = [text(by_hand(row), row.unit) for row in rows]
+    assert [margin_words(row.margin, row.unit) for row in rows] == every
+    found = nd.sheet(point)
+    object.__setattr__(found, "limits", rows)
+    out = io.StringIO()
+    Console(file=out, width=200).print(limits_table(found))
+    assert re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)(?= *[^\w%]*$)", out.getvalue(), re.MULTILINE) == every
+    assert re.findall(r"margin ((?:over |below )?-?[\d.]+(?: %)?)", found.summary()) == every
+    latex = [
+        word.replace(r"\,\%", " %")
+        for word in re.findall(r"\$((?:over |below )?-?[\d.]+(?:\\,\\%)?)\$ *\\\\", latex_limits(rows, ""))
+    ]
+    assert latex == every
+    yard = Yardstick(
+        study, point.configuration, 1.0, np.zeros(9), np.full(9, np.inf), None, tuple(point.margins.items())
+    )
+    at_home = numbers(yard, point.geometry, point.configuration)
+    cells = re.findall(r'text-align:right">([^<]*)</td></tr>', limits_html(at_home, "mm"))
+    assert cells == [text(one.margin, one.unit) for one in at_home.limits]
+    proved = certify(study, point.geometry, point.configurations, 1.0, time_limit=5.0)
+    table = certify_command._table(proved)
+    cells = list(table.columns[3].cells)[9 : 9 + len(proved.limits)]
+    assert cells == [text(one.margin, one.kind) for one in proved.limits]
+
+
+@pytest.mark.parametrize("kind", ["ratio", "length", "angle", "sign"])
+@pytest.mark.parametrize("side", ["min", "max"])
+def test_value_and_margin_are_inverse(kind, side):
+    rng = np.random.default_rng(5)
+    limits, values = np.exp(rng.uniform(-9.0, 9.0, size=(2, 500)))
+    found = margin_of(kind, side, limits, values)
+    for limit, value, margin in zip(limits.tolist(), values.tolist(), found.tolist(), strict=True):
+        assert value_of(kind, side, limit, margin) == pytest.approx(value, rel=1e-12, abs=1e-14 * limit)
+        assert (margin < 0.0) == (value > limit if side == "max" else value < limit)
+
+
+def test_no_text_has_an_exponent():
+    for margin in (64.58, -64.58, 1e3, -1e3, 1e300, -1e304, 0.0, -0.0, 1e-12, -1e-12):
+        for kind in ("ratio", "length", "angle"):
+            assert re.fullmatch(r"-?\d{1,4}\.\d\d %|over 10000 %|below -10000 %", margin_words(margin, kind))
+    assert margin_words(-1e-12, "length") == "0.00 %"
+    assert margin_words(0.64584, "sign") == "0.6458"
+    assert [margin_words(x, "ratio") for x in (np.inf, -np.inf, np.nan)] == ["∞", "-∞", "-"]
+
+
+def test_rounding_is_no_violation():
+    assert not is_violated(-1e-10)
+    assert is_violated(-1e-8)
+    assert is_violated(np.nan)
+
+
+def test_kinds_are_those_of_the_table():
+    study, variables, _ = machine(0)
+    for row in limit_rows(study, variables):
+        name = split_label(row.name)[0]
+        if name in ROWS:
+            assert (row.unit == "sign") == (ROWS[name].kind == "sign")
