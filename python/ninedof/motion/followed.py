@@ -17,7 +17,7 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
-from ninedof.support.margins import ROUNDING, margin_of
+from ninedof.support.margins import TOLERANCE, margin_of
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
 
@@ -106,7 +106,7 @@ class Followed(Saved):
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Stretches of time in which a leg passes its limit (by more than 1e-9 of it), and singularities passed."""
+        """Stretches of time in which a leg passes its limit (by more than 1e-6 of it), and singularities passed."""
         found: list[LimitBreak] = []
         for k, leg in enumerate(LEGS):
             for side, margins in zip(("low", "high"), self._margins, strict=True):
@@ -201,8 +201,8 @@ class Followed(Saved):
 
 
 def stretches(name: str, time: Floats, values: Floats, margin: Floats) -> list[LimitBreak]:
-    """Return the stretches of a margin that is negative beyond rounding."""
-    outside = np.concatenate([[False], margin < -ROUNDING, [False]])
+    """Return the stretches of a margin that is negative beyond the tolerance."""
+    outside = np.concatenate([[False], margin < -TOLERANCE, [False]])
     found = []
     for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
         worst = first + int(np.argmin(margin[first:after]))

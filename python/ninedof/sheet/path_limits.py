@@ -33,7 +33,7 @@ class PathLimits:
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
-        """Stretches of time in which a limit is passed by more than 1e-9 of it; angles in radians."""
+        """Stretches of time in which a limit is passed by more than 1e-6 of it; angles in radians."""
         found: list[LimitBreak] = []
         for one in self.limits:
             found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin)

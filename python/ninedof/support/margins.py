@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-ROUNDING = 1e-9  # a design on its limit passes it by rounding, which is no violation
+TOLERANCE = 1e-6
+"""A limit that is passed by no more is kept, as for `certify`: between the poses that were looked at, a design of the
+optimizer passes its limits by up to 2e-7."""
 MOST = 1e4  # per cent: from here on the number itself says little
 
 
@@ -40,8 +42,8 @@ def value_of(kind: str, side: str, limit: float, margin: float) -> float:
 
 
 def is_violated(margin: float) -> bool:
-    """Whether a margin is negative beyond rounding, or unknown."""
-    return not margin >= -ROUNDING
+    """Whether a margin is negative beyond the tolerance, or unknown."""
+    return not margin >= -TOLERANCE
 
 
 def margin_words(margin: float, kind: str) -> str:
