@@ -2,6 +2,7 @@
 
 #include "support/arrays.hpp"
 #include "support/module.hpp"
+#include "support/without_gil.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -66,6 +67,21 @@ void bind_singularity(py::module_& m) {
       out[2] = found.resolved ? 1.0 : 0.0;
       write(found.each, out + 3);
     });
+  });
+  m.def("nearest_singularity", [](const Geometry& g, const Array& p, const Array& q, const Array& s,
+                                  const Array& motions, double most, int directions, int threads) {
+    const ConfigurationStack c(p, q, s);
+    if (motions.size() != 27) throw InvalidArgument("motions", std::to_string(motions.size()) + " numbers", "27");
+    std::vector<Configuration> poses;
+    for (long i = 0; i < c.count(); ++i) poses.push_back(c[i]);
+    const Motions ways = Eigen::Map<const Eigen::Matrix<double, 9, 3, Eigen::RowMajor>>(motions.data());
+    const NearestSingularity found = [&] {
+      const WithoutGil nogil;
+      return nearest_singularity(g, poses, ways, most, directions, threads);
+    }();
+    Array direction(3);
+    write(found.direction, direction.mutable_data());
+    return py::make_tuple(found.distance, code(found.mechanism), direction, found.pose);
   });
 }
 

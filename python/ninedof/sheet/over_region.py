@@ -101,7 +101,7 @@ def _near_singular(region: Region, g: Geometry, neutral: Configuration, motion: 
     at = np.repeat(reach * np.insert(signs, [3, 3], 0.0, axis=1), TILTS, axis=0)
     at[:, 3:5] = region.tilt * np.tile(np.column_stack([np.cos(turns), np.sin(turns)]), (len(signs), 1))
     near, c = configurations_at(region, neutral, at)
-    found = near_singularities(g, c, motion.internal, len(c))
+    found = near_singularities(g, c, motion.internal)
     return near[[one.pose for one in found.values()]]
 
 

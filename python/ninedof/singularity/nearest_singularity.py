@@ -7,19 +7,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration, operands
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.singularity import Mechanism
-from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
+from ninedof.singularity.singularity import mechanisms_of
 from ninedof.support.arguments import choice, finite, whole
-from ninedof.support.arrays import Floats
+from ninedof.support.arrays import Floats, thread_argument
 from ninedof.support.short import short_repr
 
 PARTS = {"rotation": 0, "position": 3, "internal_point": 6}  # place in a tangent of `Configuration.moved`
-ROUNDS, NEARER = 12, 0.35  # of the search about the best direction, and how much closer each of them looks
 FARTHEST = 2000.0  # longest legs, or quarter turns: what is farther takes long and is no matter of this machine
-AROUND = 60  # directions of a round
 
 
 @short_repr
@@ -49,8 +47,8 @@ def nearest_singularity(
     """Return the nearest singularity in any direction of one part of the motion, the rest held still.
 
     The distance along a direction is that of `distance_to_singularity`: no singularity on the way is missed. The
-    directions are searched: evenly spread ones and the axes, then closer and closer about the best of them. A narrow
-    valley between the first ones may be missed.
+    directions are searched: evenly spread ones and the axes, then about each of them that is nearer than its
+    neighbours. A narrow valley between the first ones may be missed.
 
     Parameters
     ----------
@@ -94,46 +92,17 @@ def nearest_singularity(
     count = whole("directions", directions, 0, 10**6)
     size = math.pi / 2.0 if part == "rotation" else float(np.nanmax(leg_lengths(geometry, configuration)))
     reach = 2.0 * size if most is None else finite("most", most, 0.0, FARTHEST * size)
-    stack = configuration
-    if not stack.shape:
-        stack = Configuration(stack.position[None], stack.rotation[None], stack.internal_point[None])
-
-    def measured(of: Configuration, units: Floats) -> SingularityDistance:
-        motions = np.zeros((len(units), 9))
-        motions[:, first : first + 3] = reach * units
-        return distance_to_singularity(geometry, of[:, None], motions, threads=threads)
-
-    units = np.concatenate([-np.eye(3), np.eye(3), _sphere(count)])
-    found = measured(stack, units)
-    least = int(np.argmin(np.nan_to_num(found.distance, nan=math.inf)))
-    pose, k = divmod(least, len(units))
-    best, at, here = units[k], (0, k), stack[pose : pose + 1]
-    found = measured(here, units)
-    radius = math.sqrt(4.0 * math.pi / (count + 6))
-    for _ in range(ROUNDS if math.isfinite(found.distance[at]) else 0):
-        units = _around(best, radius)
-        found = measured(here, units)
-        at = (0, int(np.argmin(found.distance[0])))
-        best, radius = units[at[1]], NEARER * radius
-    share = float(found.distance[at])
-    motion = np.zeros(9)
-    motion[first : first + 3] = (share if math.isfinite(share) else 0.0) * reach * best
-    there = here[0].moved(motion)
-    distance = share * reach if math.isfinite(share) else math.inf
-    return NearestSingularity(distance, Mechanism(str(found.mechanism[at])), best, pose, there)
+    motions = np.zeros((9, 3))
+    motions[first : first + 3] = np.eye(3)
+    return nearest_along(geometry, configuration, motions, reach, count, thread_argument(threads))
 
 
-def _sphere(count: int) -> Floats:
-    """Return directions spread evenly: a spiral of golden angles."""
-    k = np.arange(count)
-    z, around = 1.0 - (2.0 * k + 1.0) / max(count, 1), k * math.pi * (3.0 - math.sqrt(5.0))
-    return np.stack([np.sqrt(1.0 - z * z) * np.cos(around), np.sqrt(1.0 - z * z) * np.sin(around), z], axis=1)
-
-
-def _around(direction: Floats, radius: float) -> Floats:
-    """Return a direction and others evenly about it, up to an angle of about `radius`."""
-    k = np.arange(AROUND)
-    far, angle = radius * np.sqrt(k / (AROUND - 1)), k * math.pi * (3.0 - math.sqrt(5.0))
-    _, _, basis = np.linalg.svd(direction[None])
-    found = direction + far[:, None] * (np.cos(angle)[:, None] * basis[1] + np.sin(angle)[:, None] * basis[2])
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+def nearest_along(
+    geometry: Geometry, configuration: Configuration, motions: Floats, most: float, directions: int, threads: int = 0
+) -> NearestSingularity:
+    """Return the nearest singularity over the motions `motions @ x` for unit vectors x; `motions` has shape (9, 3)."""
+    arrays = operands(geometry, configuration)
+    distance, code, direction, pose = _core.nearest_singularity(*arrays, motions, most, directions, threads)
+    here = configuration[pose] if configuration.shape else configuration
+    there = here.moved(distance * (motions @ direction)) if math.isfinite(distance) else here
+    return NearestSingularity(distance, mechanisms_of(np.array([code]), ()), direction, pose, there)

@@ -86,4 +86,25 @@ struct SingularityDistance {
 SingularityDistance distance_to_singularity(const Geometry& g, const Configuration& c, const Vec9& direction,
                                             double most = 1.0);
 
+/// The three-parameter motions whose directions are searched: the tangent (omega, pdot, sdot) is this times a vector.
+using Motions = Eigen::Matrix<double, 9, 3>;
+
+/// The nearest singularity in any direction.
+struct NearestSingularity {
+  double distance;      ///< in the unit of the motions; infinite where none was found up to `most`
+  Mechanism mechanism;  ///< lost there, `none` where none was found
+  Vec3 direction;       ///< of unit length
+  long pose;            ///< of the stack; 0 where none was found
+  bool resolved;        ///< see SingularityDistance
+};
+
+/// The least of distance_to_singularity over poses and over directions of unit length.
+///
+/// `directions` evenly spread ones and the axes are looked along from each pose. Then every direction that is the nearest
+/// of its neighbours, up to the best 24 of all poses, is turned to where the distance is least. A valley narrower than the first
+/// directions may be missed. The result does not depend on the number of threads.
+/// Throws InvalidArgument as distance_to_singularity does, and for no poses.
+NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Configuration>& poses,
+                                       const Motions& motions, double most, int directions = 1000, int threads = 0);
+
 }  // namespace ninedof
