@@ -323,9 +323,7 @@ def prove_optimum(
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...
-def check_certificate(
-    certificate: bytes, progress: _Progress | None, /
-) -> tuple[bool, str, int, int, list[str]]: ...
+def check_certificate(certificate: bytes, progress: _Progress | None, /) -> tuple[bool, str, int, int, list[str]]: ...
 
 workspace_limits: list[str]
 

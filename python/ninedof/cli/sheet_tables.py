@@ -12,7 +12,7 @@ from ninedof.cli.result_table import short
 from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Extreme, Sheet
-from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
+from ninedof.sheet.words import MECHANISMS, PERMITTED, WAYS, lengths_title, motion_words, over, region_words
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, heading, per, times, with_unit
 
@@ -72,10 +72,12 @@ def _joints(found: Sheet) -> Table:
 
 
 def _lengths(found: Sheet) -> Table:
-    lengths = (heading(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke"))
-    table = _table(f"Legs {over(found)}: lengths", "leg", *lengths, "ratio")
+    names = ("shortest", "longest", "neutral", "stroke", *(PERMITTED if found.leg_ranges else ()))
+    lengths = (heading(name, found.unit) for name in names)
+    table = _table(lengths_title(found), "leg", *lengths, "ratio")
+    table.pad_edge = not found.leg_ranges  # so that all columns fit into 80 characters
     for k, leg in enumerate(found.legs):
-        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, leg.stroke_ratio)
+        numbers = (leg.shortest, leg.longest, leg.neutral, leg.stroke, *(leg.permitted or ()), leg.stroke_ratio)
         table.add_row(leg.name, *(short(x) for x in numbers), end_section=k % 3 == 2)
     return table
 

@@ -61,12 +61,10 @@ class Model:
     def leg_ranges(self) -> Ranges | None:
         """Shortest and longest length of each leg, in the order of `LEGS`; None where nothing limits them.
 
-        Those that placing O keeps in a region, those of the sheet over a region, or those at the listed poses; for a
-        study of the neutral pose alone its limits on leg lengths, if they limit all nine on both sides.
+        Those that a region needs, as its sheet has them, or those at the listed poses; for a study of the neutral pose
+        alone its limits on leg lengths, if they limit all nine on both sides.
         """
-        report, poses = (getattr(self.source, name, None) for name in ("region", "configurations"))
-        if report is not None and report.leg_ranges:
-            return tuple(report.leg_ranges)
+        poses = getattr(self.source, "configurations", None)
         if self.study is not None and self.study.objective.region is not None and self.sheet is not None:
             return tuple((leg.shortest, leg.longest) for leg in self.sheet.legs)
         if poses is not None and len(poses) > 1:

@@ -9,7 +9,7 @@ from ninedof.report.numbers import degrees, short
 from ninedof.sheet.limit_rows import limit_amount
 from ninedof.sheet.pose_words import pose_words, vector_words
 from ninedof.sheet.sheet import Sheet
-from ninedof.sheet.words import MECHANISMS, WAYS, motion_words, over, region_words
+from ninedof.sheet.words import MECHANISMS, PERMITTED, WAYS, lengths_title, motion_words, over, region_words
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, per, with_unit
 
@@ -27,14 +27,21 @@ def sheet_part(found: Sheet) -> Html:
 
 
 def _lengths(found: Sheet) -> Html:
-    head = ("leg", *(with_unit(name, found.unit) for name in ("shortest", "longest", "neutral", "stroke")), "ratio")
+    names = ("shortest", "longest", "neutral", "stroke", *(PERMITTED if found.leg_ranges else ()))
+    head = ("leg", *(with_unit(name, found.unit) for name in names), "ratio")
     longest, ratios = [leg.longest for leg in found.legs], [leg.stroke_ratio for leg in found.legs]
     rows: list[tuple[str, ...]] = []
     for k, leg in enumerate(found.legs):
         rows += [()] if k in (3, 6) else []
         lengths = (leg.shortest, leg.longest, leg.neutral, leg.stroke)
-        rows.append((leg.name, *(short(x, longest) for x in lengths), short(leg.stroke_ratio, ratios)))
-    return table(f"Legs {over(found)}: lengths", head, rows)
+        rows.append(
+            (
+                leg.name,
+                *(short(x, longest) for x in (*lengths, *(leg.permitted or ()))),
+                short(leg.stroke_ratio, ratios),
+            )
+        )
+    return table(lengths_title(found), head, rows)
 
 
 def _motions(found: Sheet) -> Html:

@@ -49,6 +49,9 @@ class LegRow:
     """Least and largest rate for the given twist; None without one."""
     twist_acceleration: tuple[float, float] | None = None
     """Least and largest acceleration for the given twist and its rate."""
+    permitted: tuple[float, float] | None = None
+    """Where O is placed at every pose of a region and limits compare poses: the lengths between which placing O keeps
+    the leg. `shortest` and `longest` are those that the region was found to need."""
 
     def flat(self) -> dict[str, Any]:
         """Return the columns of a table, angles in degrees, "" where a leg has no such joint."""
@@ -59,6 +62,8 @@ class LegRow:
             "speed": self.speed,
             "acceleration": self.acceleration,
         }
+        if self.permitted is not None:
+            row |= dict(zip(("permitted_shortest", "permitted_longest"), self.permitted, strict=True))
         for name in ("base_cone", "platform_cone"):
             angle = getattr(self, name)
             row[f"{name}_deg"] = "" if angle is None else float(np.degrees(angle))

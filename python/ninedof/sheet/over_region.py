@@ -23,7 +23,7 @@ from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twis
 from ninedof.sheet.legs import forces_of
 from ninedof.sheet.near_singularity import near_singularities
 from ninedof.sheet.pose_limits import CONES, cone_angles
-from ninedof.sheet.region_search import Numbers, extreme_poses, finite_or_high
+from ninedof.sheet.region_search import Numbers, Poses, extreme_poses, finite_or_high
 from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.singularity.singularity import singularity_margins
@@ -33,6 +33,7 @@ from ninedof.support.arrays import Floats
 SAMPLES = 10_000
 PLACED = 2000  # the most where O is placed anew at every pose, which takes a thousand times as long
 TILTS = 24  # directions of the greatest tilt, at each corner
+PLACED_DESCENT = 5, 1e-3  # starts of a number, and the last step in parts of the region, where O is placed at each
 PARTS = 8  # of the even sample, for the error of its mean
 
 
@@ -72,7 +73,7 @@ def look_over(
     """Return how the region of a study was looked over, and its worst poses as configurations and as poses."""
     region: Region = study.objective.region  # type: ignore[assignment]
     at = samples(region, count)
-    worst, looked_at = extreme_poses(region, neutral, at, _numbers(study, g, neutral, asked))
+    worst, looked_at = extreme_poses(Poses.of(region, neutral), at, _numbers(study, g, neutral, asked))
     worst = np.concatenate([worst, _near_singular(region, g, neutral, asked.motion)])
     even = configurations_at(region, neutral, at[:count])[1]
     look = _look(region, study, g, asked, even, looked_at)
@@ -82,13 +83,21 @@ def look_over(
 def look_over_placed(
     study: Study, g: Geometry, neutral: Configuration, asked: Asked, place: Place, count: int
 ) -> tuple[RegionLook, Configuration, tuple[Pose, ...]]:
-    """Return the same where O is placed anew at every pose: the worst of the sample, without descents."""
+    """Return the same where O is placed anew at every pose.
+
+    Descents follow the lengths of the legs: those of the external legs do not depend on O, those of the others take O
+    placed at every step, so they have fewer starts and end earlier. Of the other numbers it is the worst of the sample.
+    """
     region: Region = study.objective.region  # type: ignore[assignment]
     at = samples(region, count)
-    c, poses = place(at)
-    worst = {int(k) for numbers in _numbers(study, g, neutral, asked) for k in np.argmin(finite_or_high(numbers(c)), 0)}
-    rows = sorted(worst)
-    return _look(region, study, g, asked, c[:count], len(c)), c[rows], tuple(poses[k] for k in rows)
+    c, _ = place(at)
+    numbers = _numbers(study, g, neutral, asked)
+    rows = sorted({int(k) for group in numbers for k in np.argmin(finite_or_high(group(c)), axis=0)})
+    placed = Poses(region, lambda at: (configurations_at(region, neutral, at)[0], place(at)[0]), *PLACED_DESCENT)
+    external, looked = extreme_poses(Poses.of(region, neutral), at, [_both(lambda c: leg_lengths(g, c)[:, :3])])
+    internal, more = extreme_poses(placed, at, [_both(lambda c: leg_lengths(g, c)[:, 3:])])
+    worst, poses = place(np.concatenate([at[rows], external, internal]))
+    return _look(region, study, g, asked, c[:count], looked + more), worst, poses
 
 
 def _near_singular(region: Region, g: Geometry, neutral: Configuration, motion: Motion) -> Floats:

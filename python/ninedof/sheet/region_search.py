@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,29 +27,45 @@ MOST_STEPS = 300
 SAME = 1e-7  # of the region: nearer poses are one
 
 
-def extreme_poses(region: Region, neutral: Configuration, at: Floats, groups: Sequence[Numbers]) -> tuple[Floats, int]:
+@dataclass(frozen=True)
+class Poses:
+    """A region as the search sees it."""
+
+    region: Region
+    place: Callable[[Floats], tuple[Floats, Configuration]]
+    """From coordinates (n, 6) to the nearest ones of the region, and the poses there with O placed."""
+    starts: int = STARTS
+    last_step: float = LAST_STEP
+
+    @classmethod
+    def of(cls, region: Region, neutral: Configuration) -> Poses:
+        """Return those of a region that says where O is."""
+        return cls(region, lambda at: configurations_at(region, neutral, at))
+
+
+def extreme_poses(poses: Poses, at: Floats, groups: Sequence[Numbers]) -> tuple[Floats, int]:
     """Return the coordinates at which each number of each group is least, without repetition, and the poses looked at.
 
     Parameters
     ----------
-    region : Region
-    neutral : Configuration
+    poses : Poses
     at : numpy.ndarray, shape (n, 6)
         Coordinates of the sample.
     groups : sequence of callables
         Numbers that are computed together.
 
     """
-    near, c = configurations_at(region, neutral, at)
+    near, c = poses.place(at)
+    region = poses.region
     found, looked_at, parts = [], len(near), _parts(region, near)
     for group in groups:
         values = finite_or_high(group(c))
         numbers = np.arange(values.shape[1])
         worst = np.stack([part[np.argmin(values[part], axis=0)] for part in parts])  # (parts, numbers)
-        order = np.argsort(values[worst, numbers], axis=0, kind="stable")[:STARTS]
+        order = np.argsort(values[worst, numbers], axis=0, kind="stable")[: poses.starts]
         rows = np.take_along_axis(worst, order, axis=0).reshape(-1)
         which = np.tile(numbers, len(order))
-        ends, least, count = _descend(region, neutral, group, near[rows], which, values[rows, which])
+        ends, least, count = _descend(poses, group, near[rows], which, values[rows, which])
         best = np.argmin(least.reshape(len(order), -1), axis=0)
         found.append(ends.reshape(len(order), -1, 6)[best, numbers])
         looked_at += count
@@ -69,18 +86,18 @@ def _parts(region: Region, at: Floats) -> list[NDArray[np.intp]]:
 
 
 def _descend(
-    region: Region, neutral: Configuration, group: Numbers, at: Floats, which: NDArray[np.intp], value: Floats
+    poses: Poses, group: Numbers, at: Floats, which: NDArray[np.intp], value: Floats
 ) -> tuple[Floats, Floats, int]:
     """Lower one number from each start: to the best neighbour, farther where that helps, nearer where none does."""
     at, value, step, count = at.copy(), value.copy(), np.full(len(at), FIRST_STEP), 0
     way = np.zeros_like(at)  # of the last step: along a ridge the same way is tried again, and farther
     for _ in range(MOST_STEPS):
-        active = np.flatnonzero(step >= LAST_STEP)
+        active = np.flatnonzero(step >= poses.last_step)
         if not active.size:
             break
         again = at[active][:, None] + AGAIN[:, None] * way[active][:, None]
-        trial = np.concatenate([_neighbours(region, at[active], step[active]), again], axis=1)
-        near, c = configurations_at(region, neutral, trial.reshape(-1, 6))
+        trial = np.concatenate([_neighbours(poses.region, at[active], step[active]), again], axis=1)
+        near, c = poses.place(trial.reshape(-1, 6))
         count += len(near)
         moves = trial.shape[1]
         values = finite_or_high(group(c))[np.arange(len(near)), np.repeat(which[active], moves)].reshape(-1, moves)

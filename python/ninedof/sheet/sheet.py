@@ -197,7 +197,8 @@ class Sheet:
         rows = [leg.flat() for leg in self.legs]
         text = io.StringIO()
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-        units = dict.fromkeys(("shortest", "longest", "neutral", "stroke"), self.unit)
+        lengths = ("shortest", "longest", "neutral", "stroke", "permitted_shortest", "permitted_longest")
+        units = dict.fromkeys(lengths, self.unit)
         units |= {"speed": per(self.unit, "s"), "acceleration": per(self.unit, "s²")}
         writer.writerow({name: with_unit(name, units.get(name, "")) for name in rows[0]})
         writer.writerows(rows)
@@ -229,8 +230,9 @@ def sheet(
     Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
     result of a region study they are those over the region: a dense sample is looked at, with descents from the worst
     of it for every number of the sheet. Where O is placed anew at every pose, the sample has 2000 even poses and as
-    many toward the boundary, O is at each where the worst of the index and the limits is least, and there are no
-    descents.
+    many toward the boundary, O is at each where the worst of the index and the limits is least, and descents follow the
+    lengths of the legs alone. There O may jump from one place to another, and an internal leg with it: its extremes are
+    those that were found.
 
     Parameters
     ----------
@@ -329,7 +331,10 @@ def sheet(
         motion=motion,
         loads=wrenches,
         weight=weight,
-        legs=leg_rows(g, c, motion, wrenches, weight),
+        legs=tuple(
+            replace(leg, permitted=band)
+            for leg, band in zip(leg_rows(g, c, motion, wrenches, weight), kept or (None,) * 9, strict=True)
+        ),
         condition_number=_worst(kappa),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
         clearance=Clearance(*least_clearance(g, c)),

@@ -15,6 +15,7 @@ HEAD = ("leg", "shortest", "longest", "neutral", "stroke", "ratio", "speed", "ac
 WIDTH = 12
 MOTIONS = {"shift": "shift", "internal": "O alone"}
 WAYS = {"shift": "shift of the platform", "turn": "turn about its origin", "internal": "O alone"}
+PERMITTED = ("at least", "at most")
 MECHANISMS = {
     "det_b": "O in the plane of the lower internal joints",
     "det_c": "O in the plane of the upper internal joints",
@@ -75,13 +76,16 @@ def sheet_words(found: Any) -> list[str]:
 def region_words(found: Any) -> Iterator[str]:
     """Yield a sentence on how the region was looked over, if there is one; takes a Sheet."""
     if (look := found.region) is not None:
-        how = "a sample and descents from the worst of it" if found.leg_ranges is None else "a sample"
+        how = "a sample and descents from the worst of it"
+        how += "" if found.leg_ranges is None else " for the lengths of the legs"
         yield f"Region: {look.region}. Poses looked at: {look.looked_at}, {how}."
     if found.leg_ranges is not None:
         yield "O is placed anew at every pose, where the worst of the index and the limits is least."
         if found.leg_ranges:
-            kept = (f"{leg.name} {a:.6g} to {b:.6g}" for leg, (a, b) in zip(found.legs, found.leg_ranges, strict=True))
-            yield f"In all of the region each leg keeps to {amount(', '.join(kept), found.unit)}."
+            yield (
+                "Placing O keeps each leg between its permitted lengths. Shortest and longest are those that the "
+                "region was found to need."
+            )
 
 
 def over(found: Any) -> str:
@@ -90,6 +94,12 @@ def over(found: Any) -> str:
         return "over the region"
     count = len(found.configurations)
     return f"over {count} poses" if count > 1 else "at the neutral pose"
+
+
+def lengths_title(found: Any) -> str:
+    """Return the title of the table of lengths; takes a Sheet."""
+    permitted = ", and permitted (at least, at most)" if found.leg_ranges else ""
+    return f"Legs {over(found)}: lengths{permitted and ' needed'}{permitted}"
 
 
 def motion_words(found: Any) -> Iterator[str]:

@@ -16,7 +16,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.sheet.clearance import clearances
 from ninedof.sheet.pose_limits import CONES, cone_angles
-from ninedof.sheet.region_search import Numbers, extreme_poses
+from ninedof.sheet.region_search import Numbers, Poses, extreme_poses
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.workspace.study_criteria import EASE
@@ -73,7 +73,7 @@ def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[F
 
     Eased by `EASE` of themselves.
     """
-    extremes, _ = extreme_poses(region, home, samples(region, COUNT), [_ends_of_legs(g)])
+    extremes, _ = extreme_poses(Poses.of(region, home), samples(region, COUNT), [_ends_of_legs(g)])
     lengths = leg_lengths(g, configurations_at(region, home, extremes)[1])
     return lengths.min(axis=0) * (1.0 - EASE), lengths.max(axis=0) * (1.0 + EASE)
 

@@ -73,10 +73,6 @@ def test_ranges_of_legs_are_those_that_are_known():
     assert model_of(nd.optimize(neutral_alone)).leg_ranges is None
     limited = nd.Study(starts=2, constraints={"radius_ratio": (None, 2.0), "leg_length": (1.0, 30.0)})
     assert model_of(nd.optimize(limited)).leg_ranges == ((1.0, 30.0),) * 9
-    kept = machine.region or type("Report", (), {"leg_ranges": ((1.0, 2.0),) * 9})()
-    placed = type("Placed", (), {"region": kept, "geometry": machine.geometry, "study": None})
-    placed.configuration, placed.characteristic_length = machine.configuration, 1.0
-    assert model_of(placed(), unit="").leg_ranges == kept.leg_ranges
 
 
 @pytest.mark.skipif(not LONG, reason="a search over a region takes seconds")

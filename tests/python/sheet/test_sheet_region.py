@@ -5,10 +5,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from region_poses import drawn
+from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
 from ninedof.design.region_stack import configurations_at, poses_at, samples
+from ninedof.export.model import model_of
 from ninedof.optimize.exchange import search
 from ninedof.optimize.region_report import posed
 from ninedof.sheet.legs import cone_angles
@@ -133,3 +136,40 @@ def test_words_and_plain_values(boxed):
     assert len(plain["poses"]) == len(found.configurations)
     assert plain["singularities"]["turn"]["distance_deg"] == math.degrees(found.singularities["turn"].distance)
     assert nd.sheet(result(REGIONS[0]), nd.Configuration.neutral(4.0, [2.0])).region is None
+
+
+def test_lengths_where_o_is_placed_are_those_of_the_region():
+    """External legs by numpy, which does not need O; the others at random poses with O placed."""
+    region = nd.Region(box=(60.0, 60.0, 40.0), tilt=0.17, internal_point="best")
+    study = nd.Study(
+        variables={"a1": 0.0, "a2": 720.0, "b1": 345.0, "b2": 0.0, "zp": 480.0, "zs": 300.0, "theta_z": 0.0},
+        constraints={"stroke_ratio": (None, 1.6)},
+        characteristic_length=150.0,
+        objective={"region": region},
+        unit="mm",
+    )
+    result = nd.optimize(study, starts=1)
+    found = nd.sheet(result)
+    rng, g, home = np.random.default_rng(18), result.geometry, result.configuration
+    shift, tilt, _ = drawn(region, 480.0, rng, size(100_000, 2_000_000))
+    q = Rotation.from_rotvec(tilt).as_matrix() @ home.rotation
+    joints = (home.position + shift)[:, None] + np.einsum("nij,kj->nki", q, g.platform_external)
+    external = np.linalg.norm(joints - g.base_external, axis=2)
+    for k, leg in enumerate(found.legs[:3]):
+        assert leg.shortest <= external[:, k].min() <= leg.shortest * 1.01
+        assert leg.longest >= external[:, k].max() >= leg.longest * 0.99
+    near = np.concatenate([shift, tilt], axis=1)[: size(1000, 20_000)]
+    placed, _ = result._placing()(near)
+    lengths = nd.leg_lengths(g, placed)
+    needed = np.array([(leg.shortest, leg.longest) for leg in found.legs]).T
+    permitted = np.array([leg.permitted for leg in found.legs]).T
+    assert (permitted[0] * (1.0 - 1e-6) <= needed[0]).all()
+    assert (needed[1] <= permitted[1] * (1.0 + 1e-6)).all()
+    assert (lengths >= permitted[0] * (1.0 - 1e-6)).all()
+    # O may jump to another place in a small part of the region.
+    assert ((lengths >= needed[0] * (1.0 - 1e-6)) & (lengths <= needed[1] * (1.0 + 1e-6))).mean() > 0.998
+    # The two are told apart wherever lengths are listed.
+    assert found.to_csv().splitlines()[0].count("permitted_shortest (mm)") == 1
+    assert found.to_dict()["legs"][0]["permitted_longest"] == found.legs[0].permitted[1]
+    ranges = model_of(result).leg_ranges
+    assert ranges == tuple((leg.shortest, leg.longest) for leg in found.legs)
