@@ -13,8 +13,10 @@ namespace ninedof {
 namespace {
 
 constexpr long block = 2048;         // of samples
-constexpr std::size_t subsets = 6;           // of the samples: a descent begins from the worst of each
-constexpr double small = 0.1;       // margin from which a descent is not worth while
+constexpr std::size_t cells = 64;  // of the region, by the signs of its coordinates: a descent begins from the worst
+// sample of a cell, so that no two begin next to each other
+constexpr long few = 6, many = 24;  // descents of a number; many where the samples are
+constexpr double small = 0.1;  // margin from which a descent is not worth while
 constexpr double first_step = 0.2, last_step = 1e-5;  // of a descent, in parts of the region
 constexpr double worthwhile = 1e-10;  // decrease of a descent's step
 constexpr long most_evaluations = 2000;  // of a descent
@@ -73,30 +75,64 @@ struct Least {
   std::vector<Vec6> at;
 };
 
-/// Lowers one number by moves both ways; a step is doubled where it helps and halved where none does.
-long descend(OnePose& design, const Region& region, Eigen::Index k, double& value, Vec6& at) {
-  Eigen::VectorXd all;
-  long count = 0;
-  for (double step = first_step; step >= last_step && count < most_evaluations; step *= 0.5) {
-    bool lower = true;
-    while (lower && count < most_evaluations) {
-      lower = false;
-      for (int move = 0; move < region_moves; ++move)
-        for (const double side : {1.0, -1.0})
-          for (double length = step; length < 2.0; length *= 2.0) {
-            const Vec6 next = region.nearest(region_moved(region, at, move, side * length));
-            if ((next - at).isZero(0.0)) break;
-            design.evaluate(region.pose(next), all);
-            ++count;
-            if (!(all[k] < value - worthwhile * (1.0 + std::abs(value)))) break;
-            value = all[k];
-            at = next;
-            lower = true;
-          }
-    }
-  }
-  return count;
+std::size_t cell_of(const Vec6& at) {
+  std::size_t out = 0;
+  for (Eigen::Index k = 0; k < 6; ++k) out += at[k] > 0.0 ? std::size_t{1} << static_cast<unsigned>(k) : 0;
+  return out;
 }
+
+/// The cells where a number is least, the lowest first.
+std::vector<std::size_t> lowest(const std::vector<Least>& least, Eigen::Index k, std::size_t count) {
+  std::vector<std::size_t> out;
+  for (std::size_t cell = 0; cell < cells; ++cell)
+    if (std::isfinite(least[cell].value[k])) out.push_back(cell);
+  std::ranges::stable_sort(out, {}, [&](std::size_t cell) { return least[cell].value[k]; });
+  out.resize(std::min(out.size(), count));
+  return out;
+}
+
+/// Lowers one number by moves both ways, and along the way that a round of moves has led: a ridge need not follow one
+/// of the moves. A step is doubled where it helps and halved where none does.
+class Descent {
+ public:
+  Descent(OnePose& design, const Region& region, Eigen::Index number) : design_(design), region_(region), k_(number) {}
+
+  long run(double& value, Vec6& at) {
+    for (double step = first_step; step >= last_step && count_ < most_evaluations; step *= 0.5)
+      for (bool lower = true; lower && count_ < most_evaluations;) {
+        const Vec6 before = at;
+        lower = false;
+        for (int move = 0; move < region_moves; ++move)
+          for (const double side : {1.0, -1.0})
+            for (double length = step; length < 2.0; length *= 2.0) {
+              if (!takes(region_moved(region_, at, move, side * length), value, at)) break;
+              lower = true;
+            }
+        const Vec6 way = at - before;
+        for (double length = 1.0; lower && length < 1e6; length *= 2.0)
+          if (!takes(at + length * way, value, at)) break;
+      }
+    return count_;
+  }
+
+ private:
+  bool takes(const Vec6& to, double& value, Vec6& at) {
+    const Vec6 next = region_.nearest(to);
+    if ((next - at).isZero(0.0)) return false;
+    design_.evaluate(region_.pose(next), all_);
+    ++count_;
+    if (!(all_[k_] < value - worthwhile * (1.0 + std::abs(value)))) return false;
+    value = all_[k_];
+    at = next;
+    return true;
+  }
+
+  OnePose& design_;
+  const Region& region_;
+  Eigen::Index k_;
+  Eigen::VectorXd all_;
+  long count_ = 0;
+};
 
 }  // namespace
 
@@ -114,30 +150,32 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
   parallel_for(blocks, 1, settings.threads, [&](long first, long) {
     if (control.stop.stop_requested()) return;
     OnePose design(problem, variables);
-    std::vector<Least> least(subsets, Least(size));
+    std::vector<Least> least(cells, Least(size));
     Eigen::VectorXd all;
     for (long n = first * block; n < std::min(settings.samples, (first + 1) * block); ++n) {
       const Vec6 at = region_sample(region, n, settings.seed);
       design.evaluate(region.pose(at), all);
-      for (Eigen::Index k = 0; k < size; ++k) least[at_index(n) % subsets].take(k, all[k], at);
+      const std::size_t cell = cell_of(at);
+      for (Eigen::Index k = 0; k < size; ++k) least[cell].take(k, all[k], at);
     }
     of_block[at_index(first)] = std::move(least);
   });
   if (control.stop.stop_requested()) throw Stopped{};
-  std::vector<Least> starts(subsets, Least(size));
-  for (const std::vector<Least>& least : of_block)
-    for (std::size_t subset = 0; subset < subsets; ++subset)
-      for (Eigen::Index k = 0; k < size; ++k)
-        starts[subset].take(k, least[subset].value[k], least[subset].at[at_index(k)]);
+  std::vector<Least> least(cells, Least(size));
+  for (const std::vector<Least>& other : of_block)
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      for (Eigen::Index k = 0; k < size; ++k) least[cell].take(k, other[cell].value[k], other[cell].at[at_index(k)]);
 
   const Eigen::Index index = shape.margins();
+  const auto descents = static_cast<std::size_t>(std::clamp(settings.samples / 4000, few, many));
+  std::vector<std::vector<std::size_t>> starts(at_index(size));
   std::vector<long> counts(at_index(size), 0);
   parallel_for(size, 1, settings.threads, [&](long k, long) {
     OnePose design(problem, variables);
-    for (Least& start : starts) {
-      double& value = start.value[k];
-      if (!control.stop.stop_requested() && std::isfinite(value) && (k >= index || value < small))
-        counts[at_index(k)] += descend(design, region, k, value, start.at[at_index(k)]);
+    for (const std::size_t cell : starts[at_index(k)] = lowest(least, k, descents)) {
+      double& value = least[cell].value[k];
+      if (!control.stop.stop_requested() && (k >= index || value < small))
+        counts[at_index(k)] += Descent(design, region, k).run(value, least[cell].at[at_index(k)]);
     }
   });
   if (control.stop.stop_requested()) throw Stopped{};
@@ -146,14 +184,16 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
   out.poses = settings.samples;
   for (const long count : counts) out.poses += count;
   // The neutral pose is among the samples: every number was met.
+  for (Eigen::Index k = 0; k <= index; ++k)
+    for (const std::size_t cell : starts[at_index(k)]) {
+      const double value = least[cell].value[k];
+      const Vec6& at = least[cell].at[at_index(k)];
+      if (k < index) out.limits.push_back(shape.limit(k, value, at));
+      else out.index.push_back({-value, at});
+    }
   const auto worst = [&](Eigen::Index k) {
-    return std::ranges::min(starts, {}, [k](const Least& l) { return l.value[k]; }).at[at_index(k)];
+    return std::ranges::min(least, {}, [k](const Least& l) { return l.value[k]; }).at[at_index(k)];
   };
-  for (const Least& end : starts) {
-    for (Eigen::Index k = 0; k < index; ++k)
-      if (end.value[k] < infinity) out.limits.push_back(shape.limit(k, end.value[k], end.at[at_index(k)]));
-    if (end.value[index] < infinity) out.index.push_back({-end.value[index], end.at[at_index(index)]});
-  }
   for (Eigen::Index leg = 0; leg < 9; ++leg) {
     out.shortest_at[at_index(leg)] = worst(index + 1 + leg);
     out.longest_at[at_index(leg)] = worst(index + 10 + leg);

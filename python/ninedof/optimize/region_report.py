@@ -12,7 +12,7 @@ from ninedof.support.arguments import items, table
 from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
 
-PASSED = 2e-7  # by which a limit or the index may be passed between the poses, relative
+PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
 
 
 @short_repr

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 TOLERANCE = 1e-6
 """A limit that is passed by no more is kept, as for `certify`: between the poses that were looked at, a design of the
-optimizer passes its limits by up to 2e-7."""
+optimizer passes its limits by up to 1e-7."""
 MOST = 1e4  # per cent: from here on the number itself says little
 
 
