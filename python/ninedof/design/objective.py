@@ -103,6 +103,11 @@ class Objective:
                 raise ValueError("objective.poses: got poses beside a mean over a region, expected weight = 0 for them")
 
     @property
+    def mean_share(self) -> float:
+        """The share of the harmonic mean in the logarithm of the objective."""
+        return {"worst": 0.0, "mean_inverse": 1.0}.get(self.aggregate, 1.0 - self.weight)
+
+    @property
     def words(self) -> str:
         """The objective in words."""
         return self.worded()

@@ -21,6 +21,7 @@ from ninedof.design.pose import Pose
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_mean import MOST_NODES, NODES, TOLERANCE, region_mean, uniform_poses
 from ninedof.optimize.region_report import PASSED, RegionMean, RegionReport, posed
 from ninedof.optimize.result import Candidate, Result, Status
@@ -54,7 +55,9 @@ class Look:
     """What is worse than it may be and where, the worst first."""
 
 
-def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
+def optimize_region(
+    study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int, pieces: Pieces
+) -> Result:
     """Solve a region study by `solve`, which takes a study with poses, a number of starts and designs to start from.
 
     Starts and confidence of the result are those of the last round; evaluations and seconds are of all.
@@ -81,11 +84,11 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
             result, imposed, look = found, poses, None
             if found.best is None or found.interrupted:
                 break
-            look = search(study, poses, found.best, QUICK, rounds, threads)
+            look = search(study, poses, found.best, QUICK, rounds, threads, pieces)
             if not look.worse:
-                look = search(study, poses, found.best, DENSE, rounds, threads)
+                look = search(study, poses, found.best, DENSE, rounds, threads, pieces)
             if not look.worse and (thorough or starts == 1 == study.starts):
-                average = region_mean(study, nodes, found.best.variables) if mean else None
+                average = _mean(study, nodes, found.best, pieces) if mean else None
                 if average is None or average.error <= TOLERANCE * average.value or len(nodes) >= MOST_NODES:
                     break
                 nodes, average = uniform_poses(region, 2 * len(nodes), study.seed), None
@@ -115,6 +118,10 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
                 result = replace(result, status=Status.STOPPED, reason=reason)
             at = _pose(region, look.objective_at)
             report = RegionReport(imposed, rounds, look.looked_at, look.objective, at, look.margin, look.limit, average)
+            if average is not None:
+                best = result.candidates[0]
+                stated = average.stated(best.objective, study.objective.mean_share)
+                result = replace(result, candidates=(replace(best, objective=stated),))
     return replace(
         result,
         study=study,
@@ -125,28 +132,34 @@ def optimize_region(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | No
     )
 
 
-def search(study: Study, imposed: tuple[Pose, ...], best: Candidate, samples: int, seed: int, threads: int) -> Look:
+def _mean(study: Study, nodes: tuple[Pose, ...], best: Candidate, pieces: Pieces) -> RegionMean:
+    return RegionMean(**pieces.plain(lambda: dict(region_mean(study, nodes, best.variables).__dict__)))
+
+
+def search(
+    study: Study, imposed: tuple[Pose, ...], best: Candidate, samples: int, seed: int, threads: int, pieces: Pieces
+) -> Look:
     """Search a region for where a design is worse than its limits and than at the imposed poses."""
     region = study.objective.region
     assert region is not None
     plain = replace(study, objective=replace(study.objective, poses=(), region=None)).problem()
     x = [best.variables[name] for name in plain.names]
-    found = _core.search_region(plain, region.for_core(), x, samples, seed, threads)
+    found = pieces.plain(lambda: _core.search_region(plain, region.for_core(), x, samples, seed, threads))
     limits = [
-        (margin, (name, row), at)
+        (margin, (name, row), tuple(at))
         for name, row, margin, at in found["limits"]
         if name not in SPREADS and not name.endswith(" at neutral")
     ]
-    extremes = [*found["longest_at"], *found["shortest_at"]]
+    extremes = [tuple(at) for at in (*found["longest_at"], *found["shortest_at"])]
     there = posed(study, tuple(_pose(region, at) for at in extremes))
     point = there.evaluate(best.variables)
     lengths = leg_lengths(point.geometry, point.configurations[-18:])
     limits += [(margin, (name, k), extremes[k]) for name, k, margin in _spreads(lengths, point.margins)]
     worse = [(-margin, cause, at) for margin, cause, at in limits if margin < -PASSED]
     may_be = worst_index(study, imposed, best)
-    excess = [(logarithm - math.log(may_be), at) for logarithm, at in found["index"]]
+    excess = [(logarithm - math.log(may_be), tuple(at)) for logarithm, at in found["index"]]
     worse += [(by, ("index", 0), at) for by, at in excess if by > PASSED]
-    largest, largest_at = max(found["index"])
+    largest, largest_at = max((value, tuple(at)) for value, at in found["index"])
     margin, (limit, _), _ = min(limits, default=(math.inf, ("", 0), ()))
     ordered = sorted(worse, key=lambda entry: -entry[0])
     return Look(

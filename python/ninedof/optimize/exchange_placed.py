@@ -212,7 +212,7 @@ def optimize_placed(
     """
     begin = perf_counter()
     program = _Program(study, threads, pieces)
-    shifted = _shifted(study, solve, warm, threads)
+    shifted = _shifted(study, solve, warm, threads, pieces)
     if shifted.interrupted:
         return shifted
     state = _State(shifted, *_first(program, shifted))
@@ -372,11 +372,11 @@ def _unfinished(program: _Program, solve: Solve, state: _State, interrupted: boo
     return replace(shifted, status=Status.STOPPED, interrupted=interrupted, reason=reason, region=report)
 
 
-def _shifted(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int) -> Result:
+def _shifted(study: Study, solve: Solve, warm: Warm | Iterable[Warm] | None, threads: int, pieces: Pieces) -> Result:
     region = study.objective.region
     assert region is not None
     with_shifted = replace(study.objective, region=replace(region, internal_point="shifted"))
-    found = optimize_region(replace(study, objective=with_shifted), solve, warm, threads)
+    found = optimize_region(replace(study, objective=with_shifted), solve, warm, threads, pieces)
     return replace(found, study=study)
 
 

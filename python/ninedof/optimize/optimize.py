@@ -130,7 +130,7 @@ def _optimized(
         return solve(study, study.starts, warm)
     if region.internal_point == "best":
         return optimize_placed(study, solve, warm, threads, pieces)
-    return optimize_region(study, solve, warm, threads)
+    return optimize_region(study, solve, warm, threads, pieces)
 
 
 def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pieces) -> Result:

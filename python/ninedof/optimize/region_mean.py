@@ -41,7 +41,7 @@ def region_mean(study: Study, nodes: tuple[Pose, ...], variables: Mapping[str, f
     fresh = [mean(uniform_poses(region, IN_REPLICATE, 1_000_003 + study.seed + k)) for k in range(REPLICATES)]
     value, standard = float(np.mean(fresh)), float(np.std(fresh, ddof=1)) / math.sqrt(REPLICATES)
     quadrature = mean(nodes)
-    return RegionMean(len(nodes), quadrature, value, abs(quadrature - value) + 2.0 * standard)
+    return RegionMean(len(nodes), quadrature, value, abs(quadrature - value) + 2.0 * standard, standard)
 
 
 def _even(u: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -25,14 +26,23 @@ class RegionMean:
     quadrature: float
     """The mean over them."""
     value: float
-    """The mean over many other poses."""
+    """The mean over 8192 other poses, on which the optimizer had no influence: the mean of the region."""
     error: float
     """Of the quadrature: its distance from `value`, and two standard errors of that."""
+    standard_error: float = math.nan
+    """Of `value`."""
 
     @property
     def words(self) -> str:
         """The mean in a few words."""
-        return f"harmonic mean {self.quadrature:.6f} by {self.nodes} poses, error {self.error:.1e}"
+        return (
+            f"harmonic mean {self.value:.6f}, standard error {self.standard_error:.1e}, over poses that were not used "
+            f"({self.quadrature:.6f} over the {self.nodes} that were minimized over)"
+        )
+
+    def stated(self, objective: float, share: float) -> float:
+        """Return an objective with `value` in place of the quadrature; `share` is the mean's, in logarithms."""
+        return objective * float((self.value / self.quadrature) ** share)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,9 @@ from sizes import size
 
 import ninedof as nd
 from ninedof.optimize import exchange
+from ninedof.optimize.pieces import Pieces
+from ninedof.optimize.region_report import posed
+from ninedof.verify.region import random_poses
 
 UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
 STUDIES = {
@@ -161,9 +164,28 @@ def test_check_finds_a_wrong_mean():
     average = result.region.mean
     assert average.nodes >= 64
     assert abs(average.value - average.quadrature) <= average.error <= 2e-3 * average.value
-    wrong = replace(average, quadrature=average.quadrature * 1.01)
+    wrong = replace(average, value=average.value * 1.01)
     report = replace(result.region, mean=wrong)
     assert not nd.check(replace(result, region=report), perturbations=0)["region"].passed
+
+
+@pytest.mark.slow
+def test_a_mean_is_stated_as_it_is_at_poses_that_the_optimizer_did_not_use():
+    """Oracle: the condition numbers of poses drawn in numpy, with a standard error of their own."""
+    result = solved("mean, one variable")
+    average = result.region.mean
+    assert result.objective == average.value != average.quadrature
+    assert average.standard_error < 0.5 * average.error
+    there = posed(result.study, random_poses(result.study.objective.region, 9000, np.random.default_rng(12), 0.0))
+    c = there.evaluate(result.variables).configurations[1:]
+    inverse = 1.0 / nd.condition_number(result.geometry, c, result.characteristic_length, norm="frobenius")
+    mean = 1.0 / inverse.mean()
+    error = mean**2 * inverse.std() / len(inverse) ** 0.5
+    assert abs(mean - result.objective) < 3.0 * np.hypot(error, average.standard_error)
+    assert nd.check(result, perturbations=0).passed
+    assert f"{average.value:.6f}, standard error" in result.region.words
+    weighted = replace(result.study.objective, aggregate="weighted", weight=0.25)
+    assert average.stated(2.0, weighted.mean_share) == pytest.approx(2.0 * (average.value / average.quadrature) ** 0.75)
 
 
 @pytest.mark.slow
@@ -240,7 +262,7 @@ def test_an_interruption_in_a_later_round_keeps_the_design_of_the_one_before():
         found = nd.optimize(posed, starts=1)
         return found if len(rounds) == 1 else replace(found, candidates=(), status="stopped", interrupted=True)
 
-    result = exchange.optimize_region(study, solve, None, 1)
+    result = exchange.optimize_region(study, solve, None, 1, Pieces())
     assert len(rounds) == 2
     assert (result.status, result.interrupted) == ("stopped", True)
     assert result.objective == nd.optimize(rounds[0], starts=1).objective

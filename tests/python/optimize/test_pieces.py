@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 
 import pytest
 
@@ -62,12 +63,39 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole, tmp_path, monkeyp
     with pytest.raises(Killed):
         nd.optimize(asked, out=tmp_path)
     monkeypatch.setattr(Store, "write", write)
-    for name in ("optimize", "optimize_placed", "search_region_placed"):
+    for name in ("optimize", "optimize_placed", "search_region", "search_region_placed"):
         counted(name)
     assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
     assert len(computed) == count - count // 2
     assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
     assert len(computed) == count - count // 2
+
+
+class Stopping:
+    """Presses Ctrl-C in a later round."""
+
+    def __init__(self, rounds):
+        self.left = rounds
+
+    def phase(self, _):
+        self.left -= 1
+
+    def __call__(self, *_):
+        if self.left < 0:
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_after_ctrl_c_no_finished_round_and_no_search_is_done_again(whole, tmp_path, monkeypatch):
+    asked, without, _, folder = whole
+    stopped = nd.optimize(asked, out=tmp_path, progress=Stopping(1))
+    assert stopped.interrupted
+    finished, computed = len(list(tmp_path.glob("chunk-*"))), []
+    assert finished > 1
+    for name in ("optimize", "optimize_placed", "search_region", "search_region_placed"):
+        call = getattr(_core, name)
+        monkeypatch.setattr(_core, name, lambda *given, call=call: computed.append(call) or call(*given))
+    assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
+    assert len(computed) == len(list(folder.glob("chunk-*"))) - finished
 
 
 def test_a_damaged_piece_is_computed_again(whole, tmp_path):

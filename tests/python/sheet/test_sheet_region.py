@@ -13,6 +13,7 @@ import ninedof as nd
 from ninedof.design.region_stack import configurations_at, poses_at, samples
 from ninedof.export.model import model_of
 from ninedof.optimize.exchange import search
+from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import posed
 from ninedof.sheet.legs import cone_angles
 from ninedof.verify.region import random_poses
@@ -100,7 +101,7 @@ def test_a_second_maximum_far_from_the_worst_of_the_sample():
 def test_the_sheet_agrees_with_the_search_of_the_optimizer(boxed):
     design, found = result(REGIONS[0]), boxed
     best = SimpleNamespace(variables=design.variables, objective=1.0)
-    look = search(design.study, (), best, 4000, 0, 1)
+    look = search(design.study, (), best, 4000, 0, 1, Pieces())
     assert found.condition_number.value == pytest.approx(look.objective, rel=1e-8)
     assert min(row.margin for row in found.limits) == pytest.approx(look.margin, abs=1e-8)
 
