@@ -7,19 +7,22 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ninedof.motion.rotations import to_quaternions, vectors_between
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
 
 def pose_words(c: Configuration, neutral_rotation: Floats, unit: str = "") -> str:
-    """Return position, place of O and the angle turned from the neutral pose."""
-    # The arc tangent is exact for small angles too.
-    turn = c.rotation @ neutral_rotation.T
-    skew = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    angle = math.degrees(math.atan2(float(np.linalg.norm(skew)), 0.5 * (float(np.trace(turn)) - 1.0)))
+    """Return position, place of O and turn, as --position, --internal-point and --rotation-deg take them."""
     p, o = (amount(vector_words(point), unit) for point in (c.position, c.internal_point))
-    return f"p = {p}, O = {o}, turned {angle:.2f}° from neutral"
+    return f"p = {p}, O = {o}, turned {vector_words(np.round(turn_deg(c, neutral_rotation), 4))}° from neutral"
+
+
+def turn_deg(c: Configuration, neutral_rotation: Floats) -> Floats:
+    """Return the rotation vector from the neutral orientation, base axes, degrees: its direction is the axis."""
+    neutral, turned = (to_quaternions(np.reshape(q, (-1, 3, 3))) for q in (neutral_rotation, c.rotation))
+    return np.asarray(np.degrees(vectors_between(neutral, turned)).reshape(c.rotation.shape[:-1]))
 
 
 def vector_words(values: Iterable[float]) -> str:

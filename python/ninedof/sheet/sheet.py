@@ -25,6 +25,7 @@ from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.over_region import PLACED, SAMPLES, Asked, RegionLook, look_over, look_over_placed
+from ninedof.sheet.pose_words import turn_deg
 from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
@@ -166,8 +167,10 @@ class Sheet:
         out: dict[str, Any] = {
             "joints": {name: {"own_frame": own, "neutral_pose": placed} for name, own, placed in self.joints()},
             "poses": [
-                {"position": p, "rotation": q, "internal_point": s}
-                for p, q, s in zip(c.position, c.rotation, c.internal_point, strict=True)
+                {"position": p, "rotation": q, "rotation_deg": turn, "internal_point": s}
+                for p, q, turn, s in zip(
+                    c.position, c.rotation, turn_deg(c, c.rotation[0]), c.internal_point, strict=True
+                )
             ],
         }
         skipped = ("geometry", "configurations", *(["unit"] if not self.unit else []))

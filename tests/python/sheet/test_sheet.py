@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from itertools import combinations
 
 import numpy as np
@@ -13,8 +14,13 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.cli.chosen_design import named_design
+from ninedof.cli.posed import chosen_poses
+from ninedof.report.sheet_part import sheet_part
 from ninedof.sheet.clearance import apart
 from ninedof.sheet.limit_rows import limit_rows
+from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.sheet import Extreme
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import limits_of, measured
@@ -270,3 +276,39 @@ def test_wrong_arguments_are_named(change, words):
     given = {"design": g, "poses": nd.Configuration.neutral(3.0, [1.0])} | change
     with pytest.raises(ValueError, match=words):
         nd.sheet(**given)
+
+
+def test_poses_are_said_as_they_are_typed_and_numbered_once(capsys, tmp_path):
+    """What terminal, page and JSON say of a pose, given to a command, is that pose; turns about other axes differ."""
+    rng = np.random.default_rng(7)
+    poses = [
+        {"position": rng.uniform(-0.3, 0.3, 3).tolist(), "rotation": rng.uniform(-0.3, 0.3, 3).tolist()}
+        for _ in range(4)
+    ]
+    poses += [{"rotation_deg": turn} for turn in ([9.0, 0.0, 0.0], [0.0, 9.0, 0.0])]
+    study = nd.Study(variables={"theta_z": 0.2}, constraints={"radius_ratio": (None, 2.0)}, objective={"poses": poses})
+    result = nd.optimize(study, starts=2)
+    run = nd.save(result, tmp_path / "run")
+    found, chosen = nd.sheet(result), named_design(str(run))
+    said = [pose_words(c, found.configurations.rotation[0]) for c in found.configurations]
+    assert len(set(said)) == len(said)
+    listed = found.to_dict()["poses"]
+    for k, words in enumerate(said):
+        p, o, turn = (re.search(rf"{name} \(([^)]*)\)", words)[1].replace(",", "") for name in ("p =", "O =", "turned"))
+        p, turn = (tuple(map(float, text.split())) for text in (p, turn))
+        there = chosen_poses(chosen, p, turn, o, False)[0]
+        for name in ("position", "rotation", "internal_point"):
+            np.testing.assert_allclose(getattr(there, name), getattr(found.configurations[k], name), atol=2e-5)
+            np.testing.assert_allclose(listed[k][name], getattr(found.configurations[k], name))
+        turned = Rotation.from_rotvec(listed[k]["rotation_deg"], degrees=True) * Rotation.from_matrix(
+            found.configurations.rotation[0]
+        )
+        np.testing.assert_allclose(turned.as_matrix(), found.configurations.rotation[k], atol=1e-12)
+    with pytest.raises(SystemExit):
+        main(["sheet", str(run)])
+    terminal = " ".join(capsys.readouterr().out.split())
+    page = str(sheet_part(found))
+    numbered = [k for k in range(1, len(said)) if f"pose {k}: {said[k]}" in terminal]
+    assert numbered
+    for k in numbered:
+        assert re.search(rf"pose {k}</t[dh]><td[^>]*>{re.escape(said[k])}", page)
