@@ -112,15 +112,15 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs.
-PlacementGoal goal_from(double log_index, const py::sequence& ranges) {
+/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; size 0 for a range of logarithms.
+PlacementGoal goal_from(const Problem& problem, double log_index, const py::sequence& ranges) {
   PlacementGoal goal{log_index, {}};
   for (const py::handle& range : ranges) {
     const auto [limit, low, high, size] =
         range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
-    Vec9 a = Vec9::Map(low.data()), b = Vec9::Map(high.data());
-    for (Vec9* end : {&a, &b}) *end = size > 0.0 ? Vec9(*end / size) : Vec9(end->array().log());
-    goal.ranges.push_back({limit, a, b, size});
+    LegRange r{limit, Vec9::Map(low.data()), Vec9::Map(high.data()), size > 0.0 ? size : problem.unit(), !(size > 0.0)};
+    for (Vec9* end : {&r.low, &r.high}) *end = end->unaryExpr([&r](double length) { return r.measured(length); });
+    goal.ranges.push_back(std::move(r));
   }
   return goal;
 }
@@ -131,7 +131,7 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
                            const std::vector<std::array<double, 3>>& known, const py::object& at, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(log_index, ranges);
+  const PlacementGoal goal = goal_from(problem, log_index, ranges);
   std::vector<Vec3> shifts;
   for (const auto& shift : known) shifts.push_back(Vec3::Map(shift.data()));
   const py::ssize_t count = py::len(at);
@@ -181,7 +181,7 @@ py::dict worst_with_placing(const Problem& problem, const py::dict& region, cons
                             std::uint64_t seed, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(log_index, ranges);
+  const PlacementGoal goal = goal_from(problem, log_index, ranges);
   std::vector<Placed> places;
   for (const py::handle& place : known) {
     const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();

@@ -39,7 +39,8 @@ class PlacedProgram {
         continue;
       const bool parts = limit.name == "stroke";
       limits_.push_back(limit);
-      goal_.ranges.push_back({limit.label(), Vec9::Zero(), Vec9::Zero(), 0.0, parts && limit.of == Unit::zp});
+      goal_.ranges.push_back(
+          {limit.label(), Vec9::Zero(), Vec9::Zero(), problem.unit(), !parts, parts && limit.of == Unit::zp});
       first_.push_back(groups_);
       each_.push_back(each_leg);
       groups_ += each_leg ? 9 : 1;
@@ -101,15 +102,13 @@ class PlacedProgram {
         most.setConstant(high.maxCoeff());
       }
       for (Eigen::Index leg = 0; leg < (each_[r] ? 9 : 1); ++leg) {
-        const double a = range.size > 0.0 ? least[leg] / range.size : std::log(least[leg]);
-        const double b = range.size > 0.0 ? most[leg] / range.size : std::log(most[leg]);
-        y[n + first_[r] + leg] = 0.5 * (a + b - room(r));
+        y[n + first_[r] + leg] = 0.5 * (range.measured(least[leg]) + range.measured(most[leg]) - room(r));
       }
     }
     y[n + groups_] = index;
   }
 
-  double room(std::size_t r) const { return goal_.ranges[r].size > 0.0 ? 1.0 : std::log(limits_[r].high); }
+  double room(std::size_t r) const { return goal_.ranges[r].logarithm ? std::log(limits_[r].high) : 1.0; }
 
   void set_sizes() {
     pose_->set_design(variables_);

@@ -51,8 +51,8 @@ class OnePose {
     design_.state.set_poses(specs_);
     evaluate_rows(p_, design_, &none_);
     out.resize(size());
-    out << design_.margins, -design_.log_objective, design_.state.pose(1).legs.length,
-        -design_.state.pose(1).legs.length;
+    const Vec9 lengths = design_.state.pose(1).legs.length / design_.state.unit;
+    out << design_.margins, -design_.log_objective, lengths, -lengths;
   }
 
  private:

@@ -31,11 +31,6 @@ bool compares_poses(const std::string& name) {
   return name == "leg_ratio" || name == "stroke" || name == "stroke_ratio";
 }
 
-/// What ranges are about: the logarithm of a length, or parts of a size.
-double in_range(const LegRange& range, double length) {
-  return range.size > 0.0 ? length / range.size : std::log(length);
-}
-
 }  // namespace
 
 PlacedPose::PlacedPose(const Problem& problem, const Eigen::VectorXd& variables, const PlacementGoal& goal)
@@ -92,8 +87,8 @@ double PlacedPose::value(const Row& row) const {
   switch (row.kind) {
     case Row::Kind::index: return design_.objective_rows[row.item] - goal_.log_index;
     case Row::Kind::limit: return -design_.margins[row.item];
-    case Row::Kind::longest: return in_range(*range, at.legs.length[row.item]) - range->high[row.item];
-    case Row::Kind::shortest: return range->low[row.item] - in_range(*range, at.legs.length[row.item]);
+    case Row::Kind::longest: return range->measured(at.legs.length[row.item]) - range->high[row.item];
+    case Row::Kind::shortest: return range->low[row.item] - range->measured(at.legs.length[row.item]);
     case Row::Kind::above_base: return plate_gap - at.at[point_s].z() / zp();
     case Row::Kind::below_platform: return plate_gap - (at.at[point_p] - at.at[point_s]).dot(at.rotation.col(2)) / zp();
     case Row::Kind::box: return std::abs(design_.state.x[shift_variable_[at_index(row.item)]]) - 1.0;
@@ -121,7 +116,7 @@ Vec3 PlacedPose::gradient(const Row& row) const {
     case Row::Kind::shortest: {
       if (leg_ends(row.item).to != point_s) return Vec3::Zero();
       const LegRange& range = goal_.ranges[at_index(row.range)];
-      const double by = range.size > 0.0 ? range.size : std::max(at.legs.length[row.item], 1e-300);
+      const double by = range.logarithm ? std::max(at.legs.length[row.item], 1e-300) : range.size;
       return (row.kind == Row::Kind::longest ? zp() : -zp()) / by * at.legs.direction[at_index(row.item)];
     }
     case Row::Kind::above_base: return -Vec3::UnitZ();
@@ -271,7 +266,7 @@ void PlacedPose::add_outer(const Row& row, double weight, Eigen::Index k, Outer&
     case Row::Kind::shortest: {
       const LegRange& range = goal_.ranges[at_index(row.range)];
       const double sign = row.kind == Row::Kind::longest ? 1.0 : -1.0, length = at.legs.length[row.item];
-      state.add_leg(1, row.item, sign / (range.size > 0.0 ? range.size : length), g);
+      state.add_leg(1, row.item, sign / (range.logarithm ? length : range.size), g);
       if (range.in_zp) state.add_zp(-sign * length / (range.size * zp()), g);
       out.by_ranges(k, 9 * row.range + row.item) -= sign * weight;
       break;
