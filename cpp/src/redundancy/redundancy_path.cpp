@@ -5,15 +5,17 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
+#include "redundancy/map/continuation.hpp"
 #include "redundancy/search/pose_search.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr std::size_t most_choices = 6;  // local minima a pose may be in
+constexpr std::size_t most_choices = 8;  // local minima a pose may be in
 
 /// A pose of the path with its local minima; none where it allows no point.
 struct PathPose {
+  const PlatformPose* platform = nullptr;
   std::unique_ptr<ScaledPose> pose;
   std::unique_ptr<PoseObjective> objective;
   std::vector<LocalMinimum> choices;
@@ -55,7 +57,7 @@ class ChamberTracker {
 /// The local minima of a pose; where there are none, `out` says why.
 PathPose search_minima(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
                        ChamberTracker& chamber, InternalPoint& out) {
-  PathPose found;
+  PathPose found{&pose, {}, {}, {}};
   out = checked_pose(g, pose.position, pose.rotation, problem).point;
   if (out.status != InternalPointStatus::singular) return found;
   found.pose = std::make_unique<ScaledPose>(g, pose.position, pose.rotation, problem);
@@ -73,6 +75,26 @@ PathPose search_minima(const Geometry& g, const PlatformPose& pose, const Intern
     break;
   }
   return found;
+}
+
+/// Adds local minima that a pose lacks: those to which the minima of the pose next to it lead.
+void add_continued(const PathPose& from, PathPose& to) {
+  if (from.choices.empty() || to.choices.empty()) return;
+  const double moved = (from.platform->position - to.platform->position).norm() +
+                       to.pose->unit() * (from.platform->rotation - to.platform->rotation).norm();
+  const double near = branch_reach(to.pose->unit(), moved) / to.pose->unit();
+  Reach reach(*to.pose, to.choices.front().x);
+  Minima minima{to.choices};
+  for (const LocalMinimum& choice : from.choices) {
+    const Vec3 x = to.pose->scaled(from.pose->unscaled(choice.x));
+    const auto same = [&](const LocalMinimum& m) { return (m.x - x).norm() < near; };
+    if (std::ranges::any_of(minima.found, same) || !to.objective->in_chamber(x)) continue;
+    for (const LocalMinimum& m : warm_minimum(*to.objective, x).found)
+      if (m.ending == Ending::minimum && reach.reaches(m.x)) minima.add(m);
+  }
+  std::ranges::stable_sort(minima.found, {}, &LocalMinimum::value);
+  minima.found.resize(std::min(minima.found.size(), most_choices), minima.found.front());
+  to.choices = std::move(minima.found);
 }
 
 /// The choice at each pose that minimises the sum of values and moves, by dynamic programming.
@@ -136,6 +158,15 @@ std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const
     path_poses.push_back(search_minima(g, poses[k], problem, chamber, out[k]));
     if (path_poses.back().choices.empty()) chamber.add_gap();
     if (control.progress) control.progress(static_cast<long>(k + 1), static_cast<long>(poses.size()), not_a_number);
+  }
+  // A branch that one search has missed is continued along the path, forth and back.
+  for (std::size_t k = 1; k < path_poses.size(); ++k) {
+    if (control.stop.stop_requested()) throw Stopped{};
+    add_continued(path_poses[k - 1], path_poses[k]);
+  }
+  for (std::size_t k = path_poses.size(); k-- > 1;) {
+    if (control.stop.stop_requested()) throw Stopped{};
+    add_continued(path_poses[k], path_poses[k - 1]);
   }
   const auto first = std::ranges::find_if(path_poses, [](const PathPose& p) { return p.pose != nullptr; });
   if (first == path_poses.end()) return out;

@@ -21,10 +21,10 @@ class InternalPointStatus(StrEnum):
     """How the search for an internal point ended."""
 
     FOUND = "found"
-    """Within the limits and stationary by independent checks: the best of all valleys that a scan of the chamber saw.
+    """Within the limits and stationary by independent checks, and no worse than any point of a scan of the chamber.
     That no other is better is not proved."""
     LOCAL = "local"
-    """The same, but the scan saw more valleys than were examined: one of the others may be better."""
+    """The same, but the scan saw more cells that may be lower than it divided: a point in one of them may be better."""
     STOPPED = "stopped"
     """Within the limits, but the checks failed: the best point evaluated."""
     INFEASIBLE = "infeasible"
@@ -77,8 +77,9 @@ def best_internal_point(
     The pose fixes the external legs. O is free in three directions (`null_motion`): the six internal legs move it while
     the platform stays at rest. The search stays in the chamber of `start`, the region in which det B, det C and det N
     keep their signs: the robot can reach the result without passing a singularity. Newton's method finds local optima
-    from many starts, among them the valleys of a grid of points over the chamber; the best is returned. It is a local
-    optimum: a valley narrower than the grid, or behind a narrow passage of the chamber, may be missed.
+    from many starts, among them `start` and the best points of a grid over the chamber, refined where the criterion may
+    be lower; the best is returned, never worse than a `start` within the limits. It is a local optimum: a valley
+    narrower than the finest grid, or behind a narrow passage of the chamber, may be missed.
 
     Parameters
     ----------

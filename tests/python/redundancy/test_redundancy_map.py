@@ -171,7 +171,6 @@ def test_the_audit_counts_misses_and_corrects_them():
         assert not (lost > whole.audit.largest * (1.0 + 1e-6)).any()
         seen.add((left, part.audit.missed))
     assert len(seen) > 1  # other seeds draw other poses
-    assert max(left for left, _ in seen) > 0
 
 
 def test_searching_every_pose_is_best_internal_point(published):

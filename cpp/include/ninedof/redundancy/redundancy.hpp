@@ -44,8 +44,8 @@ struct InternalPointProblem {
 };
 
 enum class InternalPointStatus : std::uint8_t {
-  found,  ///< within the limits, stationary by independent checks, and the best of all valleys of a scan of the chamber
-  local,  ///< within the limits and stationary, but the scan saw more valleys that may be lower than were examined
+  found,  ///< within the limits, stationary by independent checks, and no worse than any point of a scan of the chamber
+  local,  ///< within the limits and stationary, but the scan saw more cells that may be lower than it divided
   stopped,  ///< within the limits, but the checks failed: the best point evaluated
   /// An external leg is out of its limits, or no point of the chamber keeps the internal ones; `active` names them.
   infeasible,
@@ -93,8 +93,8 @@ Vec3 default_internal_point(const Geometry& g, const Vec3& position, const Mat3&
 
 /// The best internal point in the chamber of `start`, by default of default_internal_point.
 ///
-/// A multi-start search with a scan of the chamber: the best of the local optima found. Only `infeasible`
-/// for an external leg is proved.
+/// A multi-start search with a scan of the chamber: the best of the local optima found, and no worse than a start that
+/// the limits allow. Only `infeasible` for an external leg is proved.
 InternalPoint best_internal_point(const Geometry& g, const Vec3& position, const Mat3& rotation,
                                   const InternalPointProblem& problem, const std::optional<Vec3>& start = {});
 

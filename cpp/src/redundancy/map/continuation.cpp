@@ -6,7 +6,6 @@
 namespace ninedof {
 
 bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b) {
-  constexpr double least_gain = 1e-9;  // of the criterion's logarithm: less is rounding, passed on without end
   if (a.signs.isZero()) return false;  // no result
   if (b.signs.isZero()) return true;
   const bool of_a = has_point(a.point), of_b = has_point(b.point);
@@ -14,7 +13,7 @@ bool replaces(Criterion criterion, const PoseResult& a, const PoseResult& b) {
     if (of_a && of_b && std::abs(a.value - b.value) <= least_gain) return false;
     return better(criterion, a.point, b.point);
   }
-  return a.value < b.value - least_gain;
+  return a.value < b.value - least_gain;  // rounding would be passed on without end
 }
 
 Continuation continued_from(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
@@ -51,7 +50,7 @@ Continuation continued_from(const Geometry& g, const PlatformPose& pose, const I
 
 Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const InternalPointProblem& problem,
                           const std::optional<Vec3>& chamber_start, const PoseResult& so_far) {
-  constexpr ScanSettings settings{12, 8};
+  constexpr int points = 12;  // of the scan, along each axis
   Continuation out{so_far};
   const ScaledPose scaled(g, pose.position, pose.rotation, problem);
   PoseObjective objective(scaled, problem);
@@ -61,7 +60,7 @@ Continuation scanned_from(const Geometry& g, const PlatformPose& pose, const Int
     if (so_far.value < infinity) minima.found.push_back({scaled.scaled(so_far.s), so_far.value, Ending::minimum});
     const std::size_t known = minima.found.size();
     Reach reach(scaled, x);
-    add_valleys(objective, settings, reach, minima);
+    add_valleys(objective, points, reach, minima);
     out.examined &= minima.examined;
     minima.found.erase(minima.found.begin(), minima.found.begin() + static_cast<std::ptrdiff_t>(known));
     std::ranges::stable_sort(minima.found, {}, &LocalMinimum::value);

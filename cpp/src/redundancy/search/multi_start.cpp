@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
-#include "ninedof/math/rotation.hpp"
-#include "redundancy/search/scan.hpp"
 
 namespace ninedof {
 namespace {
@@ -20,15 +18,10 @@ constexpr std::array into_corners{1e-2, 1e-4, 1e-6, 1e-8};
 constexpr std::array reaches{0.15, 0.5, 1.5, 10.0};  // of points on rays
 constexpr double apart = 0.3;        // least distance of two starts
 constexpr double same = 1e-2;  // greatest distance of two ends of coarse descents that count as one
-constexpr double same_minimum = 1e-6;  // greatest distance of two minima that count as one
-constexpr std::size_t first_starts = 8, more_starts = 8, limit_starts = 6;
-constexpr std::size_t sampled_from = 5;  // best ends from which rays are sampled again
-constexpr int most_rounds = 4;
+constexpr std::size_t most_starts = 8, limit_starts = 6;
 constexpr double beside_joint = 1e-2;  // distance of the starts beside an internal joint
 constexpr int around_joint = 128;  // directions there
 constexpr int points_of_scan = 20;  // along each axis
-constexpr std::size_t most_valleys = 8;
-constexpr double next_cells = 0.6;  // of the diagonal of a cell
 constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
 
 struct Sample {
@@ -42,37 +35,15 @@ struct End {
   double value;
 };
 
-bool far_from(const std::vector<Vec3>& others, const Vec3& x, double distance) {
-  return std::ranges::all_of(others, [&](const Vec3& y) { return (y - x).norm() > distance; });
-}
-
-/// The best samples at least `apart` from each other and from `taken`, at most `count`; adds them to `taken`.
-std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count, std::vector<Vec3>& taken) {
+/// The best samples at least `apart` from each other, at most `count`.
+std::vector<Vec3> best_apart(std::vector<Sample>& samples, std::size_t count) {
   std::ranges::stable_sort(samples, {}, &Sample::value);
   std::vector<Vec3> out;
   for (const Sample& s : samples) {
     if (out.size() == count) break;
-    if (!far_from(taken, s.x, apart)) continue;
-    out.push_back(s.x);
-    taken.push_back(s.x);
+    if (std::ranges::all_of(out, [&](const Vec3& y) { return (y - s.x).norm() > apart; })) out.push_back(s.x);
   }
   return out;
-}
-
-double best_of(const Minima& minima) {
-  return minima.found.empty() ? infinity : std::ranges::min(minima.found, {}, &LocalMinimum::value).value;
-}
-
-/// Whether a minimum at least as good lies in the cells next to the valley.
-bool is_known(const Minima& minima, const Valley& valley, double cell) {
-  return std::ranges::any_of(minima.found, [&](const LocalMinimum& m) {
-    return m.value <= valley.value && (m.x - valley.x).norm() < next_cells * cell;
-  });
-}
-
-void add_minimum(const LocalMinimum& found, Minima& minima) {
-  if (std::ranges::none_of(minima.found, [&](const LocalMinimum& o) { return (o.x - found.x).norm() < same_minimum; }))
-    minima.found.push_back(found);
 }
 
 class Search {
@@ -84,9 +55,6 @@ class Search {
         minima_{{}, infinity, start},
         soft_([this](const Vec3& x, double epsilon, Jet& out) { return objective_.soft(x, epsilon, out); }) {}
 
-  /// Rotates the directions of the rays.
-  void turn() { turn_ = exp_rotation(Vec3(0.4, 0.3, 0.2)) * turn_; }
-
   /// Samples points on rays from x, none of them beyond a singularity.
   void sample_around(const Vec3& x) {
     add_sample(x);
@@ -94,7 +62,7 @@ class Search {
       for (int b = -1; b <= 1; ++b)
         for (int c = -1; c <= 1; ++c) {
           if (a == 0 && b == 0 && c == 0) continue;
-          const Vec3 direction = turn_ * Vec3(a, b, c).normalized();
+          const Vec3 direction = Vec3(a, b, c).normalized();
           const double way = pose_.step_to_singularity(x, direction, far_away);
           // Near the robot, and always closer than the singularity.
           for (const double reach : reaches) add_sample(x + direction * (way * reach / (way + reach)));
@@ -103,37 +71,29 @@ class Search {
 
   /// Adds starts within the limits from samples outside them.
   void enter_limits() {
-    for (const Vec3& start : best_apart(outside_, limit_starts, taken_outside_)) {
+    for (const Vec3& start : best_apart(outside_, limit_starts)) {
       Vec3 x = start;
       if (ninedof::enter_limits(objective_, x, minima_)) add_sample(x);
     }
   }
 
-  /// Runs coarse descents from the best samples not near an earlier start; true if one ended at a new place.
-  bool descend_from_best(std::size_t count) {
-    bool is_new = false;
-    for (const Vec3& start : best_apart(inside_, count, taken_)) {
+  /// Runs coarse descents from the best samples.
+  void descend_from_best() {
+    for (const Vec3& start : best_apart(inside_, most_starts)) {
       const Descent d = descend(pose_, soft_, start, coarse);
-      if (!far_from(ends_, d.x, same)) continue;
-      ends_.push_back(d.x);
-      rough_.push_back({start, d.x, d.at.value});
-      is_new = true;
+      const auto known = [&](const End& end) { return (end.x - d.x).norm() <= same; };
+      if (std::ranges::none_of(rough_, known)) rough_.push_back({start, d.x, d.at.value});
     }
-    return is_new;
+    std::ranges::stable_sort(rough_, {}, &End::value);
   }
-
-  /// Ends of coarse descents, best first.
-  void sort_ends() { std::ranges::stable_sort(rough_, {}, &End::value); }
-  const std::vector<End>& ends() const { return rough_; }
 
   /// Refines the coarse ends to minima.
   void refine_ends() {
-    sort_ends();
     for (const End& end : rough_) {
       if (end.value > rough_.front().value + hopeless) break;
       Descent d = descend(pose_, soft_, end.x, fine);
       if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(pose_, soft_, end.start, fine);
-      add_minimum(end_of(objective_, d), minima_);
+      minima_.add(end_of(objective_, d));
     }
     for (const LocalMinimum& m : minima_.found) reach_.add(m.x);
   }
@@ -141,7 +101,7 @@ class Search {
   /// Descends into the internal joints: the criterion depends on the direction there, which the grid of a scan misses.
   void descend_into_joints() {
     for (int k = 0; k < 6; ++k) {
-      Sample best{Vec3::Zero(), best_of(minima_)};
+      Sample best{Vec3::Zero(), minima_.best()};
       for (int n = 0; n < around_joint; ++n) {
         // A spiral over the sphere, with the golden angle.
         const double z = (2.0 * n + 1.0) / around_joint - 1.0, turn = 2.399963229728653 * n;
@@ -150,12 +110,19 @@ class Search {
         if (!objective_.in_chamber(x) || objective_.violation(x) >= limit_tolerance) continue;
         if (const double value = objective_.exact(x); value < best.value) best = {x, value};
       }
-      if (!(best.value < best_of(minima_)) || !reach_.reaches(best.x)) continue;
-      add_minimum(end_of(objective_, descend(pose_, soft_, best.x, fine)), minima_);
+      if (!(best.value < minima_.best()) || !reach_.reaches(best.x)) continue;
+      minima_.add(end_of(objective_, descend(pose_, soft_, best.x, fine)));
     }
   }
 
-  void scan_chamber() { add_valleys(objective_, {points_of_scan, most_valleys}, reach_, minima_); }
+  /// The start is a candidate as well: the answer is never worse.
+  void descend_from_start(const Vec3& start) {
+    if (!objective_.allows(start)) return;
+    for (const LocalMinimum& end : warm_minimum(objective_, start).found) minima_.add(end);
+    if (objective_.exact(start) < minima_.best() - least_gain) minima_.add(minimum_from(objective_, start));
+  }
+
+  void scan_chamber() { add_valleys(objective_, points_of_scan, reach_, minima_); }
 
   /// The minima, best first.
   Minima finish() {
@@ -163,14 +130,11 @@ class Search {
     return std::move(minima_);
   }
 
-  bool inside() const { return !inside_.empty(); }
-
  private:
   void add_sample(const Vec3& x) {
     if (!objective_.in_chamber(x)) return;
     const double broken = objective_.violation(x);
     if (broken < limit_tolerance) {
-      if (!far_from(taken_, x, apart)) return;  // too near a start to become one
       inside_.push_back({x, objective_.exact(x)});
     } else {
       outside_.push_back({x, broken});
@@ -183,9 +147,7 @@ class Search {
   Minima minima_;
   Smoothed soft_;
   std::vector<Sample> inside_, outside_;
-  std::vector<Vec3> taken_, taken_outside_, ends_;
   std::vector<End> rough_;
-  Mat3 turn_ = Mat3::Identity();
 };
 
 }  // namespace
@@ -216,26 +178,6 @@ bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima) {
   return objective.violation(x) < limit_tolerance;
 }
 
-void add_valleys(const PoseObjective& objective, const ScanSettings& settings, Reach& reach, Minima& minima) {
-  const Scan found = scan(objective, settings.points);
-  std::vector<Valley> valleys = found.valleys;
-  for (std::size_t k = 0; k < std::min(limit_starts, found.outside.size()); ++k) {
-    Vec3 x = found.outside[k];
-    if (enter_limits(objective, x, minima)) valleys.push_back({x, objective.exact(x), infinity});
-  }
-  std::size_t tried = 0;
-  for (const Valley& valley : valleys) {
-    if (valley.value - valley.drop > best_of(minima) || is_known(minima, valley, found.cell)) continue;
-    if (!reach.reaches(valley.x)) continue;  // another chamber with the same signs
-    if (tried == settings.most_valleys) {
-      minima.examined = false;
-      break;
-    }
-    ++tried;
-    for (const LocalMinimum& m : warm_minimum(objective, valley.x).found) add_minimum(m, minima);
-  }
-}
-
 std::span<const double> final_epsilons() {
   return fine;
 }
@@ -244,17 +186,9 @@ Minima local_minima(const PoseObjective& objective, const Vec3& start) {
   Search search(objective, start);
   search.sample_around(start);
   search.enter_limits();
-  if (search.inside()) search.descend_from_best(first_starts);
-  for (int round = 1; round < most_rounds && search.inside(); ++round) {
-    search.sort_ends();
-    const std::size_t count = std::min(sampled_from, search.ends().size());
-    search.turn();
-    std::vector<Vec3> from;
-    for (std::size_t k = 0; k < count; ++k) from.push_back(search.ends()[k].x);
-    for (const Vec3& x : from) search.sample_around(x);
-    if (!search.descend_from_best(more_starts)) break;
-  }
+  search.descend_from_best();
   search.refine_ends();
+  search.descend_from_start(start);
   search.descend_into_joints();
   search.scan_chamber();
   return search.finish();

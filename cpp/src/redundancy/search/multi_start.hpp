@@ -8,6 +8,9 @@
 
 namespace ninedof {
 
+/// Values of the criterion closer than this are equal but for rounding.
+constexpr double least_gain = 1e-9;
+
 /// The end of a descent: a local minimum, or the place where the descent left the chamber's bounded part.
 struct LocalMinimum {
   Vec3 x;
@@ -26,19 +29,20 @@ struct Minima {
   /// was found that keeps the clearance.
   double violation = 0.0;
   Vec3 nearest = Vec3::Zero();  ///< where that is; the start, if infinite
-  bool examined = true;  ///< whether a descent began in every valley of the scan that may be lower than the best
+  bool examined = true;  ///< whether the scan divided every cell that may be lower than the best
+
+  /// The least value; infinite if empty.
+  double best() const;
+  /// Adds a minimum, or lowers the known one at its place.
+  void add(const LocalMinimum& minimum);
 };
 
 /// Moves x within its chamber to where it breaks the limits least and records that place; true if it keeps them there.
 bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima);
 
-struct ScanSettings {
-  int points;  ///< of the grid along each axis
-  std::size_t most_valleys;  ///< from which to descend
-};
-
-/// Scans the chamber that `reach` knows, and adds the minima of those valleys that may be lower than the best so far.
-void add_valleys(const PoseObjective& objective, const ScanSettings& settings, Reach& reach, Minima& minima);
+/// Scans the chamber that `reach` knows on a grid of n points along each axis, divided where the criterion may be lower
+/// than the best so far, and adds the minima of those places: no point of the scan is better than the best minimum.
+void add_valleys(const PoseObjective& objective, int n, Reach& reach, Minima& minima);
 
 /// The smoothings of a descent to a minimum, decreasing.
 std::span<const double> final_epsilons();
@@ -49,5 +53,8 @@ Minima local_minima(const PoseObjective& objective, const Vec3& start);
 /// The minimum reached from `start`, a point of the chamber near it, such as the best point of a neighbouring pose: at
 /// most one, none where no point near the start keeps the limits.
 Minima warm_minimum(const PoseObjective& objective, const Vec3& start);
+
+/// The minimum that a descent from an allowed point leads to; never worse than that point.
+LocalMinimum minimum_from(const PoseObjective& objective, const Vec3& start);
 
 }  // namespace ninedof

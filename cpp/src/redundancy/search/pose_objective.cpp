@@ -50,17 +50,35 @@ int low_bound(int k) {
 
 }  // namespace
 
+PoseObjective::PoseObjective(const ScaledPose& pose, const InternalPointProblem& problem)
+    : pose_(pose), problem_(problem) {
+  for (int k = 0; k < 12; ++k)
+    if (pose.low()[k] > 0.0 || pose.high()[k] < infinity) limited_.push_back(k);
+}
+
 bool PoseObjective::in_chamber(const Vec3& x) const {
   return (signs_.cwiseProduct(pose_.determinants(x)).array() > problem_.clearance).all();
 }
 
-double PoseObjective::violation(const Vec3& x) const {
-  double worst = -infinity;
-  for (int k = 0; k < 12; ++k) {
-    const double length = (x - pose_.joint(k)).norm();
-    worst = std::max({worst, pose_.low()[k] - length, length - pose_.high()[k]});
+PoseObjective::WorstLimit PoseObjective::worst_limit(const Vec3& x) const {
+  WorstLimit worst{-infinity, Vec3::Zero()};
+  for (const int k : limited_) {
+    const double low = pose_.low()[k], high = pose_.high()[k];
+    const Vec3 leg = x - pose_.joint(k);
+    const double length = leg.norm();
+    if (low - length > worst.broken) worst = {low - length, leg / length};
+    if (length - high > worst.broken) worst = {length - high, -leg / length};
   }
   return worst;
+}
+
+double PoseObjective::project(Vec3& x, int most) const {
+  WorstLimit worst = worst_limit(x);
+  for (int k = 0; k < most && worst.broken > 0.0 && worst.way.allFinite(); ++k) {
+    x += worst.broken * worst.way;
+    worst = worst_limit(x);
+  }
+  return worst.broken;
 }
 
 double PoseObjective::exact(const Vec3& x) const {
@@ -95,10 +113,9 @@ bool PoseObjective::soft(const Vec3& x, double epsilon, Jet& out) const {
   if ((pose_.volumes(x).cwiseSign().array() != signs_.array()).any()) return false;
   const std::array<Jet, 3> logs = pose_.log_determinants(x);
   if (!add_clearance(logs, epsilon, out)) return false;
-  for (int k = 0; k < 12; ++k) {
+  for (const int k : limited_) {
     const double low = pose_.low()[k], high = pose_.high()[k];
     const bool finite = std::isfinite(high);
-    if (!(low > 0.0) && !finite) continue;
     const Jet length = distance(x, pose_.joint(k));
     const double above = length.value - low + limit_tolerance, below = high - length.value + limit_tolerance;
     if (!(above > 0.0) || !(below > 0.0)) return false;
@@ -129,9 +146,8 @@ bool PoseObjective::soft_violation(const Vec3& x, double epsilon, Jet& out) cons
   if (!add_clearance(pose_.log_determinants(x), epsilon, out)) return false;
   std::array<Jet, 24> broken;
   std::size_t count = 0;
-  for (int k = 0; k < 12; ++k) {
+  for (const int k : limited_) {
     const double low = pose_.low()[k], high = pose_.high()[k];
-    if (!(low > 0.0) && !std::isfinite(high)) continue;
     const Jet length = distance(x, pose_.joint(k));
     if (low > 0.0) broken[count++].add_function(low - length.value, -1.0, 0.0, length);
     if (std::isfinite(high)) broken[count++].add_function(length.value - high, 1.0, 0.0, length);

@@ -1,6 +1,8 @@
 #pragma once
 /// The function minimised over O at one pose: the smoothed criterion plus a logarithmic barrier for every bound.
 
+#include <vector>
+
 #include "ninedof/conditioning/sensitivity.hpp"
 #include "redundancy/search/scaled_pose.hpp"
 
@@ -18,7 +20,7 @@ Jet soft_condition(const Points& at, const NineLegs& legs, const Spectrum& s, do
 /// |det|, the sum of squares) and the bounds, for one pose and one chamber.
 class PoseObjective {
  public:
-  PoseObjective(const ScaledPose& pose, const InternalPointProblem& problem) : pose_(pose), problem_(problem) {}
+  PoseObjective(const ScaledPose& pose, const InternalPointProblem& problem);
 
   const ScaledPose& pose() const { return pose_; }
   const InternalPointProblem& problem() const { return problem_; }
@@ -30,7 +32,13 @@ class PoseObjective {
   bool in_chamber(const Vec3& x) const;
 
   /// The largest violation of a limit at x, in sizes of the robot; negative inside.
-  double violation(const Vec3& x) const;
+  double violation(const Vec3& x) const { return worst_limit(x).broken; }
+
+  /// Moves x to the limit it breaks most, at most `most` times; the violation then.
+  double project(Vec3& x, int most) const;
+
+  /// Whether x is a point that a search may return: in the chamber, above the clearance, within the limits.
+  bool allows(const Vec3& x) const { return in_chamber(x) && violation(x) <= limit_tolerance; }
 
   /// The criterion without smoothing; infinite where singular.
   double exact(const Vec3& x) const;
@@ -51,11 +59,18 @@ class PoseObjective {
   ActiveBounds below_clearance(const Vec3& x) const;
 
  private:
+  /// A limit's violation and the direction that lessens it.
+  struct WorstLimit {
+    double broken;
+    Vec3 way;
+  };
+  WorstLimit worst_limit(const Vec3& x) const;
   bool add_clearance(const std::array<Jet, 3>& logs, double epsilon, Jet& out) const;
 
   const ScaledPose& pose_;
   const InternalPointProblem& problem_;
   Vec3 signs_ = Vec3::Ones();
+  std::vector<int> limited_;  // joints whose distance from O has a limit
 };
 
 }  // namespace ninedof

@@ -69,19 +69,17 @@ class Front {
 
 }  // namespace
 
-bool Reach::sees(const Vec3& x) const {
-  if (pose_.volumes(x).cwiseSign() != pose_.volumes(known_.front()).cwiseSign()) return false;
-  return std::ranges::any_of(known_, [&](const Vec3& from) { return line_is_free(pose_, from, x); });
-}
-
 bool Reach::reaches(const Vec3& x) {
-  if (!sees(x) && !finds(x)) return false;
-  known_.push_back(x);
-  return true;
+  if (pose_.volumes(x).cwiseSign() != pose_.volumes(known_.front()).cwiseSign()) return false;
+  const auto sees_x = [&](const Vec3& from) { return line_is_free(pose_, from, x); };
+  if (std::ranges::any_of(known_, sees_x)) return true;
+  if (std::ranges::any_of(beyond_, sees_x)) return false;
+  const bool found = finds(x);
+  (found ? known_ : beyond_).push_back(x);
+  return found;
 }
 
 bool Reach::finds(const Vec3& x) const {
-  if (pose_.volumes(x).cwiseSign() != pose_.volumes(known_.front()).cwiseSign()) return false;
   Front forth(pose_, known_.front(), x), back(pose_, x, known_.front());
   while (!forth.exhausted() && !back.exhausted())
     if (forth.advance() || back.advance()) return true;

@@ -15,18 +15,15 @@ class Reach {
   /// Adds a point that is known to be in the chamber.
   void add(const Vec3& x) { known_.push_back(x); }
 
-  /// Whether a straight line from some known point reaches x.
-  bool sees(const Vec3& x) const;
-
-  /// The same on a way of several lines over a grid, searched from both ends; x is then known. A passage narrower than
-  /// the grid may be missed.
+  /// Whether a straight line from some known point reaches x, or a way of several lines over a grid, searched from both
+  /// ends. A passage narrower than the grid may be missed.
   bool reaches(const Vec3& x);
 
  private:
   bool finds(const Vec3& x) const;
 
   const ScaledPose& pose_;
-  std::vector<Vec3> known_;
+  std::vector<Vec3> known_, beyond_;  // points of the chamber, and points that no way led to
 };
 
 }  // namespace ninedof

@@ -160,4 +160,19 @@ Minima warm_minimum(const PoseObjective& objective, const Vec3& start) {
   return out;
 }
 
+LocalMinimum minimum_from(const PoseObjective& objective, const Vec3& start) {
+  const double value = objective.exact(start), enough = value + least_gain;
+  Descent d;
+  d.x = d.limit = start;
+  const Smoothed soft = [&objective](const Vec3& x, double epsilon, Jet& f) { return objective.soft(x, epsilon, f); };
+  if (push_inside(objective, close[0], d.x) && objective.soft(d.x, close[0], d.at)) {
+    sharpen(objective.pose(), soft, close, d);
+    const LocalMinimum end = end_of(objective, d);
+    if (end.ending != Ending::stuck && end.value <= enough) return end;
+  }
+  for (const LocalMinimum& end : warm_minimum(objective, start).found)
+    if (end.value <= enough) return end;
+  return {start, value, Ending::stuck};
+}
+
 }  // namespace ninedof
