@@ -60,10 +60,11 @@ def workspace(
 ) -> WorkspaceMap:
     """Find the workspace of the platform: its volume, its boundary, and what limits it.
 
-    Cells of an octree are divided at the boundary, so that the work grows with its area. Legs and regions are decided
-    by bounds over whole cells: where nothing else limits, each cell inside or outside is proved. Other criteria are
-    judged by corners and centre. Poses of a low-discrepancy sequence audit this: a cell that one of them contradicts is
-    divided too. In the smallest cells the boundary is taken as linear, and the volume is extrapolated from two levels.
+    Cells of an octree are divided at the boundary, so that the work grows with its area. Legs, cones and regions are
+    decided by bounds over whole cells: where nothing else limits, each cell inside or outside is proved. Other criteria
+    are judged by corners and centre. Poses of a low-discrepancy sequence audit this: a cell that one of them
+    contradicts is divided too. In the smallest cells the boundary is taken as linear, and the volume is extrapolated
+    from two levels.
 
     Parameters
     ----------
@@ -112,8 +113,9 @@ def workspace(
     tolerance : float
         Largest error of an octree, relative to the volume, including what may be unseen.
     resolution : int, optional
-        Cells along each side before any is divided, by default 16 (64 for a grid). Unless leg limits are the only
-        criterion, the audit alone may find features thinner than such a cell; `WorkspaceMap.unseen` bounds the rest.
+        Cells along each side before any is divided, by default 16 (64 for a grid). Unless leg limits and cones
+        are the only criteria, the audit alone may find features thinner than such a cell; `WorkspaceMap.unseen` bounds
+        the rest.
     points : int, optional
         First audit poses of an octree, to which it adds as many as the tolerance needs, or points of each shift of a
         sample; 16384 by default, 1024 if the best O is sought.

@@ -10,31 +10,46 @@
 namespace ninedof {
 
 CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const Chart& chart, const Placement& placement,
-                       const WorkspaceCriteria& criteria, const std::vector<int>& limited)
+                       const LegLimits& limits, const std::vector<int>& limited, const std::vector<const Cones*>& cones)
     : chart_(chart),
       rotations_(chart.positional() ? domain.rotations.size() : 1),
       some_(domain.archetype == Archetype::reachable) {
-  const Motion o = placement.motion();
-  double size = 0.0;
-  for (const int leg : limited) {
+  const Vec3 zero = Vec3::Zero();
+  const auto line = [&](int leg, double sense) {
     const auto i = at_index(leg % 3);
-    const Vec3 zero = Vec3::Zero();
     const Motion from = leg < 3   ? Motion{0.0, zero, g.base_external()[i]}
                         : leg < 6 ? Motion{1.0, g.platform_internal()[i], zero}
                                   : Motion{0.0, zero, g.base_internal()[i]};
-    const Motion to = leg < 3 ? Motion{1.0, g.platform_external()[i], zero} : o;
-    const double k = to.share - from.share;
-    const Vec3 arm = to.arm - from.arm, at = to.at - from.at;
-    Leg one{criteria.legs->low[leg], criteria.legs->high[leg], k, {}, arm};
+    const Motion to = leg < 3 ? Motion{1.0, g.platform_external()[i], zero} : placement.motion();
+    Line out{sense * (to.share - from.share), {}, sense * (to.arm - from.arm)};
+    const Vec3 at = sense * (to.at - from.at);
     for (std::size_t r = 0; r < rotations_; ++r)
-      one.at.push_back(chart.positional() ? Vec3(at + domain.rotations[r] * arm) : Vec3(at + k * domain.position));
-    const double reach =
-        chart.positional() ? std::abs(k) * (chart.high() - chart.low()).norm() : std::min(one.at[0].norm(), arm.norm());
-    size = std::max({size, one.at[0].norm(), arm.norm(), std::abs(k) * chart.low().norm()});
-    constant_.push_back(reach <= idle_share * size);
+      out.at.push_back(chart.positional() ? Vec3(at + domain.rotations[r] * out.arm)
+                                          : Vec3(at + out.k * domain.position));
+    size_ = std::max({size_, out.at[0].norm(), out.arm.norm(), std::abs(out.k) * chart.low().norm()});
+    return out;
+  };
+  const auto moves = [&](const Line& leg, double turned) {
+    const double reach = chart.positional() ? std::abs(leg.k) * (chart.high() - chart.low()).norm() : turned;
+    return reach > idle_share * size_;
+  };
+  for (const int leg : limited) {
+    Leg one{line(leg, 1.0), limits.low[leg], limits.high[leg]};
+    constant_.push_back(!moves(one, std::min(one.at[0].norm(), one.arm.norm())));
     if (!constant_.back()) legs_.push_back(std::move(one));
   }
-  rounding_ = 1e-12 * size;
+  for (const Cones* body : cones)
+    for (int k = 0; k < legs_at_body; ++k) {
+      const bool platform = body->of_platform();
+      ConedLeg one{line(leg_at(platform, k), sense_at(platform, k)), {}, platform};
+      for (std::size_t r = 0; r < rotations_; ++r)
+        one.cone.emplace_back(platform && chart.positional() ? domain.rotations[r] * body->axis(k) : body->axis(k),
+                              body->angle());
+      const bool limits_it = body->angle() < std::numbers::pi;
+      constant_.push_back(!(limits_it && moves(one, platform ? one.at[0].norm() : one.arm.norm())));
+      if (!constant_.back()) cones_.push_back(std::move(one));
+    }
+  rounding_ = 1e-12 * size_;
 }
 
 CellBounds::Range CellBounds::length(const Leg& leg, std::size_t r, const Vec3& centre, const Vec3& half) const {
@@ -55,6 +70,19 @@ CellBounds::Range CellBounds::turned(const Leg& leg, const Mat3& q, const Mat3& 
   return {std::sqrt(std::max(sum + 2.0 * least, 0.0)), std::sqrt(std::max(sum + 2.0 * most, 0.0))};
 }
 
+Proof CellBounds::coned(const ConedLeg& leg, std::size_t r, const Mat3& q, const Vec3& centre, const Vec3& half) const {
+  const ConvexCone& cone = leg.cone[r];
+  if (chart_.positional()) {
+    const Vec3 middle = leg.k * centre + leg.at[r], reach = std::abs(leg.k) * half;
+    return {cone.forbids_box(middle, reach, rounding_), cone.allows_box(middle, reach, rounding_)};
+  }
+  // Of the two parts of the leg one is fixed in the body's frame; the other turns by at most this angle.
+  const double turn = chart_.turning() * half.norm();
+  const Vec3 middle = leg.of_platform ? Vec3(q.transpose() * leg.at[0] + leg.arm) : Vec3(leg.at[0] + q * leg.arm);
+  const double reach = turn * (leg.of_platform ? leg.at[0] : leg.arm).norm() + rounding_, clear = cone.clear(middle);
+  return {clear < -reach, clear >= reach};
+}
+
 CellBounds::Range CellBounds::region(const Vec3& centre, const Vec3& half) const {
   const Vec3 near = (centre.cwiseAbs() - half).cwiseMax(0.0), far = centre.cwiseAbs() + half;
   return {chart_.region_margin(far), chart_.region_margin(near)};
@@ -62,9 +90,9 @@ CellBounds::Range CellBounds::region(const Vec3& centre, const Vec3& half) const
 
 Proof CellBounds::over(const Vec3& centre, const Vec3& half) const {
   Mat3 q = Mat3::Identity(), spin = q;
-  if (!chart_.positional() && !legs_.empty()) {
+  if (!chart_.positional()) {
     q = chart_.rotation(centre);
-    spin = chart_.spin(centre);
+    if (!legs_.empty()) spin = chart_.spin(centre);
   }
   Proof all{some_, !some_};
   for (std::size_t r = 0; r < rotations_; ++r) {
@@ -75,6 +103,12 @@ Proof CellBounds::over(const Vec3& centre, const Vec3& half) const {
           one.inside && l.least >= leg.low + (leg.low > 0.0 ? rounding_ : 0.0) && l.most <= leg.high - rounding_;
       one.outside = one.outside || l.least > leg.high + rounding_ || l.most < leg.low - rounding_;
       if (one.outside) break;
+    }
+    for (const ConedLeg& leg : cones_) {
+      if (one.outside) break;
+      const Proof cone = coned(leg, r, q, centre, half);
+      one.inside = one.inside && cone.inside;
+      one.outside = cone.outside;
     }
     one.inside = one.inside && !one.outside;
     all.outside = some_ ? all.outside && one.outside : all.outside || one.outside;
@@ -91,12 +125,15 @@ Proof CellBounds::over(const Vec3& centre, const Vec3& half) const {
 
 double CellBounds::clear(const Vec3& x) const {
   double least = infinity;
-  for (std::size_t r = 0; r < rotations_; ++r)
+  for (std::size_t r = 0; r < rotations_; ++r) {
     for (const Leg& leg : legs_) {
       const double l = (leg.k * x + leg.at[r]).norm();
       const double above = leg.low > 0.0 ? l - leg.low : infinity;  // a lower limit of zero limits nothing
       least = std::min(least, (std::min(above, leg.high - l) - rounding_) / std::abs(leg.k));
     }
+    for (const ConedLeg& leg : cones_)
+      least = std::min(least, (leg.cone[r].clear(leg.k * x + leg.at[r]) - rounding_) / std::abs(leg.k));
+  }
   return least;
 }
 

@@ -17,6 +17,11 @@ class Cones {
   /// The limit less each angle, radians: l1 l2 l3 and the body's internal legs.
   std::array<double, 6> margins(const Points& at, const Mat3& rotation) const;
 
+  bool of_platform() const { return platform_; }
+  double angle() const { return angle_; }
+  /// In the body's frame.
+  const Vec3& axis(int k) const { return axis_[at_index(k)]; }
+
  private:
   /// From the joint, in the body's frame.
   std::array<Vec3, 6> directions(const Points& at, const Mat3& rotation) const;

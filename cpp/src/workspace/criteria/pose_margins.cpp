@@ -7,6 +7,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/singularity/singularity.hpp"
+#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace {
@@ -88,15 +89,20 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   if (criteria.condition_number) groups(1, 1.0);
   if (criteria.singularity_free) groups(3, 1.0);
   groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
-  bounds_.emplace(g_, domain_, chart_, placement_, criteria_, limited_legs_);
-  all_bounded_ = pose_groups_ == std::ssize(limited_legs_);
+  // The first margins, of legs and cones, have bounds. Where O is searched for its legs have none.
+  std::vector<const Cones*> cones;
+  for (const std::optional<Cones>* body : {&base_, &platform_})
+    if (*body && !placement_.searched()) cones.push_back(&**body);
+  const std::size_t first = limited_legs_.size() + legs_at_body * cones.size();
+  bounds_.emplace(g_, domain_, chart_, placement_, criteria.legs.value_or(LegLimits{}), limited_legs_, cones);
+  all_bounded_ = pose_groups_ == static_cast<int>(first);
   if (set_) {
     bounded_[0] = all_bounded_;
-    for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[0] = bounded_[0] && !bounds_->constant(n);
+    for (std::size_t n = 0; n < first; ++n) bounded_[0] = bounded_[0] && !bounds_->constant(n);
     all_bounded_ = bounded_[0];
     return;
   }
-  for (std::size_t n = 0; n < limited_legs_.size(); ++n) bounded_[n] = !bounds_->constant(n);
+  for (std::size_t n = 0; n < first; ++n) bounded_[n] = !bounds_->constant(n);
   if (chart_.has_region()) bounded_[at_index(groups_ - 1)] = true;
 }
 
@@ -221,9 +227,10 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
   }
 }
 
-double Margins::least(const PointMargins& m) const {
+double Margins::least(const PointMargins& m, bool without_bounds) const {
   double out = infinity;
   for (std::size_t n = 0; n < at_index(groups_); ++n) {
+    if (without_bounds && bounded_[n]) continue;
     const double scale = set_ || std::cmp_greater_equal(n, pose_groups_) ? 1.0 : scale_[n];
     if (std::isnan(m.margin[n])) return -infinity;
     out = std::min(out, m.margin[n] / scale);

@@ -49,9 +49,9 @@ class Margins {
   double size() const { return size_; }
   int groups() const { return groups_; }
   const CellBounds& bounds() const { return *bounds_; }
-  /// Whether group g is a leg or the region, which only `bounds` decide.
+  /// Whether group g is a leg, a cone or the region, which only `bounds` decide.
   bool bounded(int g) const { return bounded_[at_index(g)]; }
-  /// Whether leg lengths and the region are all that limits, so that `bounds` decide everything.
+  /// Whether leg lengths, cones and the region are all that limits, so that `bounds` decide everything.
   bool all_bounded() const { return all_bounded_; }
   /// The home pose in the chart.
   const Vec3& home() const { return home_at_; }
@@ -69,8 +69,8 @@ class Margins {
   void evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
                 const BestAt& best = {}) const;
 
-  /// The least margin, relative to its scale; minus infinity where one is unknown.
-  double least(const PointMargins& m) const;
+  /// The least margin, of all or of those without bounds, relative to its scale; minus infinity where one is unknown.
+  double least(const PointMargins& m, bool without_bounds) const;
   /// Index in limit_names() of the worst negative margin, relative to its scale; -1 for an allowed point.
   int violated(const PointMargins& m) const;
 

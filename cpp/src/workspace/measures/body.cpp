@@ -60,7 +60,8 @@ class Sampler {
       margins_.evaluate(&x[from], static_cast<long>(count), &known[from], control_.stop);
     }
     std::vector<Ray> out;
-    for (std::size_t n = 0; n < x.size(); ++n) out.push_back({ways[n], margins_.least(known[n])});
+    for (std::size_t n = 0; n < x.size(); ++n)
+      out.push_back({ways[n], margins_.least(known[n], margins_.bounds().covers_bodies())});
     return out;
   }
 
