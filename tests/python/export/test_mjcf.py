@@ -13,6 +13,15 @@ DESIGNS = {"machine in mm": (exported.machine, 1e-3, 40.0), "general, no unit": 
 EVERY = pytest.mark.parametrize("kind", DESIGNS)
 AT_REST = 1e-8
 
+# a1 a2 b1 b2, (zp, zs), the condition number, and simulated seconds in which the model settles; None: not in ten
+SETTLING = [
+    ((2.0274, 2.0939, 0.5330, 0.1205), (0.7950, 0.5452), 5.26, 3.0),
+    ((0.8518, 1.7503, 2.4261, 0.8382), (1.7743, 1.1174), 10.45, 4.0),
+    ((2.8869, 2.1881, 1.6466, 0.8669), (1.2229, 0.8413), 19.0, 9.0),
+    ((0.6788, 2.3468, 0.8697, 2.7424), (2.8182, 1.1878), 277.0, None),
+    ((2.0548, 1.2363, 1.9011, 1.1350), (1.0267, 0.3082), 1850.0, None),
+]
+
 
 def written(kind, folder, **options):
     """The design, metres of its unit, size of a path, and the model at its neutral keyframe."""
@@ -84,6 +93,27 @@ def test_the_model_follows_a_path_of_leg_lengths(kind, tmp_path):
         settle(engine, data, nd.leg_lengths(design.geometry, target) * metre)
         assert max(errors(data, target, metre, np.ptp(design.geometry.base_external))) < 1e-8
         assert data.warning.number.sum() == 0
+
+
+@pytest.mark.parametrize(("joints", "heights", "condition", "seconds"), SETTLING)
+def test_the_time_to_settle_grows_with_the_condition_number(joints, heights, condition, seconds, tmp_path):
+    """Figures of docs/exports.md: well-conditioned designs settle to 1e-10 of the size, others keep swinging."""
+    g, c = nd.Geometry.hexagonal(*joints), nd.Configuration.neutral(*heights)
+    lc = float(np.linalg.norm(g.platform_external, axis=-1).mean())
+    assert nd.condition_number(g, c, lc) == pytest.approx(condition, rel=0.02)
+    engine = mujoco.MjModel.from_xml_path(str(nd.export(nd.Design(g, c, 1.0), "mjcf", tmp_path / "robot.xml")))
+    data = mujoco.MjData(engine)
+    mujoco.mj_resetDataKeyframe(engine, data, engine.key("neutral").id)
+    size = float(np.ptp(g.base_external))
+    target = c.moved([0.05, 0.0, 0.03, *(size * np.array([0.02, -0.01, 0.015, 0.01, 0.0, 0.005]))])
+    data.ctrl[:] = nd.leg_lengths(g, target)
+    at_rest = False
+    while not at_rest and data.time < (seconds or 10.0):
+        mujoco.mj_step(engine, data, 100)
+        at_rest = np.abs(data.qvel).max() < AT_REST
+    assert at_rest == (seconds is not None)
+    if at_rest:
+        assert max(errors(data, target, 1.0, size)[:2]) < 1e-10
 
 
 @EVERY
