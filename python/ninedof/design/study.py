@@ -26,6 +26,7 @@ Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 
 LENGTH = "characteristic_length"
+UNGIVEN = float("1.0")  # an object of its own: told from a 1.0 that was given
 MOST_STARTS = 1_000_000  # each may be searched four times, and all ends are kept
 
 
@@ -64,7 +65,8 @@ class Study:
         What is minimized; by default the condition number at the neutral pose. A mapping is read as the table
         [objective] of a study file.
     characteristic_length : float, str or (low, high)
-        l_c of eqs. (30)-(33), in the same unit: a number; a kind of `ninedof.characteristic_length`, taken at the
+        l_c of eqs. (30)-(33), in the same unit: a number, 1 by default, which a UserWarning of `optimize` and `pareto`
+        says where lengths have a `unit`; a kind of `ninedof.characteristic_length`, taken at the
         neutral pose; or bounds, and it is a free variable. An upper bound of a variable of a million characteristic
         lengths or more counts as none.
     starts, seed : int
@@ -91,7 +93,7 @@ class Study:
     family: str = "hexagonal"
     variables: Mapping[str, Bound] = field(default_factory=dict)
     constraints: Mapping[str, limits.Limits] = field(default_factory=dict)
-    characteristic_length: float | str | tuple[float, float] = 1.0
+    characteristic_length: float | str | tuple[float, float] = UNGIVEN
     starts: int = 64
     seed: int = 0
     objective: Objective = field(default_factory=Objective)
@@ -99,6 +101,8 @@ class Study:
     """Name of the length unit; "" without one."""
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
+    length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
+    """Whether the characteristic length was not given."""
 
     __hash__ = None  # type: ignore[assignment]  # mappings inside
 
@@ -106,7 +110,8 @@ class Study:
         """Complete the variables, normalize numbers, and validate the problem in the core."""
         family = choice("family", self.family, _core.design_family_names())
         known = _core.family_variables(family)
-        length = _length(self.characteristic_length)
+        assumed = self.characteristic_length is UNGIVEN
+        length = 1.0 if assumed else _length(self.characteristic_length)  # not UNGIVEN again: copies have it given
         given = self._known("variables", self.variables, [name for name, *_ in known])
         known_keys("constraints", self.constraints, limits.CONSTRAINTS)
         variables: dict[str, Bound] = {}
@@ -123,6 +128,7 @@ class Study:
             "starts": whole("starts", self.starts, 1, MOST_STARTS),
             "seed": whole("seed", self.seed, 0),
             "unit": unit_argument(self.unit),
+            "length_assumed": assumed,
             "defaulted": tuple(n for n, b in variables.items() if n not in given and isinstance(b, tuple)),
         }.items():
             object.__setattr__(self, name, value)
@@ -165,8 +171,20 @@ class Study:
     def with_solver(self, starts: int | None = None, seed: int | None = None) -> Study:
         """Return the same study with another number of starts or another seed."""
         new = replace(self, starts=self.starts if starts is None else starts, seed=self.seed if seed is None else seed)
-        object.__setattr__(new, "defaulted", self.defaulted)
+        for name in ("defaulted", "length_assumed"):
+            object.__setattr__(new, name, getattr(self, name))
         return new
+
+    @property
+    def length_note(self) -> str:
+        """What to say first where lengths have a unit and the characteristic length was not given; else ""."""
+        if not (self.unit and self.length_assumed):
+            return ""
+        return (
+            f"characteristic_length is not given: 1 {self.unit} assumed. A turn of 1 rad then counts as much as a "
+            f"shift of 1 {self.unit}, and the condition number depends on it: give the reach of the tool in {self.unit}, or "
+            'a word such as "optimal"'
+        )
 
     @property
     def angles(self) -> tuple[str, ...]:

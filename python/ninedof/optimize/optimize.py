@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
@@ -90,6 +91,8 @@ def optimize(
 
     """
     instance("study", study, Study)
+    if study.length_note:
+        warnings.warn(study.length_note, stacklevel=2)
     progress_argument(progress)
     study = study.with_solver(starts, seed)
     count = thread_argument(threads)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Sequence
 from contextlib import nullcontext
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -94,7 +96,9 @@ def pareto(
     thread_argument(threads)
     count = whole("points", points, 2, MOST_POINTS)
     plain, degrees = without_degrees(against)
-    posed, limit = resolve(study.with_solver(starts), plain)
+    if study.length_note:
+        warnings.warn(study.length_note, stacklevel=2)
+    posed, limit = resolve(replace(study.with_solver(starts)), plain)
     given = None if values is None else _values(values, limit, degrees)
     if out is not None:
         out = path_argument("out", out)

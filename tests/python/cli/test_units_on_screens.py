@@ -183,7 +183,7 @@ def test_a_unit_changes_no_number(tmp_path, capsys, monkeypatch):
 
 ANGLES = {  # line: the angles in degrees that it shows, and others that stand in it
     "optimize study.toml": ("theta_z (deg)",),
-    "evaluate run": ("38.05°", "55.00°", "turned 0.00°"),
+    "evaluate run": ("38.05°", "55.00°", "turned (0, 0, 0)°"),
     "sheet run --turn-deg 25": ("38.05°", "55.00°", "turning 25° per time unit"),
     "path run --circle 20 --points 21": ("turning at most 0 degrees",),
     f"workspace run {WORKSPACE}": ("base cone 38.05 degrees", "platform cone 55 degrees"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -111,12 +112,14 @@ def _comparison_words(comparison: Comparison, screen: Screen) -> None:
 
 
 def _solve_study(study: Study, name: str, how: dict[str, Any], screen: Screen) -> Result:
+    if study.length_note:
+        screen.print(study.length_note)
     for variable in study.defaulted:
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
     with screen.progress(name) as bar:
-        return solve(study, progress=bar, **how)
+        return solve(replace(study), progress=bar, **how)  # without the notes, which were printed
 
 
 def _result_words(result: Result, screen: Screen) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -90,9 +91,11 @@ def pareto(
         against = "radius_ratio" if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if study is None else study.name
+    if chosen.length_note:
+        screen.print(chosen.length_note)
     with run_folder(out, resume, reads) as directory, screen.limits(f"{name}, {against}") as bar:
         front = trace_front(
-            chosen, against, value or None, points, threads=threads, progress=bar.show, out=directory / CHUNKS
+            replace(chosen), against, value or None, points, threads=threads, progress=bar.show, out=directory / CHUNKS
         )
 
     def words() -> None:

@@ -1,0 +1,71 @@
+"""A study with a unit and without a characteristic length: what is assumed is said before the work, and once."""
+
+import copy
+import pickle
+import warnings
+from dataclasses import replace
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+
+SIDES = {"a1": 0.0, "a2": 800.0, "b1": 350.0, "b2": 0.0, "zp": (400.0, 600.0), "zs": (200.0, 400.0), "theta_z": 0.0}
+TEXT = """unit = "mm"
+[variables]
+a1 = 0.0
+a2 = 800.0
+b1 = 350.0
+b2 = 0.0
+zp = [400.0, 600.0]
+zs = [200.0, 400.0]
+theta_z = 0.0
+[solver]
+starts = 2
+"""
+
+
+def test_the_assumed_length_is_said_in_python():
+    study = nd.Study(variables=SIDES, unit="mm", starts=2)
+    for same in (study, copy.copy(study), pickle.loads(pickle.dumps(study)), study.with_solver(3)):
+        assert same.length_note.startswith("characteristic_length is not given: 1 mm assumed")
+    with pytest.warns(UserWarning, match="characteristic_length is not given: 1 mm assumed"):
+        poor = nd.optimize(study)
+    with pytest.warns(UserWarning, match="characteristic_length is not given"):
+        nd.pareto(study, "leg_ratio", values=[3.0])
+    given = replace(study, characteristic_length=150.0)
+    assert nd.optimize(given).condition_number < 0.1 * poor.condition_number
+
+
+def test_nothing_is_said_of_a_length_that_was_given_or_has_no_unit():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for study in (
+            nd.Study(variables=SIDES, starts=2),
+            nd.Study(variables=SIDES, starts=2, unit="m", characteristic_length=1.0),
+            nd.Study(variables=SIDES, starts=2, unit="mm", characteristic_length="optimal"),
+            nd.Study.from_dict(nd.Study(variables=SIDES, starts=2, unit="mm").to_dict()),
+        ):
+            assert study.length_note == ""
+            nd.optimize(study)
+
+
+@pytest.mark.parametrize("command", [["optimize"], ["pareto", "--against", "leg_ratio", "--value", "3"]])
+def test_the_command_says_it_first(command, tmp_path, capsys):
+    (tmp_path / "study.toml").write_text(TEXT)
+    name, *options = command
+    with pytest.raises(SystemExit):
+        main(
+            [
+                name,
+                str(tmp_path / "study.toml"),
+                *options,
+                "--no-figures",
+                "--no-report",
+                "--out",
+                str(tmp_path / "run"),
+            ]
+        )
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.startswith("characteristic_length is not given: 1 mm assumed. A turn of 1 rad then counts as much")
+    assert said.count("characteristic_length is not given") == 1
