@@ -13,9 +13,10 @@ namespace ninedof {
 namespace {
 
 constexpr long block = 2048;         // of samples
-constexpr std::size_t cells = 64;  // of the region, by the signs of its coordinates: a descent begins from the worst
-// sample of a cell, so that no two begin next to each other
-constexpr long few = 6, many = 24;  // descents of a number; many where the samples are
+// Cells of the region, by the signs of its coordinates: a descent begins from the worst sample of a cell, so that no two
+// begin next to each other.
+constexpr std::size_t cells = 64;
+constexpr long fewest_descents = 6, most_descents = 24;  // of a number; the most where there are many samples
 constexpr double small = 0.1;  // margin from which a descent is not worth while
 constexpr double first_step = 0.2, last_step = 1e-5;  // of a descent, in parts of the region
 constexpr double worthwhile = 1e-10;  // decrease of a descent's step
@@ -167,7 +168,7 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
       for (Eigen::Index k = 0; k < size; ++k) least[cell].take(k, other[cell].value[k], other[cell].at[at_index(k)]);
 
   const Eigen::Index index = shape.margins();
-  const auto descents = static_cast<std::size_t>(std::clamp(settings.samples / 4000, few, many));
+  const auto descents = static_cast<std::size_t>(std::clamp(settings.samples / 4000, fewest_descents, most_descents));
   std::vector<std::vector<std::size_t>> starts(at_index(size));
   std::vector<long> counts(at_index(size), 0);
   parallel_for(size, 1, settings.threads, [&](long k, long) {

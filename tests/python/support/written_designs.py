@@ -27,7 +27,7 @@ def general(seed=0, unit="in", scale=1.0):
 def limited():
     """A result whose study limits the lengths of all legs, where the lengths are in mm."""
     constraints = {"radius_ratio": (None, 2.0), "leg_length": (1.0, 9.0)}
-    return nd.optimize(nd.Study(constraints=constraints, unit="mm", starts=2))
+    return nd.optimize(nd.Study(constraints=constraints, unit="mm", starts=2, characteristic_length=1.0))
 
 
 def text_of(module, design, name="robot"):
