@@ -10,6 +10,7 @@ STUDY = nd.Study(
     objective={"region": {"box": [0.2, 0.2, 0.1], "tilt_deg": 5.0}},
     starts=2,
     unit="m",
+    characteristic_length=1.0,
 )
 
 
