@@ -180,12 +180,14 @@ def other(value, name, rng):
     )
 
 
+@pytest.mark.slow
 def test_the_oracle_finds_the_best_design_of_each_study(genuine):
     known, head = genuine
     found = best(head, np.random.default_rng(5), 20_000, 12)
     assert known * (1.0 - 1e-9) <= found <= known * 1.02
 
 
+@pytest.mark.slow
 def test_what_is_proved_of_a_changed_head_is_true(genuine, tmp_path):
     known, head = genuine
     assert verdict(head, tmp_path).proved
@@ -208,6 +210,7 @@ def test_what_is_proved_of_a_changed_head_is_true(genuine, tmp_path):
     assert refused > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["theta_z", "platform_external_angle"])
 def test_an_angle_past_a_half_turn_counts_on_the_other_side(name, tmp_path):
     """As far as pi such designs are poor; past it come those of the next turn, which are better."""
