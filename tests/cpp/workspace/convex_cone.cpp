@@ -21,7 +21,7 @@ Vec3 in_box(Random& random, const Vec3& centre, const Vec3& half) {
 
 }  // namespace
 
-TEST_SUITE("workspace") {
+TEST_SUITE("convex_cone") {
   TEST_CASE("cones over a box: no point contradicts, and small boxes off the boundary are decided") {
     Random random(1);
     int allowed = 0, forbidden = 0;
