@@ -17,6 +17,9 @@ plane = np.stack([*np.meshgrid(x, x, indexing="ij"), np.full((300, 300), 3.98)],
 study = nd.Study.paper()
 heights = np.linspace(2.0, 3.0, 300_000)
 many = nd.Configuration.neutral(3.9828, heights)
+cloud = [{"position": x} for x in np.random.default_rng(0).uniform(-0.3, 0.3, (100, 3)).tolist()]
+free = {"radius_ratio": (None, 2.0), "singularity_free": {"steps": 1000}}
+dense = nd.Study(constraints=free, objective={"poses": cloud})
 box, legs = ([-2.5, -2.5, 3.0], [2.5, 2.5, 7.0]), {"leg_limits": (2.5, 6.5)}
 
 
@@ -36,6 +39,7 @@ LONG = {
     "grid": "nd.workspace(g, box, criteria=legs, method='grid', resolution=250, most_evaluations=10**9)",
     "octree": "nd.workspace(g, box, criteria=legs, tolerance=1e-7, most_evaluations=10**9)",
     "optimize": "nd.optimize(study, starts=10**6)",
+    "hundred_thousand_places": "nd.optimize(dense)",
     "forward_position": "for_ever(lambda: nd.forward_position(g, nd.leg_lengths(g, many)))",
     "condition_number": "for_ever(lambda: nd.condition_number(g, many, 'optimal'))",
     "bounds": "for_ever(lambda: nd.condition_number_bounds(g, many))",
@@ -47,7 +51,7 @@ LONG = {
 MOST_SECONDS = 10.0
 """The machine of the tests may be ten times slower than an idle one."""
 
-PARTIAL = ("sample", "grid", "octree", "optimize")
+PARTIAL = ("sample", "grid", "octree", "optimize", "hundred_thousand_places")
 """These return what they have, as stopped."""
 
 

@@ -185,7 +185,7 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
   for (int attempt = 0; attempt <= run_settings.restarts && !stop.stop_requested(); ++attempt) {
     bool better = take(solve(from, 0.0, attempt == 0 && minimax && run_settings.polish ? loose : tight));
     if (subproblem.best_seen() != y) better |= take(subproblem.best_seen());
-    if (!minimax) return run;
+    if (!minimax || stop.stop_requested()) return run;
     if (run_settings.polish && run.end.feasible()) take(polished(p, y));
     if (settled()) break;
     if (run_settings.polish && p.has_kinks() && run.end.feasible()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "design/constraints/length_joint.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
@@ -14,6 +15,11 @@ constexpr int probes = 3;
 
 /// Their size limit where single designs are evaluated.
 constexpr double probe_size = 100.0;
+
+/// Difference of margins that counts as none.
+double same_margin(double margin) {
+  return 1e-11 * std::max(1.0, std::abs(margin));
+}
 
 /// Relative difference of distances that tie for the characteristic length.
 constexpr double same_distance = 1e-6;
@@ -131,20 +137,24 @@ void PreparedProblem::drop_repeated_margins() {
   const auto same = [&](std::size_t a, std::size_t b) {
     return std::ranges::all_of(probed, [&](const Eigen::VectorXd& m) {
       const double x = m[static_cast<Eigen::Index>(a)], y = m[static_cast<Eigen::Index>(b)];
-      return std::abs(x - y) <= 1e-11 * std::max(1.0, std::abs(x)) && x > worst_margin;
+      return std::abs(x - y) <= same_margin(x) && x > worst_margin;
     });
   };
   std::vector<MarginRow> kept;
-  std::vector<std::size_t> kept_at;
+  // Those kept of each constraint, by their margin at the first design: of a hundred thousand only few can be equal.
+  std::map<int, std::multimap<double, std::size_t>> kept_of;
   for (std::size_t k = 0; k < margins.size(); ++k) {
     const int constraint = margins[k].constraint;
     const bool analytic = constraint < 0 || constraints[at_index(constraint)]->analytic();
-    const bool repeated = analytic && std::ranges::any_of(kept_at, [&](std::size_t j) {
-                            return margins[j].constraint == margins[k].constraint && same(j, k);
-                          });
+    auto& others = kept_of[constraint];
+    const double m = probed.front()[static_cast<Eigen::Index>(k)], width = 2.0 * same_margin(m);
+    const auto last = others.upper_bound(m + width);
+    const bool repeated =
+        analytic && m > worst_margin &&
+        std::any_of(others.lower_bound(m - width), last, [&](const auto& other) { return same(other.second, k); });
     if (repeated) continue;
     kept.push_back(margins[k]);
-    kept_at.push_back(k);
+    others.emplace(m, k);
   }
   margins = std::move(kept);
 }
