@@ -45,7 +45,7 @@ void map_by_octree(const Margins& margins, const WorkspaceSettings& settings, bo
   map.volume = tree.levels.back().volume;
   map.error = tree.levels.back().error;
   map.pieces = find_pieces(tree.leaves, settings.resolution, margins.chart(),
-                           connected ? std::optional(margins.home()) : std::nullopt);
+                           connected ? std::optional(margins.home()) : std::nullopt, map.home_allowed);
   // The extrapolated volume is distributed over the pieces.
   double found = 0.0;
   for (std::size_t n = 0; n < (connected ? std::min<std::size_t>(1, map.pieces.size()) : map.pieces.size()); ++n)

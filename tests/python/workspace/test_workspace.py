@@ -200,6 +200,16 @@ def test_a_home_outside_names_the_limit(published):
     assert beyond.home_limit == "box"
 
 
+@pytest.mark.parametrize("method", ["octree", "grid"])
+def test_nothing_is_connected_with_a_home_just_outside(published, method):
+    """The cell around it is on the boundary and has allowed corners."""
+    home = nd.Configuration.neutral(zp=5.4, zs=2.7)
+    longest = float(nd.leg_lengths(published, home).max())
+    criteria = {"leg_limits": (2.5, longest * (1.0 - 1e-4)), "singularity_free": True}
+    found = nd.workspace(published, BOX, criteria=criteria, home=home, tolerance=0.05, method=method)
+    assert (found.status, found.volume, found.home_allowed) == ("empty", 0.0, False)
+
+
 # --- Other archetypes -------------------------------------------------------------------------------------------------
 
 

@@ -119,7 +119,7 @@ class OctreeBuilder {
   }
 
   void measure(bool first_piece_alone, const Audit& audit) {
-    if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), m_.home());
+    if (first_piece_alone) find_pieces(tree.leaves, settings_.resolution, m_.chart(), m_.home(), home_allowed_);
     LevelVolumes level{std::vector<double>(blocks * blocks * blocks, 0.0), {}, 0.0};
     level.change = level.held;
     double uncut = 0.0;

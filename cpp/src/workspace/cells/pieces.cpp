@@ -86,7 +86,7 @@ bool holds(const Leaf& leaf, const Vec3& unit, int resolution) {
 }  // namespace
 
 std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
-                                const std::optional<Vec3>& home, const std::stop_token& stop) {
+                                const std::optional<Vec3>& home, bool home_allowed, const std::stop_token& stop) {
   Sets sets(leaves.size());
   join_neighbours(leaves, resolution, sets, stop);
   std::vector<double> volume(leaves.size(), 0.0);
@@ -102,8 +102,7 @@ std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const
     const Vec3 unit = (*home - chart.low()).cwiseQuotient(chart.high() - chart.low());
     const auto at =
         std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& l) { return holds(l, unit, resolution); });
-    if (at == leaves.end()) {
-      // The home pose is not allowed and connected with no cell: the first piece is empty.
+    if (!home_allowed || at == leaves.end()) {
       out.push_back(0.0);
     } else {
       const auto first = std::find(leaders.begin(), leaders.end(), sets.of(at_index(at - leaves.begin())));

@@ -104,8 +104,8 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
         leaves.push_back(point_leaf(known, m, size.prod() * m.chart().density(at)));
         leaves.back().cell = cells[c];
       });
-  map.pieces =
-      find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt, control.stop);
+  map.pieces = find_pieces(leaves, n, m.chart(), first_piece_alone ? std::optional(m.home()) : std::nullopt,
+                           map.home_allowed, control.stop);
 
   Surface surface;
   surface.area.assign(limit::count, 0.0);
