@@ -1,0 +1,65 @@
+"""Results of every loop over limits against tests/data/record.npz, before the core was rebuilt: what may move, how far.
+
+Bits are not compared: the C library decides about the last ones of logarithms and angles.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import record
+
+KNOWN = dict(np.load(Path(__file__).parents[2] / "data" / "record.npz"))
+NO_WORSE = {
+    "optimum": (1.0, 1e-9),
+    "shortest legs": (1.0, 1e-7),
+    "longest legs": (-1.0, 1e-7),
+    "margins": (1.0, 1e-7),
+    "nearest singularity": (1.0, 1e-9),
+    "best O": (1.0, 1e-9),
+}
+"""Found by searches: they may become better, that is smaller or larger by the sign, and worse by so much at most."""
+TOLERANCE = {"certificate": 1e-7, "least margin": 1e-7}
+"""Of what follows from an optimum, where the design is known to its root only; else 1e-12."""
+
+
+def parts(name):
+    subject, _, what = name.partition(": ")
+    return subject, what or subject
+
+
+def compare(found):
+    for name, values in found.items():
+        known = KNOWN[name]
+        subject, what = parts(name)
+        size = np.abs(known[np.isfinite(known)]).max(initial=1e-300)
+        searched = next((t for word, t in NO_WORSE.items() if what.startswith(word) and "design" not in subject), None)
+        if searched is not None:
+            sign, worse = searched
+            assert values.shape == known.shape, name
+            assert (sign * (values - known) <= worse * size).all(), (name, values - known)
+        else:
+            tolerance = next((t for word, t in TOLERANCE.items() if word in name), 1e-12)
+            np.testing.assert_allclose(values, known, rtol=0.0, atol=tolerance * size, err_msg=name)
+
+
+@pytest.mark.parametrize("part", ["designs", "workspaces", "paths", "optimum"])
+def test_results_are_those_of_the_record(part):
+    compare(record.arrays(getattr(record, part)()))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", record.REGIONS)
+def test_region_studies_are_those_of_the_record(name):
+    compare(record.arrays(record.region(name)))
+
+
+def test_the_record_has_every_limit_and_nothing_else():
+    from ninedof.design import limits
+
+    assert set(record.LIMITS) == set(limits.ROWS)
+    made = {name for part in (record.designs, record.workspaces, record.paths, record.optimum) for name in part()}
+    assert {name for name in KNOWN if not name.startswith("region ")} == made
+    assert {name.partition(": ")[0] for name in KNOWN if name.startswith("region ")} == {
+        f"region {name}" for name in record.REGIONS
+    }
