@@ -21,7 +21,7 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_statics(m);
   ninedof::python::bind_accuracy(m);
   ninedof::python::bind_ellipsoid(m);
-  ninedof::python::bind_design(m);
+  ninedof::python::bind_problem(m);
   ninedof::python::bind_interval(m);
   ninedof::python::bind_bounds(m);
   ninedof::python::bind_machine(m);

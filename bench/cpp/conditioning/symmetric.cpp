@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ninedof/design/families/hexagonal_family.hpp"
+#include "ninedof/families/hexagonal_family.hpp"
 #include "support/baseline.hpp"
 #include "support/over_poses.hpp"
 

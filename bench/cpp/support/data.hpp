@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
 #include "ninedof/math/rotation.hpp"
+#include "ninedof/problem/problem.hpp"
 
 namespace bench {
 

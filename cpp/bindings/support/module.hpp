@@ -19,7 +19,7 @@ void bind_singularity(py::module_& m);
 void bind_statics(py::module_& m);
 void bind_accuracy(py::module_& m);
 void bind_ellipsoid(py::module_& m);
-void bind_design(py::module_& m);
+void bind_problem(py::module_& m);
 void bind_interval(py::module_& m);
 void bind_bounds(py::module_& m);
 void bind_machine(py::module_& m);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/region.hpp"
+#include "ninedof/problem/region.hpp"
 
 namespace ninedof::python {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/constraints/constraint.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
@@ -14,6 +13,7 @@
 #include "optimize/minimax/placed_pose.hpp"
 #include "optimize/minimax/slsqp.hpp"
 #include "optimize/verdict.hpp"
+#include "problem/constraints/constraint.hpp"
 
 namespace ninedof {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "design/full_variables.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "optimize/minimax/placed_pose.hpp"
 #include "optimize/region_sample.hpp"
+#include "problem/full_variables.hpp"
 
 namespace ninedof {
 namespace {

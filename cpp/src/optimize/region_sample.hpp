@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "ninedof/design/region.hpp"
+#include "ninedof/problem/region.hpp"
 
 namespace ninedof {
 

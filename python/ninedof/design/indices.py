@@ -1,7 +1,7 @@
 """The table of indices: what objectives, sweeps, workspaces and `ninedof evaluate` can compute, each written once.
 
 A new index is one row here, its words in docs/sweeps.md and its reference in the tests. An objective needs a gradient
-too: the row then names the index of the core (`Index` in ninedof/design/objective.hpp) that has it.
+too: the row then names the index of the core (`Index` in ninedof/problem/objective.hpp) that has it.
 """
 
 from __future__ import annotations

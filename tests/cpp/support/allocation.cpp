@@ -14,7 +14,7 @@
 #include "ninedof/conditioning/hexapod.hpp"
 #include "ninedof/conditioning/sensitivity.hpp"
 #include "ninedof/conditioning/symmetric.hpp"
-#include "ninedof/design/design.hpp"
+#include "ninedof/families/design_family.hpp"
 #include "ninedof/kinematics/acceleration.hpp"
 #include "ninedof/kinematics/velocity.hpp"
 #include "ninedof/position/forward_position.hpp"

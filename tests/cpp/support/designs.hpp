@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/design.hpp"
+#include "ninedof/families/design_family.hpp"
 #include "support/support.hpp"
 
 namespace designs {

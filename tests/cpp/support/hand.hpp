@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "ninedof/design/problem.hpp"
 #include "ninedof/math/rotation.hpp"
+#include "ninedof/problem/problem.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "support/support.hpp"
 

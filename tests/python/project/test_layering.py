@@ -101,7 +101,7 @@ def test_planted_include_is_caught(cpp_files, path, line, expected):
     [
         ("src/robot/legs.cpp", '// #include "ninedof/workspace/workspace.hpp"'),
         (LEGS, "/// Solved by NLopt."),
-        ("src/optimize/new_helper.hpp", '#include "ninedof/design/design.hpp"'),
+        ("src/optimize/new_helper.hpp", '#include "ninedof/families/design_family.hpp"'),
         ("src/robot/new_idea.cpp", "/// Another way to\n/// the legs. Declared in ninedof/robot/legs.hpp."),
     ],
 )

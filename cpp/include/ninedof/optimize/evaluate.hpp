@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
+#include "ninedof/problem/problem.hpp"
 
 namespace ninedof {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
 #include "ninedof/math/control.hpp"
 #include "ninedof/optimize/result.hpp"
+#include "ninedof/problem/problem.hpp"
 
 namespace ninedof {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
-#include "ninedof/design/region.hpp"
 #include "ninedof/math/control.hpp"
+#include "ninedof/problem/problem.hpp"
+#include "ninedof/problem/region.hpp"
 
 namespace ninedof {
 

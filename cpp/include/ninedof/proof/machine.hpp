@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "ninedof/design/region.hpp"
 #include "ninedof/math/control.hpp"
+#include "ninedof/problem/region.hpp"
 #include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
 #include "ninedof/math/control.hpp"
+#include "ninedof/problem/problem.hpp"
 
 namespace ninedof {
 

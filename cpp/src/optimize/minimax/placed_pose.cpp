@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/constraints/constraint.hpp"
 #include "math/linear/minimax_step.hpp"
 #include "math/numbers.hpp"
+#include "problem/constraints/constraint.hpp"
 
 namespace ninedof {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "design/constraints/length_joint.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
+#include "problem/constraints/length_joint.hpp"
 
 namespace ninedof {
 namespace {

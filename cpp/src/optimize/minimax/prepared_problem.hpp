@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "design/constraints/constraint.hpp"
-#include "design/pose_index.hpp"
+#include "problem/constraints/constraint.hpp"
+#include "problem/pose_index.hpp"
 
 namespace ninedof {
 

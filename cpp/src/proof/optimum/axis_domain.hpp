@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ninedof/design/problem.hpp"
+#include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/optimum.hpp"
 #include "proof/optimum/axis_rows.hpp"
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "ninedof/design/design.hpp"
+#include "ninedof/families/design_family.hpp"
 
 namespace ninedof::proof {
 namespace {

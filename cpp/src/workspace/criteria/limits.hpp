@@ -2,7 +2,7 @@
 /// Numbers of what may end a workspace, as indices into limit_names(): the items of the criteria in the order of their
 /// table, then the region, the box and the search for O.
 
-#include "design/constraints/table.hpp"
+#include "problem/constraints/table.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof::limit {

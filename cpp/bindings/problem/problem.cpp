@@ -1,0 +1,170 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "ninedof/optimize/evaluate.hpp"
+#include "ninedof/optimize/optimize.hpp"
+#include "support/arrays.hpp"
+#include "support/module.hpp"
+
+namespace ninedof::python {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vec3 vec3(const Vector& v) {
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::VectorXd full(const std::vector<double>& x) {
+  return Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// The family's part of a full set of variables.
+std::span<const double> own(const Problem& problem, const std::vector<double>& x) {
+  if (x.size() < problem.variables.size())
+    throw InvalidArgument("variables", std::to_string(x.size()) + " values", std::to_string(problem.variables.size()));
+  return {x.data(), problem.variables.size()};
+}
+
+/// The rows of a table as (name, kind, sides, units, options, default low side).
+py::tuple rows_of(const std::vector<ConstraintInfo>& table) {
+  py::list out;
+  for (const ConstraintInfo& row : table) {
+    py::list sides, units, options;
+    if (row.sides != LimitSides::only_high) sides.append("min");
+    if (row.sides != LimitSides::only_low) sides.append("max");
+    units.append(to_string(Unit::length));
+    if (row.of != Unit::length) units.append(to_string(row.of));
+    if (*row.option != '\0') options.append(row.option);
+    const py::object low = row.default_low > 0.0 ? py::object(py::float_(row.default_low)) : py::none();
+    out.append(
+        py::make_tuple(row.name, to_string(row.kind), py::tuple(sides), py::tuple(units), py::tuple(options), low));
+  }
+  return py::tuple(out);
+}
+
+Limit limit_from(const py::dict& d) {
+  Limit out;
+  out.name = d["name"].cast<std::string>();
+  out.low = d["low"].cast<double>();
+  out.high = d["high"].cast<double>();
+  out.of = unit_from(d["of"].cast<std::string>());
+  out.steps = d["steps"].cast<int>();
+  out.at = limit_at_from(d["at"].cast<std::string>());
+  const auto axis = d["axis"].cast<std::vector<double>>();
+  if (axis.size() == 3) out.axis = Vec3(axis[0], axis[1], axis[2]);
+  return out;
+}
+
+StudyLength length_from(const py::object& value) {
+  StudyLength out;
+  if (py::isinstance<py::str>(value)) {
+    out.choice = StudyLength::Choice::kind;
+    out.kind = length_kind(value.cast<std::string>());
+  } else if (py::isinstance<py::tuple>(value)) {
+    out.choice = StudyLength::Choice::free;
+    const auto [low, high] = value.cast<std::pair<double, double>>();
+    out.bounds = {low, high};
+  } else {
+    out.value = value.cast<double>();
+  }
+  return out;
+}
+
+Objective objective_from(const py::dict& d) {
+  Objective out;
+  out.index = index_from(d["index"].cast<std::string>());
+  out.aggregate = aggregate_from(d["aggregate"].cast<std::string>());
+  out.weight = d["weight"].cast<double>();
+  out.condition_limit = d["condition_limit"].cast<double>();
+  out.neutral_condition_limit = d["neutral_condition_limit"].cast<double>();
+  using Entry = std::tuple<Vector, Vector, Vector, bool, bool, double>;
+  for (const auto& [position, rotation, internal, best, in_zp, weight] : d["poses"].cast<std::vector<Entry>>())
+    out.poses.push_back({vec3(position), vec3(rotation), vec3(internal), best, in_zp, weight});
+  return out;
+}
+
+/// log of the objective with its gradient, condition numbers, and every constraint's smallest margin with its own.
+py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
+  const Evaluation e = evaluate(problem, full(x));
+  py::list margins;
+  for (const Evaluation::Margin& m : e.margins) margins.append(py::make_tuple(m.name, m.value, array_from(m.gradient)));
+  py::dict out;
+  out["log_objective"] = e.log_objective;
+  out["objective"] = std::exp(e.log_objective);
+  out["gradient"] = array_from(e.gradient);
+  out["condition_number"] = e.condition_number;
+  out["conditions"] = e.conditions;
+  out["characteristic_length"] = e.characteristic_length;
+  out["margins"] = margins;
+  return out;
+}
+
+/// Stacks (n, 3), (n, 3, 3), (n, 3): the neutral configuration, then the poses of the objective.
+py::tuple configurations_at(const Problem& problem, const std::vector<double>& x) {
+  const std::vector<Configuration> all = configurations(problem, full(x));
+  const auto n = static_cast<py::ssize_t>(all.size());
+  Array p(std::vector<py::ssize_t>{n, 3}), q(std::vector<py::ssize_t>{n, 3, 3}), s(std::vector<py::ssize_t>{n, 3});
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const Configuration& c = all[static_cast<std::size_t>(k)];
+    for (py::ssize_t i = 0; i < 3; ++i) {
+      p.mutable_at(k, i) = c.position[i];
+      s.mutable_at(k, i) = c.internal_point[i];
+      for (py::ssize_t j = 0; j < 3; ++j) q.mutable_at(k, i, j) = c.rotation(i, j);
+    }
+  }
+  return py::make_tuple(p, q, s);
+}
+
+}  // namespace
+
+void bind_problem(py::module_& m) {
+  m.def("design_family_names", &design_family_names);
+  m.attr("constraint_table") = rows_of(constraint_table());
+  m.attr("criterion_table") = rows_of(criterion_table());
+  m.attr("singularity_free_steps") = py::make_tuple(Limit{}.steps, Limit::most_steps);
+  m.def("family_variables", [](const std::string& family) {
+    py::list out;
+    for (const VariableInfo& v : design_family(family).variables())
+      out.append(py::make_tuple(v.name, to_string(v.kind), v.low, v.high));
+    return out;
+  });
+
+  py::class_<Problem>(m, "Problem", "A design problem as the core takes it; made by `Study`.")
+      .def(py::init([](std::string family, const std::vector<std::pair<double, double>>& bounds,
+                       const std::vector<py::dict>& limits, const py::object& characteristic_length,
+                       const py::dict& objective) {
+             Problem p;
+             p.family = std::move(family);
+             for (const auto& [low, high] : bounds) p.variables.push_back({low, high});
+             for (const py::dict& limit : limits) p.limits.push_back(limit_from(limit));
+             p.characteristic_length = length_from(characteristic_length);
+             p.objective = objective_from(objective);
+             p.validate();
+             return p;
+           }),
+           py::arg("family"), py::arg("bounds"), py::arg("limits"), py::arg("characteristic_length"),
+           py::arg("objective"))
+      .def_property_readonly("names", &Problem::names)
+      .def("geometry",
+           [](const Problem& p, const std::vector<double>& x) { return design_family(p.family).geometry(own(p, x)); })
+      .def("configurations", &configurations_at)
+      .def("characteristic_length",
+           [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, full(x)); })
+      .def("evaluate", &evaluate_at)
+      .def("starts", [](const Problem& p, int count, std::uint64_t seed) {
+        Settings settings;
+        settings.starts = count;
+        settings.seed = seed;
+        auto found = std::make_unique<Eigen::MatrixXd>(
+            interruptible(py::none(), [&](const Control& control) { return starts(p, settings, control.stop); }));
+        // A column of the matrix is a row of the array: not copied, there may be very many.
+        const std::vector<py::ssize_t> shape{found->cols(), found->rows()};
+        const double* data = found->data();
+        return Array(shape, data,
+                     py::capsule(found.release(), [](void* own) { delete static_cast<Eigen::MatrixXd*>(own); }));
+      });
+}
+
+}  // namespace ninedof::python

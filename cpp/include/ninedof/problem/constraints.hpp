@@ -1,0 +1,102 @@
+#pragma once
+/// Design constraints as signed margins, positive where the design is allowed. They are relative to their limit: 0.01
+/// is one per cent to spare.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ninedof/math/types.hpp"
+
+namespace ninedof {
+
+/// What the limits of a constraint measure.
+enum class LimitKind {
+  ratio,
+  length,  ///< see Limit::of
+  angle,   ///< radians
+  sign,    ///< a determinant of singularity.hpp, in [-1, 1]
+};
+
+/// What a length is a fraction of.
+enum class Unit {
+  length,  ///< nothing: the study's unit
+  zp,      ///< height of the platform
+  radius,  ///< largest distance of a joint from z
+};
+
+/// Where a limit holds.
+enum class LimitAt {
+  poses,    ///< at every pose of the objective, or at the neutral one if it has none
+  neutral,  ///< at the neutral pose alone
+};
+
+/// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
+///
+/// What each name means is said in the file of that name in src/problem/constraints. 0 < zs < zp (eq. 9b) always holds.
+struct Limit {
+  std::string name;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  Unit of = Unit::length;
+  /// Of joint cones, in the body's frame; zero: the leg's direction at the neutral configuration.
+  Vec3 axis = Vec3::Zero();
+  /// Of singularity_free: parts of the way to each pose that are tested, 1 to most_steps; none at the neutral pose.
+  int steps = 4;
+  static constexpr int most_steps = 1000;
+  /// A limit of the design alone, such as radius_ratio, is the same at either.
+  LimitAt at = LimitAt::poses;
+
+  /// What margins, prices and messages call it: its name, followed by " at neutral" for the neutral pose alone.
+  std::string label() const;
+
+  /// Throws InvalidArgument for an unknown name, a limit that is not a number, low > high, or a side or option the
+  /// constraint does not have; at the neutral pose also for what compares poses: strokes, and cones without an axis.
+  void validate() const;
+};
+
+/// The sides that a limit can have.
+enum class LimitSides { both, only_low, only_high };
+
+/// What a criterion of workspaces has one name for, see limit_names() of workspace.hpp.
+enum class WorkspaceItems {
+  none,           ///< it is no criterion of workspaces
+  leg_sides,      ///< low side of each leg, then high side of each
+  base_legs,      ///< l1 l2 l3 r1 r2 r3
+  platform_legs,  ///< l1 l2 l3 q1 q2 q3
+  pairs_of_legs,  ///< the 21 pairs that need not meet in O
+  itself,         ///< one item
+  determinants,   ///< det N, det B, det C
+};
+
+/// A row of the table of constraints and of the criteria of workspaces.
+struct ConstraintInfo {
+  const char* name;
+  LimitKind kind;
+  LimitSides sides;
+  Unit of = Unit::length;    ///< the unit it takes besides "length", if another
+  const char* option = "";   ///< "axis", "radius" or "steps"; what else a study file may say of it
+  double default_low = 0.0;  ///< its low side where none is given
+  WorkspaceItems items = WorkspaceItems::none;
+  bool compares_poses = false;  ///< it has no value at a single pose
+};
+
+/// The constraints of designs.
+std::vector<ConstraintInfo> constraint_table();
+
+/// The criteria of workspaces, in the order of limit_names().
+std::vector<ConstraintInfo> criterion_table();
+
+/// "ratio", "length", "angle" or "sign".
+const char* to_string(LimitKind kind);
+
+/// "length", "zp" or "radius".
+const char* to_string(Unit unit);
+
+/// "length", "zp" or "radius"; throws InvalidArgument for another word.
+Unit unit_from(const std::string& word);
+
+/// "poses" or "neutral"; throws InvalidArgument for another word.
+LimitAt limit_at_from(const std::string& word);
+
+}  // namespace ninedof

@@ -1,0 +1,54 @@
+#pragma once
+/// A design problem: a family, bounds of its variables, limits, and an objective to be minimized.
+
+#include <string>
+#include <vector>
+
+#include "ninedof/conditioning/characteristic_length.hpp"
+#include "ninedof/families/design_family.hpp"
+#include "ninedof/problem/constraints.hpp"
+#include "ninedof/problem/objective.hpp"
+
+namespace ninedof {
+
+/// Bounds of one variable; low == high fixes it. Either side may be infinite.
+struct Bounds {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The characteristic length of a study: a number, a kind (taken at each design's neutral configuration), or free.
+struct StudyLength {
+  enum class Choice { number, kind, free };
+  Choice choice = Choice::number;
+  double value = 1.0;                      ///< if a number
+  LengthKind kind = LengthKind::mean_leg;  ///< if a kind; `optimal` is a variable that minimizes the objective
+  Bounds bounds = {};                      ///< if free
+};
+
+struct Problem {
+  std::string family = "hexagonal";
+  std::vector<Bounds> variables;  ///< in the family's order; lengths in the study's unit, angles in radians
+  std::vector<Limit> limits;
+  StudyLength characteristic_length;
+  Objective objective;
+
+  /// Throws InvalidArgument naming what is wrong.
+  void validate() const;
+
+  /// Reference length for scaling: the characteristic length if it is a number, the geometric mean of its bounds if it
+  /// is free, a tenth of the smallest upper bound of a length otherwise.
+  double unit() const;
+
+  /// Names of the full set of variables: the family's, "characteristic_length" if it is free or "optimal", and, for
+  /// poses whose internal point the optimizer chooses, its offset in fractions of zp ("pose3.s_x", ...).
+  std::vector<std::string> names() const;
+};
+
+/// The characteristic length of one design; `variables` is a full set, bounds are not enforced.
+double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables);
+
+/// The neutral configuration and the poses of the objective, for one design.
+std::vector<Configuration> configurations(const Problem& problem, const Eigen::VectorXd& variables);
+
+}  // namespace ninedof

@@ -1,0 +1,36 @@
+#pragma once
+/// A continuous set of poses about the neutral one: every tilt and yaw at every position.
+
+#include <vector>
+
+#include "ninedof/problem/pose.hpp"
+
+namespace ninedof {
+
+struct Region {
+  enum class Shape {
+    box,       ///< `size` has its half edges
+    ball,      ///< size[0] is its radius
+    cylinder,  ///< about z: size[0] is its radius, size[2] its half height
+    path,      ///< straight between `corners`
+  };
+  Shape shape = Shape::box;
+  Vec3 size = Vec3::Zero();
+  std::vector<Vec3> corners;
+  double tilt = 0.0;    ///< greatest angle of a rotation about a horizontal axis, radians
+  double yaw = 0.0;     ///< rotations about z, before the tilt, go from minus to plus this
+  bool shifted = true;  ///< whether s moves with p (s - p as at the neutral pose) or is held
+  bool in_zp = false;   ///< whether positions are in fractions of zp
+
+  /// A pose has six coordinates: the shift of p (on a path only the first, from -1 to 1), the two horizontal components
+  /// of the tilt vector, and the yaw. Their greatest moduli, 0 for those that are fixed:
+  Vec6 reach() const;
+  /// The nearest coordinates in the region.
+  Vec6 nearest(Vec6 at) const;
+  Pose pose(const Vec6& at) const;
+
+  /// Throws InvalidArgument naming what is wrong.
+  void validate() const;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,116 @@
+#pragma once
+/// One limit as margins. A constraint defines the limited value; this base turns it into signed, relative margins.
+
+#include <memory>
+
+#include "math/numbers.hpp"
+#include "ninedof/problem/constraints.hpp"
+#include "problem/design_state.hpp"
+
+namespace ninedof {
+
+/// The side of a limit that a margin belongs to.
+enum class Side { high, low };
+
+/// A margin as people read it, and its derivative by the margin of the row that the solver has.
+struct ShownMargin {
+  double value, slope;
+};
+
+/// Of a row log(limit / value), or log(value / limit) for a low limit: the share of the limit that is to spare.
+ShownMargin share_of_limit(Side side, double logarithm);
+
+class Constraint {
+ public:
+  explicit Constraint(const Limit& limit) : limit_(limit), label_(limit.label()) {}
+  virtual ~Constraint() = default;
+
+  const Limit& limit() const { return limit_; }
+  const std::string& label() const { return label_; }
+  int rows() const { return (has_high() ? items(Side::high) : 0) + (has_low() ? items(Side::low) : 0); }
+  double margin(const DesignState& v, int row) const;
+  void add_gradient(const DesignState& v, int row, Row out) const;
+  Side side_of(int row) const { return item_of(row).first; }
+  /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
+  ShownMargin shown(int row, double margin) const {
+    return form() == Form::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
+  }
+  /// The limited value of a design whose margin on that side is given.
+  double value_at(Side side, double margin) const;
+
+  /// Whether margins that agree at a few unrelated designs are the same function; false for piecewise functions.
+  virtual bool analytic() const { return true; }
+
+  /// Violation of the limit over violation of the row: 2 where an auxiliary variable shares it between two rows.
+  virtual double violation_factor(int) const { return 1.0; }
+
+  /// Receives a few unrelated designs within the study's bounds: what holds in all of them holds by construction.
+  virtual void learn(const std::vector<DesignState>&) {}
+
+  /// Derivative of a row's margin by the logarithm of its limit, at the limit: 1, or 0 for a row without a limit.
+  virtual double price_factor(int row) const;
+
+  /// Auxiliary variables that make margins smooth, see spread.cpp: their number, and the index of the first one among
+  /// full variables and free coordinates.
+  virtual int auxiliary_count() const { return 0; }
+  void set_auxiliary(int variable, int coordinate) {
+    auxiliary_variable_ = variable;
+    auxiliary_coordinate_ = coordinate;
+  }
+  int auxiliary_variable() const { return auxiliary_variable_; }
+  /// The best value of one for a design.
+  virtual double auxiliary_value(const DesignState&, int) const { return 0.0; }
+
+ protected:
+  enum class Form {
+    logarithm,  ///< log(high / value), log(value / low): for positive values
+    linear,     ///< 1 - value / high, value / low - 1
+    plain       ///< value - low
+  };
+  virtual Form form() const { return Form::logarithm; }
+  /// Number of margins of a side.
+  virtual int items(Side side) const = 0;
+  /// The limited value. The second adds `scale` times its derivatives.
+  virtual double value(const DesignState&, Side, int) const { return 0.0; }
+  virtual void add_value_gradient(const DesignState&, Side, int, double, Row) const {}
+  /// The margin of an item: by default a function of its value.
+  virtual double item_margin(const DesignState& v, Side side, int item) const;
+  virtual void add_item_gradient(const DesignState& v, Side side, int item, Row out) const;
+
+  bool has_high() const { return limit_.high < infinity; }
+  bool has_low() const { return limit_.low > 0.0; }
+  double bound(Side side) const { return side == Side::high ? limit_.high : limit_.low; }
+  std::pair<Side, int> item_of(int row) const;
+  bool at_neutral() const { return limit_.at == LimitAt::neutral; }
+  /// The first pose where the limit holds, an index of DesignState::poses.
+  int first_pose(const DesignState& v) const { return at_neutral() ? 0 : v.first_pose; }
+  /// The length that limits are fractions of; a radius is that of `body`, see widest_joint. The second adds `scale`
+  /// times its derivatives.
+  double unit(const DesignState& v, int body = -1) const;
+  void add_unit_gradient(const DesignState& v, double scale, Row out, int body = -1) const;
+  int auxiliary_coordinate() const { return auxiliary_coordinate_; }
+
+ private:
+  Limit limit_;
+  std::string label_;
+  int auxiliary_variable_ = -1, auxiliary_coordinate_ = -1;
+};
+
+/// Use of the rows: `solve` needs smooth rows; `evaluate`, of one design, needs the smallest margin only.
+enum class Purpose { solve, evaluate };
+
+/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone). Valid limits only.
+std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose);
+
+/// Least distance of O from the planes of base and platform, in zp, where O is placed.
+inline constexpr double plate_gap = 1e-6;
+
+/// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.
+std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
+
+/// Distance of a joint from z in its body's frame, and the joint of a body (0 base, 6 platform, -1 both) farthest off.
+double joint_radius(const DesignState& v, int joint);
+int widest_joint(const DesignState& v, int body);
+void add_joint_radius(const DesignState& v, int joint, double scale, Row out);
+
+}  // namespace ninedof

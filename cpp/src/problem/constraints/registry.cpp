@@ -1,0 +1,110 @@
+/// Lookups in the table of constraints, and the checks of a limit against its row.
+/// Declared in ninedof/problem/constraints.hpp.
+
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "ninedof/math/error.hpp"
+#include "problem/constraints/constraint.hpp"
+#include "problem/constraints/table.hpp"
+
+namespace ninedof {
+namespace {
+
+const ConstraintRow& find(const std::string& name) {
+  std::string names;
+  for (const ConstraintRow& row : constraint_rows) {
+    if (row.make == nullptr) continue;
+    if (name == row.info.name) return row;
+    names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
+  }
+  throw InvalidArgument("constraints", "\"" + name + "\"", "one of " + names);
+}
+
+/// The rows that `keep` accepts.
+template <class Keep>
+std::vector<ConstraintInfo> rows_where(const Keep& keep) {
+  std::vector<ConstraintInfo> out;
+  for (const ConstraintRow& row : constraint_rows)
+    if (keep(row)) out.push_back(row.info);
+  return out;
+}
+
+}  // namespace
+
+std::string Limit::label() const {
+  return at == LimitAt::neutral ? name + " at neutral" : name;
+}
+
+void Limit::validate() const {
+  const ConstraintInfo& row = find(name).info;
+  const std::string text = format_interval(low, high), label = this->label();
+  if (std::isnan(low) || std::isnan(high) || low > high || low == infinity)
+    throw InvalidArgument(label, text, "low <= high, low finite or open");
+  if (high <= 0.0) throw InvalidArgument(label, text, "low <= high, low finite and high > 0");
+  const bool open_low = row.kind == LimitKind::sign ? std::isinf(low) : low <= 0.0;
+  if (row.sides == LimitSides::only_high && !open_low)
+    throw InvalidArgument(label, text, "only a greatest value (max)");
+  if (row.sides == LimitSides::only_low && high < infinity)
+    throw InvalidArgument(label, text, "only a least value (min)");
+  if (of != Unit::length && of != row.of)
+    throw InvalidArgument(label, std::string("of = \"") + to_string(of) + "\"",
+                          std::string("of = \"length\"") +
+                              (row.of == Unit::length ? "" : std::string(" or \"") + to_string(row.of) + "\""));
+  if (!axis.allFinite() || (!axis.isZero(0.0) && row.kind != LimitKind::angle))
+    throw InvalidArgument(label, "an axis",
+                          row.kind == LimitKind::angle ? "three finite numbers" : "none: only cones have one");
+  if (steps < 1 || steps > most_steps)
+    throw InvalidArgument(label, std::to_string(steps) + " steps", "1 to " + std::to_string(most_steps));
+  if (at != LimitAt::neutral) return;
+  if (row.compares_poses)
+    throw InvalidArgument(name + ".at", "\"neutral\"", "\"poses\": the limit is about differences between poses");
+  if (row.kind == LimitKind::angle && axis.isZero(0.0))
+    throw InvalidArgument(name + ".axis at neutral", "none",
+                          "an axis: the angle of a leg from its own neutral direction is zero there");
+}
+
+std::vector<ConstraintInfo> constraint_table() {
+  return rows_where([](const ConstraintRow& row) { return row.make != nullptr; });
+}
+
+std::vector<ConstraintInfo> criterion_table() {
+  return rows_where([](const ConstraintRow& row) { return row.info.items != WorkspaceItems::none; });
+}
+
+const char* to_string(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::ratio: return "ratio";
+    case LimitKind::length: return "length";
+    case LimitKind::angle: return "angle";
+    case LimitKind::sign: return "sign";
+  }
+  return "";
+}
+
+const char* to_string(Unit unit) {
+  switch (unit) {
+    case Unit::length: return "length";
+    case Unit::zp: return "zp";
+    case Unit::radius: return "radius";
+  }
+  return "";
+}
+
+Unit unit_from(const std::string& word) {
+  for (const Unit unit : {Unit::length, Unit::zp, Unit::radius})
+    if (word == to_string(unit)) return unit;
+  throw InvalidArgument("of", "\"" + word + "\"", "\"length\", \"zp\" or \"radius\"");
+}
+
+LimitAt limit_at_from(const std::string& word) {
+  if (word == "poses") return LimitAt::poses;
+  if (word == "neutral") return LimitAt::neutral;
+  throw InvalidArgument("at", "\"" + word + "\"", "\"poses\" or \"neutral\"");
+}
+
+std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose) {
+  return find(limit.name).make(limit, limit.at == LimitAt::neutral ? 0 : poses, purpose);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,205 @@
+#include "problem/design_state.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "ninedof/math/rotation.hpp"
+
+namespace ninedof {
+std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates) {
+  std::vector<PoseSpec> specs{{}};
+  for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
+    PoseSpec spec{problem.objective.poses[k], 1.0, offset_variables(problem, k)};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (spec.offset[axis] >= 0) spec.coordinate[axis] = coordinates.coordinate(spec.offset[axis]);
+    specs.push_back(spec);
+  }
+  int steps = 1;
+  for (const Limit& limit : problem.limits)
+    if (limit.name == "singularity_free" && limit.at == LimitAt::poses) steps = limit.steps;
+  for (std::size_t k = 1; k <= problem.objective.poses.size(); ++k)
+    for (int step = 1; step < steps; ++step) {
+      PoseSpec between = specs[k];
+      between.fraction = static_cast<double>(step) / steps;
+      specs.push_back(between);
+    }
+  return specs;
+}
+
+void DesignState::set(const DesignFamily& family, const Coordinates& c, const StudyLength& study_length,
+                      const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y) {
+  x = c.variables(y);
+  slopes_ = c.slopes(x);
+  const std::size_t own = family.variables().size();
+  family.blueprint({x.data(), own}, blueprint);
+  columns_ = c.size();
+  if (column_.size() != own) {
+    column_.resize(own);
+    for (std::size_t v = 0; v < own; ++v) column_[v] = c.coordinate(static_cast<int>(v));
+  }
+  jet_.resize(blueprint_rows, 1 + *std::ranges::max_element(column_));
+  jet_.setZero();
+  for (std::size_t v = 0; v < own; ++v)
+    if (column_[v] >= 0)
+      jet_.col(column_[v]) = slopes_[column_[v]] * blueprint.gradient.col(static_cast<Eigen::Index>(v));
+  first_pose = objective_poses > 0 ? 1 : 0;
+  pose_count = std::max(objective_poses, 1);
+  poses.resize(specs.size());
+  set_poses(specs);
+  const bool as_variable = c.length_variable() >= 0;
+  set_length(study_length, as_variable ? c.coordinate(c.length_variable()) : -1);
+  if (as_variable) characteristic_length = x[c.length_variable()];
+}
+
+void DesignState::set_poses(const std::vector<PoseSpec>& specs) {
+  for (std::size_t k = 0; k < specs.size(); ++k) set_pose(specs[k], poses[k]);
+  set_extremes();
+}
+
+void DesignState::set_pose(const PoseSpec& spec, PoseState& out) const {
+  const Pose& pose = spec.pose;
+  const double f = spec.fraction;
+  const double size = pose.in_zp ? blueprint.zp : 1.0;
+  Vec3 offset = Vec3::Zero();  // of s, in zp
+  for (int axis = 0; axis < 3; ++axis)
+    if (spec.offset[at_index(axis)] >= 0) offset[axis] = f * x[spec.offset[at_index(axis)]];
+  const Vec3 p = Vec3(0.0, 0.0, blueprint.zp) + (f * size) * pose.position;
+  const Vec3 s = Vec3(0.0, 0.0, blueprint.zs) + (f * size) * pose.internal + blueprint.zp * offset;
+  out.p_by_zp = Vec3::UnitZ();
+  out.s_by_zp = offset;
+  if (pose.in_zp) {
+    out.p_by_zp += f * pose.position;
+    out.s_by_zp += f * pose.internal;
+  }
+  const Mat3 turn = pose.rotation.isZero(0.0) ? Mat3::Identity() : exp_rotation(f * pose.rotation);
+  out.rotation = blueprint.theta_z == 0.0 ? turn : Mat3(turn * rotation_about_z(blueprint.theta_z));
+  out.twist_axis = turn.col(2);
+  for (std::size_t i = 0; i < 6; ++i) out.at[i] = blueprint.joint[i];
+  for (std::size_t i = 6; i < 12; ++i) out.at[i] = p + out.rotation * blueprint.joint[i];
+  out.at[point_p] = p;
+  out.at[point_s] = s;
+  out.legs = nine_legs(out.at);
+  out.fraction = f;
+  out.coordinate = spec.coordinate;
+}
+
+void DesignState::set_extremes() {
+  for (int leg = 0; leg < 9; ++leg) {
+    int &longest_pose = longest_of[at_index(leg)], &shortest_pose = shortest_of[at_index(leg)];
+    longest_pose = shortest_pose = first_pose;
+    for (int k = first_pose + 1; k < first_pose + pose_count; ++k) {
+      if (pose(k).legs.length[leg] > pose(longest_pose).legs.length[leg]) longest_pose = k;
+      if (pose(k).legs.length[leg] < pose(shortest_pose).legs.length[leg]) shortest_pose = k;
+    }
+    const LegExtreme high{longest_pose, leg}, low{shortest_pose, leg};
+    if (leg == 0 || length(high) > length(longest)) longest = high;
+    if (leg == 0 || length(low) < length(shortest)) shortest = low;
+  }
+}
+
+void DesignState::set_length(const StudyLength& study_length, int coordinate) {
+  using Choice = StudyLength::Choice;
+  if (study_length.choice == Choice::number) {
+    characteristic_length = study_length.value;
+    return;
+  }
+  length_gradient.setZero(columns_);
+  if (study_length.choice == Choice::free || study_length.kind == LengthKind::optimal) {
+    if (coordinate >= 0) length_gradient[coordinate] = slopes_[coordinate];
+    return;
+  }
+  const PoseState& home = pose(0);
+  if (study_length.kind == LengthKind::mean_leg) {
+    characteristic_length = home.legs.length.mean();
+    for (int leg = 0; leg < 9; ++leg) add_leg(0, leg, 1.0 / 9.0, length_gradient);
+    return;
+  }
+  if (study_length.kind == LengthKind::platform_radius) {
+    int farthest = length_joint >= 0 ? length_joint : point_u;
+    for (int k = point_u + 1; k < 12 && length_joint < 0; ++k)
+      if (joint_distance(k) > joint_distance(farthest)) farthest = k;
+    characteristic_length = joint_distance(farthest);
+    if (characteristic_length > 0.0)
+      add_joint(farthest, blueprint.joint[at_index(farthest)] / characteristic_length, length_gradient);
+    else characteristic_length = trial_length();  // a platform of no size is singular under any length
+    return;
+  }
+  set_natural_length(home);
+}
+
+void DesignState::set_natural_length(const PoseState& home) {
+  // With a trial length u: |rotation columns of M|_F^2 and |translation columns|_F^2, each a sum over unit twists of
+  // the least sum of squared leg rates. The natural length is u times the root of their quotient, for any u.
+  const double trial = trial_length();
+  PointGradient turning = zero_gradient(), shifting = zero_gradient();
+  Spectrum s = spectrum(home.at, home.legs, trial);
+  // Any orthonormal set of twists may replace the singular vectors.
+  const Mat6 back = s.twist.transpose();
+  s.sdot = (s.sdot * back).eval();
+  s.rates = (s.rates * back).eval();
+  s.twist.setIdentity();
+  double rotation = 0.0, translation = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    (k < 3 ? rotation : translation) += s.rates.col(k).squaredNorm();
+    add_spectrum_gradient(home.at, home.legs, s, k, k, 1.0, k < 3 ? turning : shifting);
+  }
+  characteristic_length = trial * std::sqrt(rotation / translation);
+  if (!(characteristic_length > 0.0) || !std::isfinite(characteristic_length)) {
+    characteristic_length = trial;  // a singular design: its condition number is infinite under any length
+    return;
+  }
+  for (std::size_t k = 0; k < point_count; ++k)
+    turning.point[k] = 0.5 * characteristic_length * (turning.point[k] / rotation - shifting.point[k] / translation);
+  turning.length = 0.0;
+  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(columns_);
+  add(0, turning, gradient);
+  length_gradient = gradient;
+}
+
+void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
+  for (int axis = 0; axis < 3; ++axis) add_jet(g[axis], 3 * joint + axis, out);
+}
+
+void DesignState::add_turn(int k, const Vec3& g, Row out) const {
+  add_jet(g.dot(pose(k).twist_axis), row_theta_z, out);
+}
+
+void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
+  const PoseState& v = pose(k);
+  if (point == point_s) {
+    add_zs(g.z(), out);
+    add_zp(g.dot(v.s_by_zp), out);
+    for (int axis = 0; axis < 3; ++axis)
+      if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
+    return;
+  }
+  if (point < 6) return add_joint(point, g, out);
+  add_zp(g.dot(v.p_by_zp), out);
+  if (point == point_p) return;
+  add_joint(point, v.rotation.transpose() * g, out);
+  add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
+}
+
+void DesignState::add_leg(int k, int leg, double g, Row out) const {
+  const LegEnds ends = leg_ends(leg);
+  const Vec3 pull = g * pose(k).legs.direction[at_index(leg)];
+  add_point(k, ends.to, pull, out);
+  add_point(k, ends.from, -pull, out);
+}
+
+void DesignState::add_length(double g, Row out) const {
+  if (length_gradient.size() > 0) out += g * length_gradient;
+}
+
+void DesignState::add(int k, const PointGradient& g, Row out) const {
+  for (int point = 0; point < point_count; ++point) add_point(k, point, g.point[at_index(point)], out);
+  add_length(g.length, out);
+}
+
+void DesignState::add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const {
+  for (std::size_t v = 0; v < column_.size(); ++v)
+    if (column_[v] >= 0) out[column_[v]] += slopes_[column_[v]] * g[static_cast<Eigen::Index>(v)];
+  add_length(g[static_cast<Eigen::Index>(column_.size())], out);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,101 @@
+#pragma once
+/// One design at every evaluated pose, and the derivatives of its points with respect to the solver's coordinates.
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "ninedof/conditioning/sensitivity.hpp"
+#include "ninedof/robot/points.hpp"
+#include "problem/coordinates.hpp"
+
+namespace ninedof {
+
+/// A row of derivatives with respect to the free coordinates.
+using Row = Eigen::Ref<Eigen::RowVectorXd>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What fixes a pose: the displacement, and the variables that move s.
+struct PoseSpec {
+  Pose pose;
+  double fraction = 1.0;                        ///< of the displacement from the neutral configuration
+  std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
+  std::array<int, 3> coordinate{-1, -1, -1};    ///< free coordinates behind them
+};
+
+/// The neutral pose, the poses of the objective, and poses between them for singularity_free.
+std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates);
+
+/// One design at one pose.
+struct PoseState {
+  Points at;
+  NineLegs legs;
+  Mat3 rotation;       ///< Q
+  Vec3 twist_axis;     ///< the platform turns about it as theta_z grows
+  Vec3 p_by_zp, s_by_zp;
+  double fraction;
+  std::array<int, 3> coordinate;
+};
+
+/// A leg at a pose, the longest or shortest of some.
+struct LegExtreme {
+  int pose = 0, leg = 0;
+};
+
+class DesignState {
+ public:
+  /// `objective_poses`: how many of the specs, from the second on, belong to the objective.
+  void set(const DesignFamily& family, const Coordinates& c, const StudyLength& length,
+           const std::vector<PoseSpec>& specs, int objective_poses, const Eigen::VectorXd& y);
+
+  /// The same design at other poses, as many as before. Those of the neutral configuration must come first.
+  void set_poses(const std::vector<PoseSpec>& specs);
+
+  Eigen::VectorXd x;  ///< full variables
+  Blueprint blueprint;
+  double unit = 1.0;  ///< Problem::unit; lengths are divided by it before a logarithm is taken
+  double characteristic_length = 1.0;
+  Eigen::RowVectorXd length_gradient;  ///< of the characteristic length; empty where it is a number
+  /// Input: the platform joint whose distance is the characteristic length "platform_radius"; -1: the farthest.
+  int length_joint = -1;
+  std::vector<PoseState> poses;
+
+  /// The evaluated poses: those of the objective, or the neutral one where there are none.
+  int first_pose = 0, pose_count = 1;
+  Eigen::Index columns() const { return columns_; }
+  const PoseState& pose(int k) const { return poses[at_index(k)]; }
+
+  /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
+  LegExtreme longest, shortest;
+  std::array<int, 9> longest_of{}, shortest_of{};
+  /// Distance of a joint from the origin of its body's frame.
+  double joint_distance(int joint) const { return blueprint.joint[at_index(joint)].norm(); }
+  double length(const LegExtreme& l) const { return pose(l.pose).legs.length[l.leg]; }
+
+  // Chain rule: each adds to the row `out` of a number the effect of its derivative `g` with respect to ...
+  void add_joint(int joint, const Vec3& g, Row out) const;  ///< a joint in its body's frame
+  void add_zp(double g, Row out) const { add_jet(g, row_zp, out); }
+  void add_zs(double g, Row out) const { add_jet(g, row_zs, out); }
+  void add_point(int pose, int point, const Vec3& g, Row out) const;  ///< a point in the base frame
+  void add_turn(int pose, const Vec3& g, Row out) const;              ///< a rotation of the platform, base axes
+  void add_leg(int pose, int leg, double g, Row out) const;           ///< a leg length
+  void add_length(double g, Row out) const;                           ///< the characteristic length
+  void add(int pose, const PointGradient& g, Row out) const;          ///< all of them
+  /// ... the family's variables and, in one more column, the characteristic length
+  void add_variables(const Eigen::Ref<const Eigen::RowVectorXd>& g, Row out) const;
+
+ private:
+  void add_jet(double g, int row, Row out) const { out.head(jet_.cols()) += g * jet_.row(row); }
+  void set_length(const StudyLength& length, int coordinate);
+  void set_natural_length(const PoseState& home);
+  double trial_length() const { return std::max(blueprint.zp, 1e-150); }
+  void set_pose(const PoseSpec& spec, PoseState& out) const;
+  void set_extremes();
+
+  Rows jet_;  ///< Blueprint::gradient by free coordinate, up to the last that the family depends on
+  Eigen::Index columns_ = 0;  ///< the free coordinates; those of internal points, of which there may be many, are last
+  Eigen::VectorXd slopes_;
+  std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
+};
+
+}  // namespace ninedof

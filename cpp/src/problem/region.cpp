@@ -1,0 +1,82 @@
+#include "ninedof/problem/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ninedof/math/error.hpp"
+#include "ninedof/math/rotation.hpp"
+
+namespace ninedof {
+namespace {
+
+/// The nearest vector to v that is not longer than `longest`.
+template <class Vector>
+Vector shortened(const Vector& v, double longest) {
+  const double length = v.norm();
+  return length > longest ? Vector(v * (longest / length)) : v;
+}
+
+/// The point of a path through its corners, t from 0 to 1 by arc length.
+Vec3 along(const std::vector<Vec3>& corners, double t) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < corners.size(); ++k) length += (corners[k] - corners[k - 1]).norm();
+  double left = t * length;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Vec3 way = corners[k] - corners[k - 1];
+    const double step = way.norm();
+    if (left <= step && step > 0.0) return corners[k - 1] + left / step * way;
+    left -= step;
+  }
+  return corners.back();
+}
+
+}  // namespace
+
+Vec6 Region::reach() const {
+  Vec6 out;
+  switch (shape) {
+    case Shape::box: out.head<3>() = size; break;
+    case Shape::ball: out.head<3>().setConstant(size[0]); break;
+    case Shape::cylinder: out.head<3>() << size[0], size[0], size[2]; break;
+    case Shape::path: out.head<3>() << 1.0, 0.0, 0.0; break;
+  }
+  out.tail<3>() << tilt, tilt, yaw;
+  return out;
+}
+
+Vec6 Region::nearest(Vec6 at) const {
+  const Vec6 most = reach();
+  at = at.cwiseMax(-most).cwiseMin(most);
+  if (shape == Shape::ball) at.head<3>() = shortened(Vec3(at.head<3>()), size[0]);
+  if (shape == Shape::cylinder) at.head<2>() = shortened(Eigen::Vector2d(at.head<2>()), size[0]);
+  at.segment<2>(3) = shortened(Eigen::Vector2d(at.segment<2>(3)), tilt);
+  return at;
+}
+
+Pose Region::pose(const Vec6& at) const {
+  Pose out;
+  out.in_zp = in_zp;
+  out.position = shape == Shape::path ? along(corners, 0.5 * (1.0 + at[0])) : Vec3(at.head<3>());
+  if (shifted) out.internal = out.position;
+  const Vec3 turn(at[3], at[4], 0.0), about_z(0.0, 0.0, at[5]);
+  if (at[5] == 0.0) out.rotation = turn;
+  else if (turn.isZero(0.0)) out.rotation = about_z;
+  else out.rotation = log_rotation(exp_rotation(turn) * exp_rotation(about_z));
+  return out;
+}
+
+void Region::validate() const {
+  const auto require = [](const char* name, bool fine, double value, const char* expected) {
+    if (!fine) throw InvalidArgument(std::string("objective.region.") + name, format_number(value), expected);
+  };
+  for (const double x : size) require("size", std::isfinite(x) && x >= 0.0, x, "finite numbers of at least 0");
+  for (const auto& [name, angle] : {std::pair{"tilt", tilt}, std::pair{"yaw", yaw}})
+    require(name, angle >= 0.0 && angle <= std::numbers::pi, angle, "an angle from 0 to pi");
+  if (shape == Shape::path && corners.size() < 2)
+    throw InvalidArgument("objective.region.path", std::to_string(corners.size()) + " corners", "at least two");
+  for (const Vec3& corner : corners)
+    if (!corner.allFinite()) throw InvalidArgument("objective.region.path", "a number that is not finite", "positions");
+}
+
+}  // namespace ninedof
