@@ -89,6 +89,8 @@ Objective objective_from(const py::dict& d) {
 py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
   const Evaluation e = evaluate(problem, full(x));
   py::list margins;
+  py::dict limited;
+  for (const Evaluation::Margin& m : e.margins) limited[py::str(m.name)] = m.limited;
   for (const Evaluation::Margin& m : e.margins) margins.append(py::make_tuple(m.name, m.value, array_from(m.gradient)));
   py::dict out;
   out["log_objective"] = e.log_objective;
@@ -98,6 +100,7 @@ py::dict evaluate_at(const Problem& problem, const std::vector<double>& x) {
   out["conditions"] = e.conditions;
   out["characteristic_length"] = e.characteristic_length;
   out["margins"] = margins;
+  out["limited"] = limited;
   return out;
 }
 

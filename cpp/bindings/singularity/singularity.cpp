@@ -75,10 +75,12 @@ void bind_singularity(py::module_& m) {
     std::vector<Configuration> poses;
     for (long i = 0; i < c.count(); ++i) poses.push_back(c[i]);
     const Motions ways = Eigen::Map<const Eigen::Matrix<double, 9, 3, Eigen::RowMajor>>(motions.data());
-    const NearestSingularity found = [&] {
-      const WithoutGil nogil;
-      return nearest_singularity(g, poses, ways, most, directions, threads);
-    }();
+    const NearestSingularity found = interruptible(
+        py::none(),
+        [&](const Control& control) {
+          return nearest_singularity(g, poses, ways, most, directions, threads, control.stop);
+        },
+        [](NearestSingularity&) { return false; });
     Array direction(3);
     write(found.direction, direction.mutable_data());
     return py::make_tuple(found.distance, code(found.mechanism), direction, found.pose);

@@ -17,7 +17,7 @@ constexpr long block = 2048;         // of samples
 // begin next to each other.
 constexpr std::size_t cells = 64;
 constexpr long fewest_descents = 6, most_descents = 24;  // of a number; the most where there are many samples
-constexpr double small = 0.1;  // margin from which a descent is not worth while
+constexpr double small = 0.1;  // margin from which a descent is not worth while, but for the least of all
 constexpr double first_step = 0.2, last_step = 1e-5;  // of a descent, in parts of the region
 constexpr double worthwhile = 1e-10;  // decrease of a descent's step
 constexpr long most_evaluations = 2000;  // of a descent
@@ -168,6 +168,19 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
       for (Eigen::Index k = 0; k < size; ++k) least[cell].take(k, other[cell].value[k], other[cell].at[at_index(k)]);
 
   const Eigen::Index index = shape.margins();
+  const auto sampled = [&](Eigen::Index k) {
+    return std::ranges::min(least, {}, [k](const Least& l) { return l.value[k]; });
+  };
+  // The least margin is stated whatever it is.
+  Eigen::Index tightest = -1;
+  double tightest_margin = infinity;
+  for (Eigen::Index k = 0; k < index; ++k) {
+    const Least at = sampled(k);
+    if (const double margin = shape.limit(k, at.value[k], at.at[at_index(k)]).margin; margin < tightest_margin) {
+      tightest_margin = margin;
+      tightest = k;
+    }
+  }
   const auto descents = static_cast<std::size_t>(std::clamp(settings.samples / 4000, fewest_descents, most_descents));
   std::vector<std::vector<std::size_t>> starts(at_index(size));
   std::vector<long> counts(at_index(size), 0);
@@ -175,7 +188,7 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
     OnePose design(problem, variables);
     for (const std::size_t cell : starts[at_index(k)] = lowest(least, k, descents)) {
       double& value = least[cell].value[k];
-      if (!control.stop.stop_requested() && (k >= index || value < small))
+      if (!control.stop.stop_requested() && (k >= index || value < small || k == tightest))
         counts[at_index(k)] += Descent(design, region, k).run(value, least[cell].at[at_index(k)]);
     }
   });
@@ -192,9 +205,7 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
       if (k < index) out.limits.push_back(shape.limit(k, value, at));
       else out.index.push_back({-value, at});
     }
-  const auto worst = [&](Eigen::Index k) {
-    return std::ranges::min(least, {}, [k](const Least& l) { return l.value[k]; }).at[at_index(k)];
-  };
+  const auto worst = [&](Eigen::Index k) { return sampled(k).at[at_index(k)]; };
   for (Eigen::Index leg = 0; leg < 9; ++leg) {
     out.shortest_at[at_index(leg)] = worst(index + 1 + leg);
     out.longest_at[at_index(leg)] = worst(index + 10 + leg);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/numbers.hpp"
+#include "math/stop_at_times.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/singularity/singularity.hpp"
@@ -13,7 +14,7 @@
 namespace ninedof {
 namespace {
 
-constexpr double golden = std::numbers::pi * 0.76393202250021;  // angle between neighbours of a spiral, 3 - sqrt 5
+const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));  // angle between neighbours of a spiral
 constexpr int refined = 24;
 constexpr double farther = 1.3;  // of the least distance: what is looked at in detail
 
@@ -29,6 +30,7 @@ struct Search {
   const std::vector<Configuration>& poses;
   const Motions& motions;
   double most;
+  const std::stop_token& stop;
 
   Way along(long pose, const Vec3& direction, double up_to) const {
     const Vec9 tangent = motions * direction;
@@ -42,6 +44,7 @@ struct Search {
     constexpr int around = 8, most_turns = 400;
     constexpr double last_angle = 1e-7;  // the distance is flat there: its error is the square of this
     for (int turn = 0; turn < most_turns && angle > last_angle; ++turn) {
+      if (stop.stop_requested()) throw Stopped{};
       const Vec3 across = best.direction.unitOrthogonal(), third = best.direction.cross(across);
       Way next = best;
       for (int k = 0; k < around; ++k) {
@@ -71,25 +74,34 @@ std::vector<Vec3> spread(int count) {
   return out;
 }
 
-/// Those of one pose that are nearer than all their neighbours.
-void append_least(const std::vector<Way>& ways, double neighbours, std::vector<Way>& out) {
+/// Those of one pose that are nearer than all their neighbours, the nearest first, not more than are refined.
+std::vector<Way> local_least(std::vector<Way> ways, double neighbours, const std::stop_token& stop) {
   const double cosine = std::cos(neighbours);
-  for (const Way& one : ways) {
-    if (!std::isfinite(one.distance)) continue;
-    const bool least = std::none_of(ways.begin(), ways.end(), [&](const Way& other) {
-      return nearer(other, one) && other.direction.dot(one.direction) > cosine;
-    });
-    if (least) out.push_back(one);
+  std::erase_if(ways, [](const Way& one) { return !std::isfinite(one.distance); });
+  std::stable_sort(ways.begin(), ways.end(), nearer);
+  std::vector<Way> out;
+  for (auto one = ways.begin(); one != ways.end() && std::ssize(out) < refined; ++one) {
+    stop_at_times(one - ways.begin(), stop);
+    // Backwards: a neighbour is hardly nearer, so that it stands not far before.
+    if (std::none_of(std::make_reverse_iterator(one), ways.rend(), [&](const Way& other) {
+          return other.direction.dot(one->direction) > cosine && nearer(other, *one);
+        }))
+      out.push_back(*one);
   }
+  return out;
 }
 
 }  // namespace
 
 NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Configuration>& poses,
-                                       const Motions& motions, double most, int directions, int threads) {
+                                       const Motions& motions, double most, int directions, int threads,
+                                       const std::stop_token& stop) {
   if (poses.empty()) throw InvalidArgument("poses", "none", "at least one");
   require_positive("most", most);
-  const Search search{g, poses, motions, most};
+  for (const Configuration& c : poses)
+    if (c.position.hasNaN() || c.rotation.hasNaN() || c.internal_point.hasNaN())
+      throw InvalidArgument("poses", "NaN", "finite numbers");
+  const Search search{g, poses, motions, most, stop};
   const auto each_pose = [&](const auto& work) {
     parallel_for(static_cast<long>(poses.size()), 1, threads, [&](long first, long last) {
       for (long k = first; k < last; ++k) work(k);
@@ -100,9 +112,10 @@ NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Conf
   constexpr int few = 60;
   const Way none{infinity, Mechanism::none, Vec3::UnitZ(), 0, true};
   std::vector<Way> best(poses.size(), none);
+  const std::vector<Vec3> coarse = spread(std::min(few, directions));
   each_pose([&](long k) {
-    for (const Vec3& way : spread(std::min(few, directions)))
-      best[at_index(k)] = std::min(best[at_index(k)], search.along(k, way, most), nearer);
+    stop_at_times(0, stop);
+    for (const Vec3& way : coarse) best[at_index(k)] = std::min(best[at_index(k)], search.along(k, way, most), nearer);
   });
   Way nearest = *std::min_element(best.begin(), best.end(), nearer);
   if (nearest.distance == 0.0) return nearest;
@@ -113,8 +126,11 @@ NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Conf
   std::vector<std::vector<Way>> starts(poses.size());
   each_pose([&](long k) {
     std::vector<Way> ways;
-    for (const Vec3& way : all) ways.push_back(search.along(k, way, farther * nearest.distance));
-    append_least(ways, 1.6 * spacing, starts[at_index(k)]);
+    for (const Vec3& way : all) {
+      stop_at_times(std::ssize(ways), stop);
+      ways.push_back(search.along(k, way, farther * nearest.distance));
+    }
+    starts[at_index(k)] = local_least(std::move(ways), 1.6 * spacing, stop);
   });
   std::vector<Way> listed;
   for (const auto& some : starts) listed.insert(listed.end(), some.begin(), some.end());

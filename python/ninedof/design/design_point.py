@@ -44,6 +44,8 @@ class DesignPoint:
     """
     margin_gradients: dict[str, dict[str, float]]
     """d(margin)/d(variable) of that margin."""
+    values: dict[str, float]
+    """What each constraint limits, where its margin is smallest, in the unit of the limit; angles in radians."""
     geometry: Geometry
     configuration: Configuration
     """The neutral one."""
@@ -52,7 +54,7 @@ class DesignPoint:
 
     def __post_init__(self) -> None:
         """Make what is there by name unchangeable, as all else is."""
-        for name in ("variables", "gradient", "margins"):
+        for name in ("variables", "gradient", "margins", "values"):
             object.__setattr__(self, name, Fixed(getattr(self, name)))
         slopes = {name: Fixed(slope) for name, slope in self.margin_gradients.items()}
         object.__setattr__(self, "margin_gradients", Fixed(slopes))
@@ -72,8 +74,9 @@ def design_point(problem: _core.Problem, x: Sequence[float]) -> DesignPoint:
         conditions=tuple(infinite_if_singular(k) for k in core["conditions"]),
         characteristic_length=core["characteristic_length"],
         gradient=dict(zip(names, slope.tolist(), strict=True)),
-        margins={name: value for name, value, _ in core["margins"]},
+        margins={name: margin for name, margin, _ in core["margins"]},
         margin_gradients={n: dict(zip(names, s.tolist(), strict=True)) for n, _, s in core["margins"]},
+        values=core["limited"],
         geometry=problem.geometry(x),
         configuration=configurations[0],
         configurations=configurations,

@@ -200,9 +200,11 @@ class Followed(Saved):
         return cls(geometry=geometry, trajectory=moving, configurations=poses, **known)
 
 
-def stretches(name: str, time: Floats, values: Floats, margin: Floats) -> list[LimitBreak]:
+def stretches(
+    name: str, time: Floats, values: Floats, margin: Floats, tolerance: float = TOLERANCE
+) -> list[LimitBreak]:
     """Return the stretches of a margin that is negative beyond the tolerance."""
-    outside = np.concatenate([[False], margin < -TOLERANCE, [False]])
+    outside = np.concatenate([[False], margin < -tolerance, [False]])
     found = []
     for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
         worst = first + int(np.argmin(margin[first:after]))

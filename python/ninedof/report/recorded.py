@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ninedof.design.limits import ROWS
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
 from ninedof.report.markup import Html, Section, beside, facts, joined, paragraphs, table
@@ -59,7 +60,10 @@ def _page(record: Any, name: str, said: str, answer: Html, top: list[tuple[str, 
 
 def _of_motion(motion: dict[str, Any], record: Any, name: str, again: Section) -> Page:
     unit, kappa, near = record.asked.get("unit", ""), motion["condition_number"], motion["nearest_singularity"]
-    broken = len(motion["breaks"]) + sum(is_violated(limit["margin"]) for limit in motion.get("limits", ()))
+    broken = len(motion["breaks"])
+    for limit in motion.get("limits", ()):
+        kind = ROWS[limit["name"]].kind if limit["name"] in ROWS else "ratio"
+        broken += is_violated(limit["margin"], kind, limit.get("limit", 0.0))
     rows: list[tuple[object, object]] = [
         ("condition number, worst", f"{kappa['worst']:.4f} at t = {kappa['at']:.6g}"),
         ("at the start and at the end", f"{kappa['first']:.4f}, {kappa['last']:.4f}"),

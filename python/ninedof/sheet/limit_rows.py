@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninedof.design.design_point import DesignPoint
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
-from ninedof.support.margins import value_of
 from ninedof.support.units import amount
 
 
@@ -52,11 +52,15 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
                 continue
             objective = replace(study.objective, **no_limit)
             alone = replace(study, constraints={name: options | {side: bound}}, objective=objective)
-            ((label, margin),) = alone.evaluate(variables).margins.items()
-            rows.append(LimitRow(label, side, bound, value_of(kind, side, bound, margin), margin, kind))
+            rows.append(_row(side, bound, kind, alone.evaluate(variables)))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:
             objective = replace(study.objective, **(no_limit | {name: bound}))
-            ((label, margin),) = replace(study, constraints={}, objective=objective).evaluate(variables).margins.items()
-            rows.append(LimitRow(label, "max", bound, value_of("ratio", "max", bound, margin), margin, "ratio"))
+            alone = replace(study, constraints={}, objective=objective)
+            rows.append(_row("max", bound, "ratio", alone.evaluate(variables)))
     return tuple(rows)
+
+
+def _row(side: str, bound: float, kind: str, point: DesignPoint) -> LimitRow:
+    ((label, margin),) = point.margins.items()
+    return LimitRow(label, side, bound, point.values[label], margin, kind)

@@ -73,10 +73,11 @@ def look_over(
     """Return how the region of a study was looked over, and its worst poses as configurations and as poses."""
     region: Region = study.objective.region  # type: ignore[assignment]
     at = samples(region, count)
-    worst, looked_at = extreme_poses(Poses.of(region, neutral), at, _numbers(study, g, neutral, asked))
+    poses = Poses.of(region, neutral)
+    worst, descended = extreme_poses(poses, *poses.place(at), _numbers(study, g, neutral, asked))
     worst = np.concatenate([worst, _near_singular(region, g, neutral, asked.motion)])
     even = configurations_at(region, neutral, at[:count])[1]
-    look = _look(region, study, g, asked, even, looked_at)
+    look = _look(region, study, g, asked, even, len(at) + descended)
     return look, configurations_at(region, neutral, worst)[1], poses_at(region, worst)
 
 
@@ -94,10 +95,11 @@ def look_over_placed(
     numbers = _numbers(study, g, neutral, asked)
     rows = sorted({int(k) for group in numbers for k in np.argmin(finite_or_high(group(c)), axis=0)})
     placed = Poses(region, lambda at: (configurations_at(region, neutral, at)[0], place(at)[0]), *PLACED_DESCENT)
-    external, looked = extreme_poses(Poses.of(region, neutral), at, [_both(lambda c: leg_lengths(g, c)[:, :3])])
-    internal, more = extreme_poses(placed, at, [_both(lambda c: leg_lengths(g, c)[:, 3:])])
+    near = configurations_at(region, neutral, at)[0]
+    external, descended = extreme_poses(Poses.of(region, neutral), near, c, [_both(lambda c: leg_lengths(g, c)[:, :3])])
+    internal, more = extreme_poses(placed, near, c, [_both(lambda c: leg_lengths(g, c)[:, 3:])])
     worst, poses = place(np.concatenate([at[rows], external, internal]))
-    return _look(region, study, g, asked, c[:count], looked + more), worst, poses
+    return _look(region, study, g, asked, c[:count], len(at) + descended + more), worst, poses
 
 
 def _near_singular(region: Region, g: Geometry, neutral: Configuration, motion: Motion) -> Floats:

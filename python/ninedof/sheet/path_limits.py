@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
+from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.motion.followed import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
 from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
-from ninedof.support.margins import margin_words
+from ninedof.support.margins import margin_words, tolerance_of
 from ninedof.support.units import amount
 
 LENGTHS = ("leg_clearance", "stroke")
@@ -36,7 +37,9 @@ class PathLimits:
         """Stretches of time in which a limit is passed by more than 1e-6 of it; angles in radians."""
         found: list[LimitBreak] = []
         for one in self.limits:
-            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin)
+            kind = ROWS[one.name].kind if one.name in ROWS else "ratio"
+            tolerance = tolerance_of(kind, one.limit)
+            found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
 
     @property

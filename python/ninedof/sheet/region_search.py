@@ -43,21 +43,22 @@ class Poses:
         return cls(region, lambda at: configurations_at(region, neutral, at))
 
 
-def extreme_poses(poses: Poses, at: Floats, groups: Sequence[Numbers]) -> tuple[Floats, int]:
-    """Return the coordinates at which each number of each group is least, without repetition, and the poses looked at.
+def extreme_poses(poses: Poses, near: Floats, c: Configuration, groups: Sequence[Numbers]) -> tuple[Floats, int]:
+    """Return where each number of each group is least, without repetition, and how many poses descents looked at.
 
     Parameters
     ----------
     poses : Poses
-    at : numpy.ndarray, shape (n, 6)
+    near : numpy.ndarray, shape (n, 6)
         Coordinates of the sample.
+    c : Configuration
+        The poses there.
     groups : sequence of callables
         Numbers that are computed together.
 
     """
-    near, c = poses.place(at)
     region = poses.region
-    found, looked_at, parts = [], len(near), _parts(region, near)
+    found, looked_at, parts = [], 0, _parts(region, near)
     for group in groups:
         values = finite_or_high(group(c))
         numbers = np.arange(values.shape[1])

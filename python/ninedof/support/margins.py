@@ -35,15 +35,20 @@ def margin_of(kind: str, side: str, limit: ArrayLike, value: ArrayLike) -> Any:
     return room[()] if kind == "sign" else np.divide(room, limit)[()]
 
 
-def value_of(kind: str, side: str, limit: float, margin: float) -> float:
-    """Return the value that leaves this margin."""
-    room = margin if kind == "sign" else margin * limit
-    return limit + room if side == "min" else limit - room
+def is_violated(margin: float, kind: str = "ratio", limit: float = 0.0) -> bool:
+    """Whether a margin is negative beyond the tolerance, or unknown.
+
+    A "sign" needs its limit too, see `tolerance_of`.
+    """
+    return not margin >= -tolerance_of(kind, limit)
 
 
-def is_violated(margin: float) -> bool:
-    """Whether a margin is negative beyond the tolerance, or unknown."""
-    return not margin >= -TOLERANCE
+def tolerance_of(kind: str, limit: float) -> float:
+    """Return how far below 0 a margin still counts as kept: TOLERANCE of the limit.
+
+    The margin of a "sign" is no share of its limit. A determinant on the other side of a singularity is never kept.
+    """
+    return TOLERANCE * abs(limit) if kind == "sign" else TOLERANCE
 
 
 def margin_words(margin: float, kind: str) -> str:

@@ -44,7 +44,7 @@ class Limit:
     @property
     def passed(self) -> bool:
         """Whether the limit is passed."""
-        return is_violated(self.margin)
+        return is_violated(self.margin, self.unit, self.limit)
 
 
 @dataclass(frozen=True, eq=False)

@@ -73,7 +73,8 @@ def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[F
 
     Eased by `EASE` of themselves.
     """
-    extremes, _ = extreme_poses(Poses.of(region, home), samples(region, COUNT), [_ends_of_legs(g)])
+    poses = Poses.of(region, home)
+    extremes, _ = extreme_poses(poses, *poses.place(samples(region, COUNT)), [_ends_of_legs(g)])
     lengths = leg_lengths(g, configurations_at(region, home, extremes)[1])
     return lengths.min(axis=0) * (1.0 - EASE), lengths.max(axis=0) * (1.0 + EASE)
 

@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,10 +15,11 @@ from ninedof.cli.commands import certify as certify_command
 from ninedof.cli.sheet_tables import limits_table
 from ninedof.design.limits import CONSTRAINTS, ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
+from ninedof.motion.followed import stretches
 from ninedof.proof.machine import certify
 from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_limits import pose_limits
-from ninedof.support.margins import is_violated, margin_of, margin_words, value_of
+from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import limits_of, margins
@@ -149,13 +151,39 @@ def test_every_place_has_the_same_text(seed):
 
 @pytest.mark.parametrize("kind", ["ratio", "length", "angle", "sign"])
 @pytest.mark.parametrize("side", ["min", "max"])
-def test_value_and_margin_are_inverse(kind, side):
+def test_a_margin_is_negative_beyond_the_limit(kind, side):
     rng = np.random.default_rng(5)
     limits, values = np.exp(rng.uniform(-9.0, 9.0, size=(2, 500)))
     found = margin_of(kind, side, limits, values)
     for limit, value, margin in zip(limits.tolist(), values.tolist(), found.tolist(), strict=True):
-        assert value_of(kind, side, limit, margin) == pytest.approx(value, rel=1e-12, abs=1e-14 * limit)
         assert (margin < 0.0) == (value > limit if side == "max" else value < limit)
+
+
+def test_values_beside_loose_and_tiny_limits_keep_their_digits():
+    """1 - value / max is 1 to the last bit where the limit is 1e18 times the value, and the value was read off it."""
+    design = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9, "zs": 2.4, "theta_z": 0.0}
+    limits = {"leg_length": (None, 1e18), "height": (None, 1e13), "leg_clearance": (1e-9, None)}
+    study = nd.Study(constraints=limits, variables={"a1": 0.0, "b2": 0.0})
+    values = {row.name: row.value for row in limit_rows(study, design)}
+    assert values["height"] == pytest.approx(3.9, rel=1e-13)
+    longest = nd.leg_lengths(study.problem().geometry(list(design.values())), nd.Configuration.neutral(3.9, 2.4)).max()
+    assert values["leg_length"] == pytest.approx(longest, rel=1e-13)
+    near = replace(study, constraints={"leg_clearance": (0.1, None)})
+    (row,) = limit_rows(near, design)
+    assert values["leg_clearance"] == pytest.approx(row.value, rel=1e-12)  # pairs with a joint in common do not count
+    assert row.value > 1.0
+
+
+def test_a_singularity_that_is_passed_is_no_rounding():
+    """The margin of a determinant is no share of its limit: 1e-6 of the limit may be missing, and not 1e-6."""
+    assert is_violated(-8.8e-7, "sign", 1e-7)
+    assert not is_violated(-0.9e-9, "sign", 1e-3)
+    assert is_violated(-1e-300, "sign", 0.0)
+    time = np.linspace(0.0, 1.0, 11)
+    margin = np.full(11, 1e-3)
+    margin[5] = -5e-7 - 1e-7
+    found = stretches("singularity_free", time, margin, margin, tolerance_of("sign", 1e-7))
+    assert len(found) == 1
 
 
 def test_no_text_has_an_exponent():

@@ -17,8 +17,9 @@ struct Evaluation {
   double characteristic_length;
   struct Margin {
     std::string name;
-    double value;  ///< 1 - value / high or value / low - 1; of a determinant value - low
+    double value;  ///< 1 - limited / high or limited / low - 1; of a determinant limited - low
     Eigen::VectorXd gradient;
+    double limited;  ///< what is limited, in the unit of the limit; its own digits where the margin has lost them
   };
   std::vector<Margin> margins;  ///< the smallest of each constraint
 };

@@ -16,6 +16,7 @@
 /// A joint at O has no direction from O, and a leg of zero length has no direction; "zero" means below the rounding of
 /// the coordinates. Such a row is zero and its mechanism counts as lost.
 
+#include <stop_token>
 #include <vector>
 
 #include "ninedof/kinematics/velocity.hpp"
@@ -100,11 +101,12 @@ struct NearestSingularity {
 
 /// The least of distance_to_singularity over poses and over directions of unit length.
 ///
-/// `directions` evenly spread ones and the axes are looked along from each pose. Then every direction that is the nearest
-/// of its neighbours, up to the best 24 of all poses, is turned to where the distance is least. A valley narrower than the first
-/// directions may be missed. The result does not depend on the number of threads.
-/// Throws InvalidArgument as distance_to_singularity does, and for no poses.
+/// `directions` evenly spread ones and the axes are looked along from each pose. Then every direction that is the
+/// nearest of its neighbours, up to the best 24 of all poses, is turned to where the distance is least. A valley
+/// narrower than the first directions may be missed. The result does not depend on the number of threads.
+/// Throws InvalidArgument as distance_to_singularity does, for no poses, and for a pose that has NaN. Throws Stopped.
 NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Configuration>& poses,
-                                       const Motions& motions, double most, int directions = 1000, int threads = 0);
+                                       const Motions& motions, double most, int directions = 1000, int threads = 0,
+                                       const std::stop_token& stop = {});
 
 }  // namespace ninedof

@@ -98,7 +98,7 @@ double PlacedPose::value(const Row& row) const {
 
 double PlacedPose::shown_margin(const Row& row, double margin) const {
   if (row.kind == Row::Kind::limit) return p_.shown_margin(row.item, margin).value;
-  if (goal_.ranges[at_index(row.range)].size > 0.0) return margin;
+  if (!goal_.ranges[at_index(row.range)].logarithm) return margin;
   return share_of_limit(row.kind == Row::Kind::longest ? Side::high : Side::low, margin).value;
 }
 

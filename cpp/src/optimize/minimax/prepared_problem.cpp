@@ -186,6 +186,13 @@ ShownMargin PreparedProblem::shown_margin(int k, double margin) const {
   return constraint < 0 ? share_of_limit(Side::high, margin) : constraints[at_index(constraint)]->shown(row, margin);
 }
 
+double PreparedProblem::limited_value(int k, double margin) const {
+  const auto [constraint, row] = margins[at_index(k)];
+  if (constraint < 0) return condition_limit(-1 - constraint) * std::exp(-margin);
+  const Constraint& c = *constraints[at_index(constraint)];
+  return c.value_at(c.side_of(row), margin);
+}
+
 double PreparedProblem::violation_factor(int k) const {
   const auto [constraint, row] = margins[at_index(k)];
   return constraint < 0 ? 1.0 : constraints[at_index(constraint)]->violation_factor(row);

@@ -60,6 +60,7 @@ struct PreparedProblem {
   const std::string& margin_name(int k) const;
   double margin_price(int k) const;
   ShownMargin shown_margin(int k, double margin) const;
+  double limited_value(int k, double margin) const;
   double violation_factor(int k) const;
   /// The state of the design at `y`, in solver coordinates.
   void set_state(const Eigen::VectorXd& y, DesignState& state) const;

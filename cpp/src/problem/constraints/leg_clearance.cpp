@@ -32,7 +32,8 @@ class LegClearance : public Constraint {
     return nearest(v.pose(first_pose(v) + item / leg_pairs).at, item % leg_pairs);
   }
   double value(const DesignState& v, Side, int item) const override {
-    if (share_joint_[at_index(item % leg_pairs)]) return exempt * limit().low;
+    if (share_joint_[at_index(item % leg_pairs)])
+      return never_least * std::max(limit().low, v.length(v.longest) / unit(v));
     return between_legs(v, item).apart.norm() / unit(v);
   }
   void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
@@ -50,7 +51,7 @@ class LegClearance : public Constraint {
     add_unit_gradient(v, -scale * distance / (u * u), out);
   }
 
-  static constexpr double exempt = 1e6;  ///< so many times the limit: never the least distance, in any unit
+  static constexpr double never_least = 1e6;  ///< so many times the limit and the longest leg: in any unit
   int poses_;
   std::array<bool, leg_pairs> share_joint_{};
 };

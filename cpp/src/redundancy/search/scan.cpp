@@ -109,7 +109,7 @@ void Scan::divide(double best) {
   std::erase_if(cells_, [&](const ScanCell& cell) { return !cell.may_hold(best); });
   if (cells_.size() > most_divided) {
     const auto lowest = [](const ScanCell& cell) { return cell.value < infinity ? cell.value - cell.drop : infinity; };
-    std::ranges::nth_element(cells_, cells_.begin() + most_divided, {}, lowest);
+    std::ranges::stable_sort(cells_, {}, lowest);  // not nth_element: cells of a symmetric robot tie
     cells_.resize(most_divided);
     complete_ = false;
   }

@@ -31,8 +31,12 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
   };
   const auto moves = [&](const Line& leg, double turned) {
     const double reach = chart.positional() ? std::abs(leg.k) * (chart.high() - chart.low()).norm() : turned;
-    return reach > idle_share * size_;
+    return reach > rounding_;
   };
+  for (const int leg : limited) line(leg, 1.0);  // for the size, before anything is compared with it
+  for (const Cones* body : cones)
+    for (int k = 0; k < legs_at_body; ++k) line(leg_at(body->of_platform(), k), sense_at(body->of_platform(), k));
+  rounding_ = 1e-12 * size_;
   for (const int leg : limited) {
     Leg one{line(leg, 1.0), limits.low[leg], limits.high[leg]};
     constant_.push_back(!moves(one, std::min(one.at[0].norm(), one.arm.norm())));
@@ -49,7 +53,6 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
       constant_.push_back(!(limits_it && moves(one, platform ? one.at[0].norm() : one.arm.norm())));
       if (!constant_.back()) cones_.push_back(std::move(one));
     }
-  rounding_ = 1e-12 * size_;
 }
 
 CellBounds::Range CellBounds::length(const Leg& leg, std::size_t r, const Vec3& centre, const Vec3& half) const {
