@@ -97,7 +97,7 @@ def _internal_point(chosen: Chosen, p: Floats, q: Floats, rule: str) -> Floats:
         if np.isnan(found.configuration.internal_point).any():
             raise ValueError(f"--internal-point: got best, but no place of O is the best there ({found.status})")
         return found.configuration.internal_point
-    given = numbers(rule)
+    given = numbers(rule.translate(str.maketrans("(),", "   ")))  # as poses are printed, too
     if len(given) == 3:
         return np.array(given)
     if len(given) != 1:

@@ -294,3 +294,69 @@ def test_what_is_printed_is_what_was_checked(tmp_path):
         "zs_fraction from 0.2 to 0.8",
         "leg_ratio from 0 to 3",
     )
+
+
+def one_leaf(variables, target, limits=(), left_out=()):
+    """A certificate whose tree says that lemma 9 alone leaves no design: nothing of a search is in it."""
+    family = "hexagonal" if "a1" in variables else "symmetric"
+    lines = [f"family {family}", f"target {written(target)}", "characteristic_length 0x1p+0"]
+    lines += [f"variable {name} {written(a)} {written(b)}" for name, (a, b) in variables.items()]
+    lines += [f"limit {name} {written(a)} {written(b)}" for name, (a, b) in limits]
+    lines += [f"left_out {name}" for name in left_out]
+    body = "\n".join(lines).encode() + b"\ntree 1\n\x10"
+    return f"{FIRST}{zlib.crc32(body):x}\n".encode() + body
+
+
+def written(x):
+    """As C++ writes it: hexadecimal, without zeros at its end."""
+    if math.isinf(x):
+        return "inf"
+    mantissa, power = float(x).hex().split("p")
+    return (mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa) + "p" + power
+
+
+HEXAGON = {"a1": (0, 0), "a2": (4, 5), "b1": (2, 3), "b2": (0, 0), "zp": (1, 9), "zs": (0.2, 8), "theta_z": (0, 0)}
+RADII = {
+    "base_external_radius": (1, 5),
+    "base_internal_radius": (1, 5),
+    "base_internal_angle": (0, 0),
+    "platform_external_radius": (1, 3),
+    "platform_external_angle": (0, 3),
+    "platform_internal_radius": (1, 3),
+    "platform_internal_angle": (0, 0),
+    "zp": (1, 9),
+    "zs": (0.2, 8),
+}
+FAR = (1e8, 1e50, 1e100, 1e155, 1e200, 1e308)
+NEAR = (1e-8, 1e-50, 1e-100, 1e-155, 1e-200, 5e-324)
+
+
+@pytest.mark.parametrize("plain", [HEXAGON, RADII], ids=["hexagonal", "symmetric"])
+def test_bounds_at_the_end_of_the_doubles_prove_nothing(plain, tmp_path):
+    """Products that leave the doubles turned the bounds of the angle over, and nothing seemed to be left.
+
+    Each study has designs of a condition number below 10: its bounds are those of `plain`, wider.
+    """
+    lengths = [name for name in plain if not name.endswith(("angle", "theta_z", "a1", "b2"))]
+    path = tmp_path / "forged.certificate"
+    for target in (10.0, 1000.0, 1e25, 1e100, 1e308):
+        for far in FAR:
+            for near in NEAR:
+                wide = {
+                    name: (near if name in ("zp", "zs") else a, far)
+                    for name, (a, _) in plain.items()
+                    if name in lengths
+                }
+                wide_zp = plain | {"zp": (near, plain["zp"][1])}
+                for variables in (plain | wide, wide_zp, plain | {lengths[0]: (plain[lengths[0]][0], far)}):
+                    path.write_bytes(one_leaf(variables, target))
+                    assert not nd.check_certificate(path).proved, (target, far, near)
+
+
+@pytest.mark.parametrize("name", ["nothing, all is proved", "", "leg_ratio at home", "LEG_RATIO"])
+def test_what_is_left_out_is_a_limit(name, tmp_path):
+    path = tmp_path / "forged.certificate"
+    path.write_bytes(one_leaf(HEXAGON, 2.0, left_out=[name]))
+    found = nd.check_certificate(path)
+    assert not found.proved
+    assert "limit" in found.words

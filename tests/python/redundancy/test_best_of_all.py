@@ -180,3 +180,24 @@ def test_no_point_is_better_than_the_best():
             assert not pose.sees(pose.middle, s[k], signs)
         compared += 1
     assert compared > size(5, 250)
+
+
+def test_what_enters_the_limits_keeps_the_clearance():
+    """A cell within the clearance was moved into the limits and counted, though it was still within the clearance."""
+    base, platform = 1.26180722, 0.6168353
+    side = np.sqrt(3.0) / 2.0
+    hexagon = np.array([[0.0, -1.0, 0.0], [-side, 0.5, 0.0], [side, 0.5, 0.0]])
+    upper = np.array([[side, -0.5, 0.0], [-side, -0.5, 0.0], [0.0, 1.0, 0.0]])
+    g = nd.Geometry(base * hexagon, base * hexagon, platform * upper, platform * upper[[1, 2, 0]])
+    q = [
+        [0.898433683, 0.407499019, 0.163589323],
+        [-0.395868512, 0.912865418, -0.099824098],
+        [-0.190013258, 0.02492547, 0.98146507],
+    ]
+    low = [2.11388393, 2.06415651, 2.07765409, 1.86695471, 1.78662826, 1.23270204, 2.19767095, 2.26973671, 2.57175028]
+    high = [8.45553573, 8.25662606, 8.31061635, 2.18075306, 2.6722648, 1.78873203, 3.10056626, 3.48397111, 3.39668756]
+    start = np.array([0.15479663, -0.19526778, 2.47957948])
+    p = [0.072983984, 0.844015405, 3.993819701]
+    best = nd.best_internal_point(g, p, q, "leg_centring", (low, high), start=start)
+    assert best.status == "found"
+    assert min(abs(x) for x in nd.singularity_margins(g, best.configuration)) > 0.01 - 1e-6

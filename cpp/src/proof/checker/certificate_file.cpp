@@ -77,6 +77,15 @@ Bound bound(const std::string& text) {
   return out;
 }
 
+/// The name of a limit, and perhaps where it holds: no other text is printed.
+std::string limit(const std::string& text) {
+  const std::string name = text.ends_with(" at neutral") ? text.substr(0, text.size() - 11) : text;
+  for (const char c : name)
+    if (c != '_' && (c < 'a' || c > 'z')) refuse(quoted(text) + " is no name of a limit");
+  if (name.empty()) refuse("a limit that is left out has no name");
+  return text;
+}
+
 }  // namespace
 
 Certificate read(const std::string& bytes) {
@@ -104,12 +113,12 @@ Certificate read(const std::string& bytes) {
     else if (key == "characteristic_length") out.length = number(value);
     else if (key == "variable") out.variables.push_back(bound(value));
     else if (key == "limit") out.limits.push_back(bound(value));
-    else if (key == "left_out") out.left_out.push_back(value);
+    else if (key == "left_out") out.left_out.push_back(limit(value));
     else if (key != "tree") refuse(quoted(key) + " means nothing");
   }
   out.tree = bytes.substr(at);
   if (bytes.substr(0, at) != written(out, body))
-    refuse("its lines are not written as the search writes them: each once, in order, numbers in one spelling");
+    refuse("its lines are not written as the search writes them: in order, numbers in one spelling");
   return out;
 }
 

@@ -4,6 +4,8 @@ namespace ninedof::checker {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+/// Of what a certificate may have: squares and most products stay among the doubles.
+constexpr double smallest_number = 1e-100, largest_number = 1e100;
 
 /// A little more than rounding can do to an angle of a few radians.
 Range blurred(double a, double b) {
@@ -60,6 +62,13 @@ Domain domain_of(const Certificate& c) {
     if (c.variables[k].name != names[k]) refuse("variable " + names[k] + " is missing");
   if (!(c.target > 1.0) || !(c.target < inf)) refuse("the target is not a finite number above 1");
   if (!(c.length > 0.0) || !(c.length < inf)) refuse("the characteristic length is not positive and finite");
+  const auto ordinary = [](double x) {
+    return x == 0.0 || std::isinf(x) || (std::abs(x) >= smallest_number && std::abs(x) <= largest_number);
+  };
+  for (const std::vector<Bound>& bounds : {c.variables, c.limits})
+    for (const auto& [name, range] : bounds)
+      if (!ordinary(range.a) || !ordinary(range.b)) refuse("a bound of " + name + " is not from 1e-100 to 1e100");
+  if (!ordinary(c.target) || !ordinary(c.length)) refuse("the target or the length is not from 1e-100 to 1e100");
   Domain d;
   d.target = c.target;
   Range angle;
@@ -110,7 +119,8 @@ Domain domain_of(const Certificate& c) {
   d.box[5] = hexagonal ? d.box[1] : d.R_internal / U;
   d.box[2] = d.zp / U;
   const double sine = (area / (Range(R.b) * U.b)).a;
-  d.box[4] = meet(half_tangent(angle), {0.5 * sine, (2.0 / Range(sine)).b});
+  // Where the least sine is lost in rounding, nothing is known of the angle.
+  d.box[4] = meet(half_tangent(angle), sine > 0.0 ? Range{0.5 * sine, (2.0 / Range(sine)).b} : Range{0.0, inf});
   const Range room = Range(d.target) * root(square(1.0 + Range(d.box[1].b)) + square(d.box[2].b));
   Range t = meet(d.fraction, d.zs / d.zp);
   t = meet(t, {(d.box[5].a / room).a, (1.0 - d.box[6].a / room).b});

@@ -151,7 +151,8 @@ AxisDomain axis_domain(const Problem& study, double target, std::vector<std::str
   const auto half_tangent = [](double c) { return sqrt((1.0 - Interval(c)) / (1.0 + Interval(c))); };
   d.box[at_angle] = left_of(
       {half_tangent(std::min(d.cosine.hi, 1.0)).lo, d.cosine.lo > -1.0 ? half_tangent(d.cosine.lo).hi : infinity},
-      {0.5 * least_sine, (2.0 / Interval(least_sine)).hi}, d.empty);
+      least_sine > 0.0 ? Interval(0.5 * least_sine, (2.0 / Interval(least_sine)).hi) : Interval(0.0, infinity),
+      d.empty);
 
   const Interval longest = sqrt(square(1.0 + Interval(d.box[at_ratio].hi)) + square(Interval(d.box[at_height].hi)));
   const Interval room = target * longest;

@@ -73,7 +73,9 @@ void add_valleys(const PoseObjective& objective, int n, Reach& reach, Minima& mi
     if (!cell.may_hold(minima.best()) || std::ranges::any_of(minima.found, is_of) || !reach.reaches(cell.x)) continue;
     if (tried++ == most_valleys) break;
     Vec3 x = cell.x;
-    if (objective.allows(x) || enter_limits(objective, x, minima)) minima.add(minimum_from(objective, x));
+    // Within the limits it may still be within the clearance.
+    if (objective.allows(x) || (enter_limits(objective, x, minima) && objective.allows(x)))
+      minima.add(minimum_from(objective, x));
   }
 }
 
