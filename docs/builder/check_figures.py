@@ -43,7 +43,7 @@ COMMAND = re.compile(r"^(?:\$ )?ninedof (.*)$", re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 OF_A_MACHINE = re.compile(r"\d(\.\d+)?e-1\d|\b\d+(\.\d+)? s\b")  # rounding and times
 FRAME = re.compile(r"[\s━─│┃┏┓┗┛┡┩└┘├┤┬┴┼╇╈┳┻╋]+")
-ORIGIN = re.compile(r"\b(measured|numerical|proved|certified|tests/|paper prints|published)", re.IGNORECASE)
+ORIGIN = re.compile(r"\bmeasured|\(numerical\)|tests/|bench/|paper prints", re.IGNORECASE)
 LONG = 5  # digits of a figure that is looked for
 
 RUN = """

@@ -97,7 +97,10 @@ class RegionReport:
         if not self.leg_ranges:
             return ""
         short, long = (f(x) for f, x in zip((min, max), zip(*self.leg_ranges, strict=True), strict=True))
-        return f"; placing O keeps every leg in a range of its own, {short:.6g} to {long:.6g} over all"
+        return (
+            f"; placing O is permitted leg lengths from {short:.6g} to {long:.6g}, in the unit of the study; "
+            "the sheet has those that the region needs"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""

@@ -34,10 +34,13 @@ class Met:
             return f"pose {self.listed} of the study" if self.listed else "the neutral pose"
         shift = ", ".join(f"{x:.5g}" for x in self.shift)
         said = [f"p shifted by {amount(f'({shift})', unit)}"]
-        turns = [self.tilt, (0.0, 0.0, self.yaw)] if any(self.tilt) else [(0.0, 0.0, self.yaw)]
-        for number, turn in enumerate(turn for turn in turns if any(turn)):
-            vector = ", ".join(f"{math.degrees(x) + 0.0:.4g}" for x in turn)
-            said.append(f"after ({vector})°" if number else f"turned ({vector})°")
+        vectors = [
+            "(" + ", ".join(f"{math.degrees(x) + 0.0:.4g}" for x in turn) + ")°"
+            for turn in (self.tilt, (0.0, 0.0, self.yaw))
+            if any(turn)
+        ]
+        if vectors:
+            said.append("turned " + " after ".join(vectors))
         return ", ".join(said)
 
 
