@@ -44,6 +44,7 @@ LONG = {
     "condition_number": "for_ever(lambda: nd.condition_number(g, many, 'optimal'))",
     "bounds": "for_ever(lambda: nd.condition_number_bounds(g, many))",
     "Configuration": "for_ever(lambda: nd.Configuration.neutral(3.9, np.linspace(2.0, 3.0, 3_000_000)))",
+    "nearest_singularity": "nd.nearest_singularity(g, many[:100_000])",
     "moved": "for_ever(lambda: many.moved(np.zeros(9)))",
     "trace": "for_ever(lambda: nd.trace(study, dict(zip(study.variables, study.problem().starts(1, 0)[0]))))",
 }
