@@ -151,7 +151,7 @@ def without_origin(text: str, known: list[str]) -> list[str]:
 def main(wanted: list[str]) -> int:
     """Check the pages that are named, or all; return 1 where a figure is wrong."""
     pages = {str(path.relative_to(DOCS)): path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))}
-    pages = {page: text for page, text in pages.items() if not page.startswith(("reference/", "gallery/"))}
+    pages = {page: text for page, text in pages.items() if not page.startswith(("reference/", "gallery/", "project/"))}
     pages["README.md"] = (ROOT / "README.md").read_text(encoding="utf-8")
     known = long_figures(pages["values.md"])
     for folder in ("tests", "bench", "examples"):
