@@ -168,14 +168,14 @@ RegionWorst search_region(const Problem& problem, const Region& region, const Ei
       for (Eigen::Index k = 0; k < size; ++k) least[cell].take(k, other[cell].value[k], other[cell].at[at_index(k)]);
 
   const Eigen::Index index = shape.margins();
-  const auto sampled = [&](Eigen::Index k) {
-    return std::ranges::min(least, {}, [k](const Least& l) { return l.value[k]; });
+  const auto sampled = [&](Eigen::Index k) -> const Least& {
+    return *std::ranges::min_element(least, {}, [k](const Least& l) { return l.value[k]; });
   };
   // The least margin is stated whatever it is.
   Eigen::Index tightest = -1;
   double tightest_margin = infinity;
   for (Eigen::Index k = 0; k < index; ++k) {
-    const Least at = sampled(k);
+    const Least& at = sampled(k);
     if (const double margin = shape.limit(k, at.value[k], at.at[at_index(k)]).margin; margin < tightest_margin) {
       tightest_margin = margin;
       tightest = k;

@@ -93,6 +93,11 @@ def shown_unit(name: str, limit: Limit, unit: str = "") -> str:
     return unit if plain else ""
 
 
+def kind_of(name: str) -> str:
+    """Return the kind of a limit by its row; "ratio" for one that is no constraint, whose margin is a share too."""
+    return ROWS[name].kind if name in ROWS else "ratio"
+
+
 def split_label(text: str) -> tuple[str, str]:
     """Return the name and the place of a label."""
     name, _, at = text.partition(" at ")

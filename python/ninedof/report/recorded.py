@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ninedof.design.limits import ROWS
+from ninedof.design.limits import kind_of
 from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
 from ninedof.report.markup import Html, Section, beside, facts, joined, paragraphs, table
@@ -62,8 +62,7 @@ def _of_motion(motion: dict[str, Any], record: Any, name: str, again: Section) -
     unit, kappa, near = record.asked.get("unit", ""), motion["condition_number"], motion["nearest_singularity"]
     broken = len(motion["breaks"])
     for limit in motion.get("limits", ()):
-        kind = ROWS[limit["name"]].kind if limit["name"] in ROWS else "ratio"
-        broken += is_violated(limit["margin"], kind, limit.get("limit", 0.0))
+        broken += is_violated(limit["margin"], kind_of(limit["name"]), limit.get("limit", 0.0))
     rows: list[tuple[object, object]] = [
         ("condition number, worst", f"{kappa['worst']:.4f} at t = {kappa['at']:.6g}"),
         ("at the start and at the end", f"{kappa['first']:.4f}, {kappa['last']:.4f}"),

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
-from ninedof.design.limits import ROWS
+from ninedof.design.limits import kind_of
 from ninedof.design.study import Study
 from ninedof.motion.followed import Followed, LimitBreak, stretches
 from ninedof.robot.configuration import Configuration, single
@@ -37,8 +37,7 @@ class PathLimits:
         """Stretches of time in which a limit is passed by more than 1e-6 of it; angles in radians."""
         found: list[LimitBreak] = []
         for one in self.limits:
-            kind = ROWS[one.name].kind if one.name in ROWS else "ratio"
-            tolerance = tolerance_of(kind, one.limit)
+            tolerance = tolerance_of(kind_of(one.name), one.limit)
             found += stretches(f"{one.label} {one.side}", self.time, one.value, one.margin, tolerance)
         return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
 

@@ -32,8 +32,8 @@ struct Leaf {
 Leaf leaf_of(const Cell& cell, const NinePoints& points, const CellLattice& lattice, const Margins& margins);
 
 /// Connected pieces of the allowed cells, largest first, or that with `home` first. Sets Leaf::piece, returns their
-/// volumes. Cells are connected if an allowed corner lies on the face they share. Nothing is connected with a home that is
-/// not allowed, though the cell around it may have allowed corners: the first piece is empty.
+/// volumes. Cells are connected if an allowed corner lies on the face they share. Nothing is connected with a home that
+/// is not allowed, though the cell around it may have allowed corners: the first piece is empty.
 /// Throws Stopped.
 std::vector<double> find_pieces(std::vector<Leaf>& leaves, int resolution, const Chart& chart,
                                 const std::optional<Vec3>& home, bool home_allowed = true,
