@@ -88,12 +88,11 @@ def _limits(name: str, given: Any) -> Mapping[str, Any] | list[Mapping[str, Any]
 def study_tables(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """Return the tables of a study file for the normalized arguments of a `Study`."""
     length = arguments["characteristic_length"]
+    length_entry = {"characteristic_length": list(length) if isinstance(length, tuple) else length}
+    silent = arguments["length_assumed"] and arguments["unit"]  # left out, so that a study read back says so again
     return {
         **unit_entry(arguments["unit"]),
-        "design": {
-            "family": arguments["family"],
-            "characteristic_length": list(length) if isinstance(length, tuple) else length,
-        },
+        "design": {"family": arguments["family"], **({} if silent else length_entry)},
         "variables": dict(_variable(arguments["family"], arguments["variables"])),
         "constraints": {name: limits.to_table(name, limit) for name, limit in arguments["constraints"].items()},
         "objective": arguments["objective"].to_dict(),

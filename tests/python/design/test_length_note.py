@@ -27,7 +27,9 @@ starts = 2
 
 def test_the_assumed_length_is_said_in_python():
     study = nd.Study(variables=SIDES, unit="mm", starts=2)
-    for same in (study, copy.copy(study), pickle.loads(pickle.dumps(study)), study.with_solver(3)):
+    read_again = nd.Study.from_dict(study.to_dict())
+    assert read_again == study
+    for same in (study, copy.copy(study), pickle.loads(pickle.dumps(study)), study.with_solver(3), read_again):
         assert same.length_note.startswith("characteristic_length is not given: 1 mm assumed")
     with pytest.warns(UserWarning, match="characteristic_length is not given: 1 mm assumed"):
         poor = nd.optimize(study)
@@ -44,7 +46,7 @@ def test_nothing_is_said_of_a_length_that_was_given_or_has_no_unit():
             nd.Study(variables=SIDES, starts=2),
             nd.Study(variables=SIDES, starts=2, unit="m", characteristic_length=1.0),
             nd.Study(variables=SIDES, starts=2, unit="mm", characteristic_length="optimal"),
-            nd.Study.from_dict(nd.Study(variables=SIDES, starts=2, unit="mm").to_dict()),
+            nd.Study.from_dict(nd.Study(variables=SIDES, starts=2, unit="mm", characteristic_length=1.0).to_dict()),
         ):
             assert study.length_note == ""
             nd.optimize(study)

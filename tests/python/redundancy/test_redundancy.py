@@ -195,13 +195,14 @@ def test_scale_stacks_and_threads(published, criterion):
 
 def test_the_singularity_value_is_the_least_margin():
     """One definition of the determinants in the criterion and in the report; O keeps off the external joints."""
-    rng = np.random.default_rng(9)
+    rng, compared = np.random.default_rng(9), 0
     for k in range(size(30, 300)):
         g, p, q = random_case(rng, k % 2 == 0)
         best = nd.best_internal_point(g, p, q, criterion="singularity")
         if best.status != "found":
             assert set(best.active) <= {f"{leg} low" for leg in ("q1", "q2", "q3", "r1", "r2", "r3")}
             continue
+        compared += 1
         margins = nd.singularity_margins(g, best.configuration)
         assert_allclose(best.value, np.min(np.abs(margins)), rtol=1e-12)
         external = np.concatenate([g.base_external, p + g.platform_external @ q.T])
@@ -209,6 +210,30 @@ def test_the_singularity_value_is_the_least_margin():
         away = np.linalg.norm(external - best.configuration.internal_point, axis=1).min()
         robot = np.linalg.norm(joints - joints.mean(axis=0), axis=1).max()
         assert away > 0.05 * robot * (1.0 - 1e-6)
+    assert compared >= size(25, 250)
+
+
+def test_a_maximum_just_beside_a_joint_is_found():
+    """It was passed on the way into the joint, and the answer was "unbounded", without a point."""
+    g = nd.Geometry(
+        [[0.395, 2.326, -0.586], [-0.277, -2.117, -0.483], [1.063, -0.293, 0.008]],
+        [[-0.036, 1.268, -0.04], [-0.216, -0.898, -0.587], [-0.323, -1.422, -0.522]],
+        [[-1.497, 1.078, 0.003], [-1.192, -1.017, 0.275], [-0.324, -1.502, 0.013]],
+        [[0.349, 0.731, 0.316], [-0.094, -1.023, 0.619], [1.4, -0.605, -0.094]],
+    )
+    p, q = np.array([0.664, 0.616, 2.274]), Rotation.from_rotvec([-0.219, 0.219, -0.11]).as_matrix()
+    best = nd.best_internal_point(g, p, q, criterion="singularity")
+    assert best.status == "found"
+    s, joint = best.configuration.internal_point, g.base_internal[1]
+    directions = np.random.default_rng(0).normal(size=(20_000, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    sides = np.sign(nd.singularity_margins(g, best.configuration))
+    for middle, radius in ((joint, 1e-6), (s, 0.02), (s, 1e-4)):
+        around = nd.Configuration(p, q, middle + radius * directions)
+        margins = np.stack(nd.singularity_margins(g, around), axis=-1)
+        inside = (np.sign(margins) == sides).all(axis=-1)
+        assert inside.any()
+        assert np.abs(margins[inside]).min(axis=-1).max() < best.value
 
 
 def test_a_start_within_the_clearance_is_not_singular(published):

@@ -21,6 +21,7 @@ constexpr double same = 1e-2;  // greatest distance of two ends of coarse descen
 constexpr std::size_t most_starts = 8, limit_starts = 6;
 constexpr double beside_joint = 1e-2;  // distance of the starts beside an internal joint
 constexpr int around_joint = 128;  // directions there
+constexpr std::array before_joint{5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2, 3.2e-2};  // distances of starts that leave it
 constexpr int points_of_scan = 20;  // along each axis
 constexpr double hopeless = 0.5;  // coarse descents that end this much above the best are abandoned
 
@@ -115,6 +116,19 @@ class Search {
     }
   }
 
+  /// Where the best end is a joint, looks for a better one beside it: a crease of the criterion that leads into the joint
+  /// may have its lowest point so near that the coarse descents pass it.
+  void search_before_joint() {
+    if (minima_.found.empty()) return;
+    const LocalMinimum best = *std::ranges::min_element(minima_.found, {}, &LocalMinimum::value);
+    if (best.ending != Ending::in_joint || best.leg < 0) return;
+    const Vec3 joint = pose_.joint(best.leg), way = (best.x - joint).normalized();
+    for (const double distance : before_joint) {
+      const Vec3 x = joint + distance * way;
+      if (objective_.allows(x) && reach_.reaches(x)) minima_.add(minimum_from(objective_, x));
+    }
+  }
+
   /// The start is a candidate as well: the answer is never worse.
   void descend_from_start(const Vec3& start) {
     if (!objective_.allows(start)) return;
@@ -191,6 +205,7 @@ Minima local_minima(const PoseObjective& objective, const Vec3& start) {
   search.descend_from_start(start);
   search.descend_into_joints();
   search.scan_chamber();
+  search.search_before_joint();
   return search.finish();
 }
 

@@ -52,18 +52,18 @@ def evaluate(
     table.add_column(justify="right")
     for name, index in computed().items():
         if name in values and name not in ("singular_values", "leg_lengths"):
-            table.add_row(index.words, "  ".join(f"{value:.6f}" for value in np.atleast_1d(values[name])))
+            table.add_row(index.words, "  ".join(map(_digits, np.atleast_1d(values[name]))))
     length = with_unit("characteristic length", given.unit)
-    table.add_row(length, f"{values['characteristic_length']:.6f}", end_section=True)
+    table.add_row(length, _digits(values["characteristic_length"]), end_section=True)
     for k, value in enumerate(values["singular_values"]):
-        table.add_row(f"singular value {k + 1} of J'", f"{value:.6f}", end_section=k == 5)
+        table.add_row(f"singular value {k + 1} of J'", _digits(value), end_section=k == 5)
     for kind, lengths in values["leg_lengths"].items():
-        table.add_row(with_unit(f"legs {kind}1 {kind}2 {kind}3", given.unit), "  ".join(f"{v:.6f}" for v in lengths))
+        table.add_row(with_unit(f"legs {kind}1 {kind}2 {kind}3", given.unit), "  ".join(map(_digits, lengths)))
     table.add_section()
     for kind, found in values["characteristic_lengths"].items():
         if math.isfinite(found["length"]):
-            length = amount(f"{found['length']:.6f}", given.unit)
-            table.add_row(f"at the {kind} length {length}", f"k = {found['condition_number']:.6f}")
+            length = amount(_digits(found["length"]), given.unit)
+            table.add_row(f"at the {kind} length {length}", f"k = {_digits(found['condition_number'])}")
     screen.print(table)
     if values["singular"]:
         screen.print("This configuration is singular: the platform or O can move with all legs locked.")
@@ -78,3 +78,8 @@ def evaluate(
             screen.print(limits_table(found))
         values |= {"sheet": found.to_dict()}
     screen.data(values)
+
+
+def _digits(value: float) -> str:
+    """Return six decimals, and of what is smaller than 1e-3 six figures."""
+    return f"{value:.6f}" if value == 0.0 or abs(value) >= 1e-3 else f"{value:.6g}"
