@@ -12,10 +12,11 @@
 
 using namespace ninedof::over_region;
 using ninedof::PointRule;
+using ninedof::PoseForm;
 
 namespace {
 
-using Numbers = std::array<long double, form_size>;
+using Numbers = std::array<long double, PoseForm::size>;
 
 /// A rule of a random number of terms up to a degree, in no order and with terms missing.
 PointRule random_rule(std::mt19937_64& random, int degree) {
@@ -24,9 +25,9 @@ PointRule random_rule(std::mt19937_64& random, int degree) {
   for (double& x : out.scale) x = std::exp2(std::round(8.0 * any(random)));
   const int terms = 1 + static_cast<int>(random() % 40);
   for (int n = 0; n < terms; ++n) {
-    std::array<int, form_size> powers{};
+    std::array<int, PoseForm::size> powers{};
     for (int k = 0; k < degree; ++k)
-      if (any(random) > -0.3) ++powers[random() % form_size];
+      if (any(random) > -0.3) ++powers[random() % PoseForm::size];
     if (std::ranges::find(out.powers, powers) != out.powers.end()) continue;
     out.powers.push_back(powers);
     out.coefficients.push_back(ninedof::Vec3(any(random), 1e3 * any(random), 1e-3 * any(random)));
@@ -38,7 +39,7 @@ std::array<long double, 3> exact(const PointRule& rule, const Numbers& at) {
   std::array<long double, 3> out{};
   for (std::size_t n = 0; n < rule.powers.size(); ++n) {
     long double product = 1.0L;
-    for (std::size_t k = 0; k < form_size; ++k)
+    for (std::size_t k = 0; k < PoseForm::size; ++k)
       product *= std::pow(at[k] / rule.scale[static_cast<Eigen::Index>(k)], rule.powers[n][k]);
     for (std::size_t i = 0; i < 3; ++i) out[i] += product * rule.coefficients[n][static_cast<Eigen::Index>(i)];
   }
@@ -55,15 +56,15 @@ TEST_SUITE("region_rule") {
       const PointRule rule = random_rule(random, trial % 7);
       const RuleForms forms(rule);
       const double size = trial % 5 == 0 ? 0.0 : std::exp(10.0 * any(random) - 10.0);
-      std::array<Form, form_size> at;
+      std::array<PoseForm, PoseForm::size> at;
       Numbers value;
-      std::array<double, form_size> t;
+      std::array<double, PoseForm::size> t;
       const bool path = trial % 4 == 1;  // the first three coordinates go along one direction
-      for (std::size_t k = 0; k < form_size; ++k) {
+      for (std::size_t k = 0; k < PoseForm::size; ++k) {
         const double scale = rule.scale[static_cast<Eigen::Index>(k)];
         const double low = scale * any(random), high = low + scale * size * std::abs(any(random));
         t[k] = trial % 3 == 0 ? std::copysign(1.0, any(random)) : any(random);
-        at[k] = Form::coordinate(low, high, k);
+        at[k] = PoseForm::coordinate(low, high, k);
         value[k] = 0.5L * (static_cast<long double>(low) + high) + 0.5L * (static_cast<long double>(high) - low) * t[k];
         if (path && (k == 1 || k == 2)) {
           const double slope = any(random);
@@ -71,12 +72,12 @@ TEST_SUITE("region_rule") {
           value[k] = low + slope * value[0];
         }
       }
-      const ninedof::Xyz<Form> found = forms.shift(at);
+      const ninedof::Xyz<PoseForm> found = forms.shift(at);
       const std::array<long double, 3> wanted = exact(rule, value);
       for (std::size_t i = 0; i < 3; ++i) {
-        const Form& form = i == 0 ? found.x : i == 1 ? found.y : found.z;
+        const PoseForm& form = i == 0 ? found.x : i == 1 ? found.y : found.z;
         long double linear = form.c;
-        for (std::size_t k = 0; k < form_size; ++k) linear += static_cast<long double>(form.a[k]) * t[k];
+        for (std::size_t k = 0; k < PoseForm::size; ++k) linear += static_cast<long double>(form.a[k]) * t[k];
         CHECK(std::abs(wanted[i] - linear) <= form.r);
         CHECK(lower(form) <= wanted[i]);
         CHECK(wanted[i] <= upper(form));
@@ -103,8 +104,8 @@ TEST_SUITE("region_rule") {
     }
     const RuleForms forms(rule);
     const auto error = [&](double half) {
-      std::array<Form, form_size> at;
-      for (std::size_t k = 0; k < 2; ++k) at[k] = Form::coordinate(0.5 - half, 0.5 + half, k);
+      std::array<PoseForm, PoseForm::size> at;
+      for (std::size_t k = 0; k < 2; ++k) at[k] = PoseForm::coordinate(0.5 - half, 0.5 + half, k);
       return forms.shift(at).x.r;
     };
     CHECK(error(0.1) == doctest::Approx(8e-3));  // (2 half)^3

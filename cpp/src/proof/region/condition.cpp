@@ -6,11 +6,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "conditioning/forms/gram.hpp"
 #include "math/numbers.hpp"
 #include "math/splitmix.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
-#include "proof/region/gram.hpp"
+#include "proof/region/pose.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -26,8 +27,10 @@ struct Met {
 };
 
 double condition_at(const Domain& domain, const Box& point) {
-  Slopes unused;
-  return condition_attained(gram(domain.machine(), domain.pose(point), unused));
+  const PosedRobot& machine = domain.machine();
+  Moves unused;
+  return forms::condition_attained(
+      forms::gram(machine.geometry, machine.characteristic_length, domain.pose(point), unused));
 }
 
 /// Moves one coordinate after another while the condition number grows.
@@ -36,7 +39,7 @@ Met climbed(const Domain& domain, const Box& root, Met met) {
     bool better = true;
     while (better) {
       better = false;
-      for (std::size_t k = 0; k < form_size; ++k)
+      for (std::size_t k = 0; k < PoseForm::size; ++k)
         for (const double way : {-step, step}) {
           Box next = met.at;
           const double x = std::clamp(next.low[k] + way * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
@@ -64,10 +67,10 @@ Met searched(const Domain& domain, int threads) {
     Met& met = best[static_cast<std::size_t>(n)];
     for (std::uint64_t sample = 0; sample < samples; ++sample) {
       Box at = root;
-      for (std::size_t k = 0; k < form_size; ++k) {
-        const double part =
-            std::clamp(1.5 * uniform_from(stream(static_cast<std::uint64_t>(n), sample * form_size + k)) - 0.25, 0.0,
-                       1.0);  // a good part on the boundary
+      for (std::size_t k = 0; k < PoseForm::size; ++k) {
+        const double part = std::clamp(
+            1.5 * uniform_from(stream(static_cast<std::uint64_t>(n), sample * PoseForm::size + k)) - 0.25, 0.0,
+            1.0);  // a good part on the boundary
         at.low[k] = at.high[k] =
             std::clamp(root.low[k] + part * (root.high[k] - root.low[k]), root.low[k], root.high[k]);
       }
@@ -97,7 +100,7 @@ struct Looked {
 void require_part(const Domain& domain, const Box& box) {
   const bool part = std::ranges::any_of(domain.roots(), [&](const Box& root) {
     if (root.piece != box.piece) return false;
-    for (std::size_t k = 0; k < form_size; ++k)
+    for (std::size_t k = 0; k < PoseForm::size; ++k)
       if (!(root.low[k] <= box.low[k] && box.low[k] <= box.high[k] && box.high[k] <= root.high[k])) return false;
     return true;
   });
@@ -110,10 +113,12 @@ Looked look(const Domain& domain, const Box& box, double condition) {
     out.proved = true;
     return out;
   }
-  Slopes moves;
-  out.proved = bounded(split_gram(domain.machine(), domain.pose(box), moves), condition);
+  Moves moves;
+  const PosedRobot& machine = domain.machine();
+  out.proved = forms::bounded(
+      forms::split_gram(machine.geometry, machine.characteristic_length, domain.pose(box), moves), condition);
   if (out.proved) return out;
-  out.divide = divided_coordinate(box, moves.moves);
+  out.divide = divided_coordinate(box, moves.along);
   out.met = condition_at(domain, domain.nearest(middle_of(box)));
   return out;
 }
@@ -136,8 +141,8 @@ WorstCondition worst_condition(const PosedRobot& machine, const ProofSettings& s
     for (const auto& row : from) {
       Box box;
       box.piece = std::abs(row[0]) < 1e9 ? static_cast<int>(row[0]) : std::numeric_limits<int>::max();
-      std::copy_n(row.begin() + 1, form_size, box.low.begin());
-      std::copy_n(row.begin() + 7, form_size, box.high.begin());
+      std::copy_n(row.begin() + 1, PoseForm::size, box.low.begin());
+      std::copy_n(row.begin() + 7, PoseForm::size, box.high.begin());
       require_part(domain, box);
       boxes.push_back(box);
     }

@@ -69,7 +69,7 @@ class Climb {
       met_ = value;
       at_ = point;
     }
-    open_.push({bound, box, divided_coordinate(box, slopes.moves)});
+    open_.push({bound, box, divided_coordinate(box, slopes.moves.along)});
   }
 
   const Domain& domain_;

@@ -9,10 +9,10 @@ namespace ninedof::over_region {
 namespace {
 
 /// Rows of exp of the rotation vector (x, y, 0).
-std::array<Vector, 3> tilted(const Form& x, const Form& y) {
-  const Form xx = x * x, yy = y * y, u = xx + yy;
-  const Form s = sine_over(u), k = one_minus_cosine_over(u), mixed = k * (x * y), sx = s * x, sy = s * y;
-  return {Vector{1.0 - k * yy, mixed, sy}, Vector{mixed, 1.0 - k * xx, -sx}, Vector{-sy, sx, 1.0 - k * u}};
+std::array<FormVector, 3> tilted(const PoseForm& x, const PoseForm& y) {
+  const PoseForm xx = x * x, yy = y * y, u = xx + yy;
+  const PoseForm s = sine_over(u), k = one_minus_cosine_over(u), mixed = k * (x * y), sx = s * x, sy = s * y;
+  return {FormVector{1.0 - k * yy, mixed, sy}, FormVector{mixed, 1.0 - k * xx, -sx}, FormVector{-sy, sx, 1.0 - k * u}};
 }
 
 /// Bounds of the length of a vector of coordinates in a box; rounding is far below what `slack` allows.
@@ -28,30 +28,12 @@ double least_length(const Box& box, const Disc& disc) {
 
 }  // namespace
 
-std::array<Vector, 3> rotation_columns(const Mat3& q) {
-  // A matrix with the singular values x is within max |x - 1| <= max |x^2 - 1| of its rotation, and that is at most
-  // three times the greatest entry of Q^T Q - 1, itself rounded by less than 2^-50.
-  const double defect = (q.transpose() * q - Mat3::Identity()).cwiseAbs().maxCoeff();
-  const double error = 0x1p-49 + 3.0 * (1.0 + 0x1p-40) * defect;
-  const auto entry = [&](Eigen::Index i, Eigen::Index j) {
-    Form out(q(i, j));
-    out.r = error;
-    return out;
-  };
-  std::array<Vector, 3> out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto col = static_cast<Eigen::Index>(k);
-    out[k] = {entry(0, col), entry(1, col), entry(2, col)};
-  }
-  return out;
-}
-
 Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rule.begin(), machine.rule.end()) {
   if (!machine.region.empty()) {
     const Region& region = machine.region.front();
     Box box;
     const Vec6 reach = region.reach();
-    for (std::size_t k = 0; k < form_size; ++k) {
+    for (std::size_t k = 0; k < PoseForm::size; ++k) {
       box.high[k] = reach[static_cast<Eigen::Index>(k)];
       box.low[k] = -box.high[k];
     }
@@ -73,29 +55,30 @@ Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rul
 FormPose Domain::pose(const Box& box) const {
   if (box.piece < 0) {
     const Configuration& c = machine_.poses[static_cast<std::size_t>(-1 - box.piece)];
-    return {fixed(c.position), fixed(c.internal_point), rotation_columns(c.rotation)};
+    return form_pose(c);
   }
-  std::array<Form, form_size> x;
-  for (std::size_t k = 0; k < form_size; ++k) x[k] = Form::coordinate(box.low[k], box.high[k], k);
+  std::array<PoseForm, PoseForm::size> x;
+  for (std::size_t k = 0; k < PoseForm::size; ++k) x[k] = PoseForm::coordinate(box.low[k], box.high[k], k);
   const Region& region = machine_.region.front();
   const Configuration& neutral = machine_.neutral;
-  Vector moved{x[0], x[1], x[2]};
+  FormVector moved{x[0], x[1], x[2]};
   if (region.shape == Region::Shape::path) {
     const auto k = static_cast<std::size_t>(box.piece);
-    const Vector from = fixed(region.corners[k]), to = fixed(region.corners[k + 1]);
+    const FormVector from = constant<PoseForm>(region.corners[k]), to = constant<PoseForm>(region.corners[k + 1]);
     moved = from + x[0] * (to - from);
   }
   if (region.in_zp) moved = neutral.position.z() * moved;
-  FormPose out{fixed(neutral.position) + moved, fixed(neutral.internal_point), rotation_columns(neutral.rotation)};
+  FormPose out{constant<PoseForm>(neutral.position) + moved, constant<PoseForm>(neutral.internal_point),
+               rotation_columns(neutral.rotation)};
   if (!rule_.empty()) out.s = out.s + rule_.front().shift({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
   else if (region.shifted) out.s = out.s + moved;
   if (region.yaw > 0.0) {
-    const Form c = cos(x[5]), s = sin(x[5]);
-    for (Vector& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+    const PoseForm c = cos(x[5]), s = sin(x[5]);
+    for (FormVector& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
   }
   if (region.tilt > 0.0) {
-    const std::array<Vector, 3> rows = tilted(x[3], x[4]);
-    for (Vector& v : out.q) v = {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+    const std::array<FormVector, 3> rows = tilted(x[3], x[4]);
+    for (FormVector& v : out.q) v = {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
   }
   return out;
 }
@@ -139,7 +122,7 @@ struct Plane {
   std::array<double, 3> slope{};
   double length = 0.0, from_middle = 0.0, size = 0.0;
 };
-Plane plane(const std::array<double, form_size>& a, const Box& box, const Disc& disc) {
+Plane plane(const std::array<double, PoseForm::size>& a, const Box& box, const Disc& disc) {
   Plane out;
   double sum = 0.0;
   for (std::size_t n = 0; n < disc.count; ++n) {
@@ -158,7 +141,7 @@ Plane plane(const std::array<double, form_size>& a, const Box& box, const Disc& 
 
 }  // namespace
 
-double Domain::greatest(const Form& f, const Box& box) const {
+double Domain::greatest(const PoseForm& f, const Box& box) const {
   double most = upper(f);
   if (!cut(box) || !(most < infinity)) return most;
   for (const Disc& disc : discs_) {
@@ -177,7 +160,7 @@ double Domain::greatest(const Form& f, const Box& box) const {
   return most + 0x1p-46 * std::abs(most);
 }
 
-Box Domain::towards(const std::array<double, form_size>& slope, const Box& box) const {
+Box Domain::towards(const std::array<double, PoseForm::size>& slope, const Box& box) const {
   Box out = corner_of(box, slope);
   if (!cut(box)) return out;
   for (const Disc& disc : discs_) {
@@ -195,7 +178,7 @@ Box Domain::towards(const std::array<double, form_size>& slope, const Box& box) 
   return nearest(out);
 }
 
-int divided_coordinate(const Box& box, const std::array<double, form_size>& moves) {
+int divided_coordinate(const Box& box, const std::array<double, PoseForm::size>& moves) {
   const auto most = std::max_element(moves.begin(), moves.end());
   const auto k = static_cast<std::size_t>(most - moves.begin());
   const double middle = 0.5 * (box.low[k] + box.high[k]);
@@ -213,9 +196,9 @@ Box middle_of(const Box& box) {
   return corner_of(box, {});
 }
 
-Box corner_of(const Box& box, const std::array<double, form_size>& side) {
+Box corner_of(const Box& box, const std::array<double, PoseForm::size>& side) {
   Box out = box;
-  for (std::size_t k = 0; k < form_size; ++k) {
+  for (std::size_t k = 0; k < PoseForm::size; ++k) {
     const double x = side[k] > 0.0 ? box.high[k] : side[k] < 0.0 ? box.low[k] : 0.5 * (box.low[k] + box.high[k]);
     out.low[k] = out.high[k] = x;
   }

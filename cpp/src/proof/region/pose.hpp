@@ -8,36 +8,16 @@
 #include <array>
 #include <vector>
 
-#include "ninedof/math/xyz.hpp"
 #include "ninedof/proof/machine.hpp"
-#include "proof/region/form.hpp"
 #include "proof/region/rule.hpp"
+#include "robot/pose_of.hpp"
 
 namespace ninedof::over_region {
 
-using Vector = Xyz<Form>;
-
 struct Box {
   int piece = 0;
-  std::array<double, form_size> low{}, high{};
+  std::array<double, PoseForm::size> low{}, high{};
 };
-
-/// p, s, Q by columns.
-struct FormPose {
-  Vector p, s;
-  std::array<Vector, 3> q;
-};
-
-inline Vector turned(const FormPose& pose, const Vec3& body) {
-  return body.x() * pose.q[0] + body.y() * pose.q[1] + body.z() * pose.q[2];
-}
-inline Vector fixed(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// The columns of a rotation matrix of doubles, and of the rotation next to it: matrices may come from elsewhere, with
-/// fewer digits.
-std::array<Vector, 3> rotation_columns(const Mat3& q);
 
 /// Coordinates whose vector has at most a given length.
 struct Disc {
@@ -58,9 +38,9 @@ class Domain {
   /// The nearest pose of the domain to a point.
   Box nearest(Box point) const;
   /// At least the values of a form at the poses of the domain in a box.
-  double greatest(const Form& f, const Box& box) const;
+  double greatest(const PoseForm& f, const Box& box) const;
   /// A pose where it is large, in the box or near it.
-  Box towards(const std::array<double, form_size>& slope, const Box& box) const;
+  Box towards(const std::array<double, PoseForm::size>& slope, const Box& box) const;
 
  private:
   bool cut(const Box& box) const { return box.piece >= 0 && !discs_.empty(); }
@@ -72,11 +52,11 @@ class Domain {
 };
 
 /// The coordinate that moves something most within the box; -1 where a box cannot be divided.
-int divided_coordinate(const Box& box, const std::array<double, form_size>& moves);
+int divided_coordinate(const Box& box, const std::array<double, PoseForm::size>& moves);
 /// The two halves of a box.
 std::array<Box, 2> halves(const Box& box, int coordinate);
 /// The middle, or a corner, of a box, as a box of one point; `side` has the signs of the corner.
 Box middle_of(const Box& box);
-Box corner_of(const Box& box, const std::array<double, form_size>& side);
+Box corner_of(const Box& box, const std::array<double, PoseForm::size>& side);
 
 }  // namespace ninedof::over_region

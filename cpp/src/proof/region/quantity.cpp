@@ -16,7 +16,7 @@ class Smooth : public Quantity {
  public:
   explicit Smooth(bool greatest) : sign_(greatest ? 1.0 : -1.0) {}
   double bound(const Domain& domain, const Box& box, Slopes& slopes) const override {
-    const Form f = sign_ * form(domain.pose(box), slopes);
+    const PoseForm f = sign_ * form(domain.pose(box), slopes);
     slopes.slope = f.a;
     return domain.greatest(f, box);
   }
@@ -27,21 +27,21 @@ class Smooth : public Quantity {
   Interval number(const Interval& value) const override { return plain(sign_ > 0.0 ? value : -value); }
 
  private:
-  virtual Form form(const FormPose& pose, Slopes& slopes) const = 0;
+  virtual PoseForm form(const FormPose& pose, Slopes& slopes) const = 0;
   virtual Interval plain(const Interval& value) const { return value; }
   double sign_;
 };
 
-Vector leg(const Geometry& g, const FormPose& pose, int k) {
-  const Ends e = ends_of(g, pose, k);
+FormVector leg(const Geometry& g, const FormPose& pose, int k) {
+  const FormEnds e = ends_of(g, pose, k);
   return e.to - e.from;
 }
 
-Vec3 centre(const Vector& v) {
+Vec3 middle_of_vector(const FormVector& v) {
   return {v.x.c, v.y.c, v.z.c};
 }
 
-Vector unit(const Vector& v) {
+FormVector unit(const FormVector& v) {
   return inverse_root(dot(v, v)) * v;
 }
 
@@ -50,9 +50,9 @@ class LegSquared : public Smooth {
   LegSquared(const Geometry& g, int k, bool greatest) : Smooth(greatest), g_(g), k_(k) {}
 
  private:
-  Form form(const FormPose& pose, Slopes& slopes) const override {
-    const Vector v = leg(g_, pose, k_);
-    slopes.add(v);
+  PoseForm form(const FormPose& pose, Slopes& slopes) const override {
+    const FormVector v = leg(g_, pose, k_);
+    slopes.moves.add(v);
     return dot(v, v);
   }
   Interval plain(const Interval& squared) const override { return sqrt(squared); }
@@ -67,22 +67,22 @@ class ConeCosine : public Smooth {
   ConeCosine(const PosedRobot& m, int k, bool platform, const Vec3& axis, bool greatest)
       : Smooth(!greatest), g_(m.geometry), k_(leg_at(platform, k)), platform_(platform), sense_(sense_at(platform, k)) {
     if (axis.isZero(0.0)) {
-      const FormPose neutral{fixed(m.neutral.position), fixed(m.neutral.internal_point),
+      const FormPose neutral{constant<PoseForm>(m.neutral.position), constant<PoseForm>(m.neutral.internal_point),
                              rotation_columns(m.neutral.rotation)};
-      const Vector along = sense_ * leg(g_, neutral, k_);
-      axis_ =
-          unit(platform ? Vector{dot(neutral.q[0], along), dot(neutral.q[1], along), dot(neutral.q[2], along)} : along);
+      const FormVector along = sense_ * leg(g_, neutral, k_);
+      axis_ = unit(platform ? FormVector{dot(neutral.q[0], along), dot(neutral.q[1], along), dot(neutral.q[2], along)}
+                            : along);
     } else {
-      axis_ = unit(fixed(axis));
+      axis_ = unit(constant<PoseForm>(axis));
     }
   }
 
  private:
-  Form form(const FormPose& pose, Slopes& slopes) const override {
-    const Vector v = leg(g_, pose, k_), along = unit(v);
-    slopes.add(v);
-    const Vector axis = platform_ ? axis_.x * pose.q[0] + axis_.y * pose.q[1] + axis_.z * pose.q[2] : axis_;
-    slopes.add(axis, centre(v).norm());
+  PoseForm form(const FormPose& pose, Slopes& slopes) const override {
+    const FormVector v = leg(g_, pose, k_), along = unit(v);
+    slopes.moves.add(v);
+    const FormVector axis = platform_ ? axis_.x * pose.q[0] + axis_.y * pose.q[1] + axis_.z * pose.q[2] : axis_;
+    slopes.moves.add(axis, middle_of_vector(v).norm());
     return sense_ * dot(along, axis);
   }
   /// Of a cosine; acos of the C library is within two units in the last place.
@@ -95,7 +95,7 @@ class ConeCosine : public Smooth {
   int k_;
   bool platform_;
   double sense_;
-  Vector axis_;
+  FormVector axis_;
 };
 
 /// Rows of unit length at most, as in unit_rows.hpp.
@@ -108,17 +108,17 @@ class Determinant : public Smooth {
   }
 
  private:
-  Vector row(const FormPose& pose, int k, Slopes& slopes) const {
-    const auto towards = [&](const Vector& v) {
-      slopes.add(v);
+  FormVector row(const FormPose& pose, int k, Slopes& slopes) const {
+    const auto towards = [&](const FormVector& v) {
+      slopes.moves.add(v);
       return unit(v);
     };
     if (which_ > 0) return towards(leg(g_, pose, k + (which_ == 1 ? 6 : 3)));
-    const Ends e = ends_of(g_, pose, k);
+    const FormEnds e = ends_of(g_, pose, k);
     return cross(towards(e.from - pose.s), towards(e.to - pose.s));
   }
-  Form form(const FormPose& pose, Slopes& slopes) const override {
-    const Vector first = row(pose, 0, slopes), second = row(pose, 1, slopes), third = row(pose, 2, slopes);
+  PoseForm form(const FormPose& pose, Slopes& slopes) const override {
+    const FormVector first = row(pose, 0, slopes), second = row(pose, 1, slopes), third = row(pose, 2, slopes);
     return side_ * dot(first, cross(second, third));
   }
 
@@ -138,27 +138,29 @@ class Clearance : public Quantity {
     const double distance = apart.norm();
     if (!(distance > 0.0)) return 0.0;
     const Vec3 n = apart / (distance * (1.0 + 0x1p-48));  // of length at most 1
-    const Vector along = fixed(n);
+    const FormVector along = constant<PoseForm>(n);
     double out = -infinity;
-    for (const Vector* x : {&one.from, &one.to})
-      for (const Vector* y : {&two.from, &two.to}) {
-        const Vector between = *y - *x;
-        const Form f = dot(along, between);
+    for (const FormVector* x : {&one.from, &one.to})
+      for (const FormVector* y : {&two.from, &two.to}) {
+        const FormVector between = *y - *x;
+        const PoseForm f = dot(along, between);
         const double most = domain.greatest(f, box);
         if (!(most > out)) continue;
         // The ends that decide. Others count for little: a direction that moves only them need not be divided.
         slopes.slope = f.a;
-        slopes.moves.fill(0.0);
-        slopes.add(between);
+        slopes.moves = {};
+        slopes.moves.add(between);
         out = most;
       }
-    for (const Ends* e : {&one, &two}) slopes.add(e->to - e->from, 1e-3);
+    for (const FormEnds* e : {&one, &two}) slopes.moves.add(e->to - e->from, 1e-3);
     return std::min(out, 0.0);
   }
   double attained(const FormPose& point) const override {
     const auto [one, two, apart] = nearest_at(point);
-    const Nearest near = nearest(centre(one.from), centre(one.to), centre(two.from), centre(two.to));
-    const Vector x = one.from + Form(near.s) * (one.to - one.from), y = two.from + Form(near.t) * (two.to - two.from);
+    const Nearest near = nearest(middle_of_vector(one.from), middle_of_vector(one.to), middle_of_vector(two.from),
+                                 middle_of_vector(two.to));
+    const FormVector x = one.from + PoseForm(near.s) * (one.to - one.from),
+                     y = two.from + PoseForm(near.t) * (two.to - two.from);
     const double squared = upper(dot(x - y, x - y));
     return -ninedof::detail::above(std::sqrt(squared));
   }
@@ -166,12 +168,15 @@ class Clearance : public Quantity {
 
  private:
   struct Seen {
-    Ends one, two;
+    FormEnds one, two;
     Vec3 apart;
   };
   Seen nearest_at(const FormPose& pose) const {
-    const Ends one = ends_of(g_, pose, legs_.first), two = ends_of(g_, pose, legs_.second);
-    return {one, two, nearest(centre(one.from), centre(one.to), centre(two.from), centre(two.to)).apart};
+    const FormEnds one = ends_of(g_, pose, legs_.first), two = ends_of(g_, pose, legs_.second);
+    return {one, two,
+            nearest(middle_of_vector(one.from), middle_of_vector(one.to), middle_of_vector(two.from),
+                    middle_of_vector(two.to))
+                .apart};
   }
 
   Geometry g_;
@@ -179,13 +184,6 @@ class Clearance : public Quantity {
 };
 
 }  // namespace
-
-Ends ends_of(const Geometry& g, const FormPose& pose, int k) {
-  const auto i = static_cast<std::size_t>(k % 3);
-  if (k < 3) return {fixed(g.base_external()[i]), pose.p + turned(pose, g.platform_external()[i])};
-  if (k < 6) return {pose.p + turned(pose, g.platform_internal()[i]), pose.s};
-  return {fixed(g.base_internal()[i]), pose.s};
-}
 
 std::unique_ptr<Quantity> make_quantity(const PosedRobot& m, const PoseQuantity& q) {
   using Kind = PoseQuantity::Kind;

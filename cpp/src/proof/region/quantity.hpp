@@ -9,12 +9,8 @@ namespace ninedof::over_region {
 
 /// What a bound over a box goes by.
 struct Slopes {
-  std::array<double, form_size> slope{};  ///< of the function, per half width of each coordinate
-  std::array<double, form_size> moves{};  ///< how far the vectors it is made of move
-  void add(const Vector& v, double scale = 1.0) {
-    for (const Form* x : {&v.x, &v.y, &v.z})
-      for (std::size_t k = 0; k < form_size; ++k) moves[k] = std::max(moves[k], scale * std::abs(x->a[k]));
-  }
+  std::array<double, PoseForm::size> slope{};  ///< of the function, per half width of each coordinate
+  Moves moves;                                 ///< of the vectors it is made of
 };
 
 class Quantity {
@@ -29,11 +25,5 @@ class Quantity {
 };
 
 std::unique_ptr<Quantity> make_quantity(const PosedRobot& machine, const PoseQuantity& wanted);
-
-/// The ends of a leg, in the order of leg_ends.
-struct Ends {
-  Vector from, to;
-};
-Ends ends_of(const Geometry& g, const FormPose& pose, int leg);
 
 }  // namespace ninedof::over_region

@@ -43,28 +43,28 @@ constexpr double unit_rounding = 0x1p-53;
 /// A sum of multiples of forms: its rounding is added at the end, at once.
 class FormSum {
  public:
-  void add(double k, const Form& x) {
+  void add(double k, const PoseForm& x) {
     sum_.c += k * x.c;
-    for (std::size_t i = 0; i < form_size; ++i) sum_.a[i] += k * x.a[i];
+    for (std::size_t i = 0; i < PoseForm::size; ++i) sum_.a[i] += k * x.a[i];
     sum_.r += std::abs(k) * x.r;
     size_ += std::abs(k) * (std::abs(x.c) + spread(x));
     ++terms_;
   }
   /// A sum of n products errs by at most n + 1 units of the sum of their moduli, which itself was rounded as often.
   /// `more`: what the terms left out are at most.
-  Form total(double more) const {
-    Form out = sum_;
-    const double part = detail::grain + 4.0 * terms_ * unit_rounding;
-    out.r = (out.r + more) * (1.0 + part) + part * size_ + terms_ * detail::tiny;
+  PoseForm total(double more) const {
+    PoseForm out = sum_;
+    const double part = forms::grain + 4.0 * terms_ * unit_rounding;
+    out.r = (out.r + more) * (1.0 + part) + part * size_ + terms_ * forms::tiny;
     return out;
   }
 
  private:
-  Form sum_;
+  PoseForm sum_;
   double size_ = 0.0, terms_ = 0.0;
 };
 
-int degree(const std::array<int, form_size>& term) {
+int degree(const std::array<int, PoseForm::size>& term) {
   return std::accumulate(term.begin(), term.end(), 0);
 }
 
@@ -77,9 +77,9 @@ RuleForms::RuleForms(const PointRule& rule) {
     for (std::size_t i = 0; i < 3; ++i) into[i] = rule.coefficients[n][static_cast<Eigen::Index>(i)];
   }
   for (std::size_t n = 0; n < terms_.size(); ++n)  // grows
-    for (std::size_t k = 0; k < form_size; ++k)
+    for (std::size_t k = 0; k < PoseForm::size; ++k)
       if (Powers lower = terms_[n]; lower[k]-- > 0) index_of(lower);
-  for (std::size_t k = 0; k < form_size; ++k)
+  for (std::size_t k = 0; k < PoseForm::size; ++k)
     for (std::size_t n = 0, count = terms_.size(); n < count; ++n) {
       if (terms_[n][k] != 0) continue;
       std::vector<std::size_t> line{n};  // of rising powers of coordinate k
@@ -102,11 +102,12 @@ std::size_t RuleForms::index_of(const Powers& term) {
   return out;
 }
 
-Xyz<Form> RuleForms::shift(const std::array<Form, form_size>& at) const {
-  std::array<Form, form_size> away;  // of the coordinates from the middle
-  std::array<double, form_size> middle{};
-  std::array<std::array<double, highest_degree + 1>, form_size> reach{}, most{};  // powers of |away|, of |coordinate|
-  for (std::size_t k = 0; k < form_size; ++k) {
+Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>& at) const {
+  std::array<PoseForm, PoseForm::size> away;  // of the coordinates from the middle
+  std::array<double, PoseForm::size> middle{};
+  std::array<std::array<double, highest_degree + 1>, PoseForm::size> reach{},
+      most{};  // powers of |away|, of |coordinate|
+  for (std::size_t k = 0; k < PoseForm::size; ++k) {
     away[k] = (1.0 / scale_[k]) * at[k];
     middle[k] = away[k].c;
     away[k].c = 0.0;
@@ -119,7 +120,7 @@ Xyz<Form> RuleForms::shift(const std::array<Form, form_size>& at) const {
   }
   const auto product = [](const auto& powers, const Powers& term) {
     double out = 1.0;
-    for (std::size_t k = 0; k < form_size; ++k) out *= powers[k][static_cast<std::size_t>(term[k])];
+    for (std::size_t k = 0; k < PoseForm::size; ++k) out *= powers[k][static_cast<std::size_t>(term[k])];
     return out;
   };
   // A coefficient is the end of at most 6 * 21 additions of products, so that it errs by less than 512 units of the sum
@@ -142,11 +143,11 @@ Xyz<Form> RuleForms::shift(const std::array<Form, form_size>& at) const {
       for (std::size_t i = 0; i < 3; ++i) rest[i] += std::abs(c[n][i]) * factor;
       continue;
     }
-    Form x = 1.0;
+    PoseForm x = 1.0;
     if (total > 0) {
       const auto first =
           static_cast<std::size_t>(std::ranges::find_if(term, [](int p) { return p > 0; }) - term.begin());
-      const auto last = form_size - 1 -
+      const auto last = PoseForm::size - 1 -
                         static_cast<std::size_t>(std::find_if(term.rbegin(), term.rend(), [](int p) { return p > 0; }) -
                                                  term.rbegin());
       x = total == 1 ? away[first] : away[first] * away[last];
@@ -157,8 +158,8 @@ Xyz<Form> RuleForms::shift(const std::array<Form, form_size>& at) const {
   double far = 1.0;  // what underflow may be multiplied by
   for (const auto& powers : most) far *= std::max(1.0, powers.back());
   for (std::size_t i = 0; i < 3; ++i) {
-    rest[i] = rest[i] * (1.0 + 8.0 * n * unit_rounding + detail::grain) + n * detail::tiny;
-    rest[i] += (1024.0 + 16.0 * n) * unit_rounding * size[i] + detail::tiny * far;
+    rest[i] = rest[i] * (1.0 + 8.0 * n * unit_rounding + forms::grain) + n * forms::tiny;
+    rest[i] += (1024.0 + 16.0 * n) * unit_rounding * size[i] + forms::tiny * far;
   }
   return {sum[0].total(rest[0]), sum[1].total(rest[1]), sum[2].total(rest[2])};
 }

@@ -4,9 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "ninedof/math/xyz.hpp"
+#include "math/form.hpp"
 #include "ninedof/proof/point_rule.hpp"
-#include "proof/region/form.hpp"
 
 namespace ninedof::over_region {
 
@@ -16,10 +15,10 @@ class RuleForms {
   explicit RuleForms(const PointRule& rule);
 
   /// s less its neutral position, of the six coordinates of the rule over a box.
-  Xyz<Form> shift(const std::array<Form, form_size>& at) const;
+  Xyz<PoseForm> shift(const std::array<PoseForm, PoseForm::size>& at) const;
 
  private:
-  using Powers = std::array<int, form_size>;
+  using Powers = std::array<int, PoseForm::size>;
   /// Of Horner's scheme: the coefficient `to` grows by that of `from` times coordinate k of the middle.
   struct Step {
     std::size_t to, from, k;
@@ -27,7 +26,7 @@ class RuleForms {
 
   std::size_t index_of(const Powers& term);
 
-  std::array<double, form_size> scale_{};
+  std::array<double, PoseForm::size> scale_{};
   std::vector<Powers> terms_;  ///< with each also all that have lower powers
   std::vector<std::array<double, 3>> coefficients_;
   std::vector<Step> steps_;

@@ -11,10 +11,6 @@
 namespace ninedof::certified {
 namespace {
 
-using over_region::Ends;
-using over_region::ends_of;
-using over_region::rotation_columns;
-
 // Places of the criteria among the bits.
 constexpr int legs_first = 0, base_first = 9, platform_first = 15, pairs_first = 21, signs_first = 42,
               condition_first = 45;
@@ -27,59 +23,51 @@ constexpr Criteria bits(int first, int count) {
   return (bit(count) - 1) << first;
 }
 
-Vector centroid_of(const Triple& t) {
-  const Form third = Form::of(Interval(1.0) / 3.0);
-  return third * (over_region::fixed(t[0]) + over_region::fixed(t[1]) + over_region::fixed(t[2]));
+FormVector centroid_of(const Triple& t) {
+  const PoseForm third = PoseForm::of(Interval(1.0) / 3.0);
+  return third * (constant<PoseForm>(t[0]) + constant<PoseForm>(t[1]) + constant<PoseForm>(t[2]));
 }
 
-Vector unit(const Vector& v) {
-  return over_region::inverse_root(dot(v, v)) * v;
+FormVector unit(const FormVector& v) {
+  return inverse_root(dot(v, v)) * v;
 }
 
 /// Leg k of a body from its joint, in the base frame.
-Vector from_joint(const Geometry& g, const FormPose& pose, bool platform, int k) {
-  const Ends e = ends_of(g, pose, leg_at(platform, k));
+FormVector from_joint(const Geometry& g, const FormPose& pose, bool platform, int k) {
+  const FormEnds e = ends_of(g, pose, leg_at(platform, k));
   return sense_at(platform, k) * (e.to - e.from);
 }
 
-Vector in_platform(const FormPose& pose, const Vector& v) {
+FormVector in_platform(const FormPose& pose, const FormVector& v) {
   return {dot(pose.q[0], v), dot(pose.q[1], v), dot(pose.q[2], v)};
 }
 
 /// The three determinants without their positive factors: rows are not of unit length.
-Form determinant(const Geometry& g, const FormPose& pose, int which) {
-  const auto row = [&](int k) -> Vector {
-    const Ends e = ends_of(g, pose, k + (which == 1 ? 6 : which == 2 ? 3 : 0));
+PoseForm determinant(const Geometry& g, const FormPose& pose, int which) {
+  const auto row = [&](int k) -> FormVector {
+    const FormEnds e = ends_of(g, pose, k + (which == 1 ? 6 : which == 2 ? 3 : 0));
     return which > 0 ? e.to - e.from : cross(e.from - pose.s, e.to - pose.s);
   };
   return dot(row(0), cross(row(1), row(2)));
-}
-
-bool finite_form(const Form& f) {
-  return std::isfinite(over_region::radius(f)) && std::isfinite(f.c);
 }
 
 }  // namespace
 
 PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                    const WorkspaceCriteria& criteria, const Configuration& home)
-    : robot_{g, home, criteria.characteristic_length, {}, {}, {}},
-      criteria_(criteria),
-      rule_(rule),
-      some_(domain.archetype == Archetype::reachable) {
+    : geometry_(g), criteria_(criteria), rule_(rule), some_(domain.archetype == Archetype::reachable) {
   for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
-  const FormPose at_home{over_region::fixed(home.position), over_region::fixed(home.internal_point),
-                         rotation_columns(home.rotation)};
+  const FormPose at_home = form_pose(home);
   if (criteria.legs)
     for (int k = 0; k < 9; ++k)
       if (criteria.legs->low[k] > 0.0 || std::isfinite(criteria.legs->high[k])) all_ |= bit(legs_first + k);
   const auto cones = [&](const std::optional<ConeLimit>& limit, bool platform) {
-    std::array<Vector, 6>& axes = platform ? platform_axes_ : base_axes_;
+    std::array<FormVector, 6>& axes = platform ? platform_axes_ : base_axes_;
     if (!limit || !(limit->angle < std::numbers::pi)) return;  // no angle is greater
     all_ |= bits(platform ? platform_first : base_first, legs_at_body);
-    (platform ? least_platform_cosine_ : least_base_cosine_) = Form::of(cos(Interval(limit->angle)));
+    (platform ? least_platform_cosine_ : least_base_cosine_) = PoseForm::of(cos(Interval(limit->angle)));
     for (int k = 0; k < legs_at_body; ++k) {
-      Vector axis = over_region::fixed(limit->axis);
+      FormVector axis = constant<PoseForm>(limit->axis);
       if (limit->axis.isZero(0.0)) {
         axis = from_joint(g, at_home, platform, k);
         if (platform) axis = in_platform(at_home, axis);
@@ -97,7 +85,7 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
   if (criteria.singularity_free) {
     all_ |= bits(signs_first, 3);
     for (int d = 0; d < 3; ++d) {
-      const Form at = determinant(g, at_home, d);
+      const PoseForm at = determinant(g, at_home, d);
       if (!(lower(at) > 0.0 || upper(at) < 0.0))
         throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
                               "a regular one with singularity_free");
@@ -108,24 +96,23 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
 }
 
 FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
-  const auto coordinate = [&](Eigen::Index k) { return Form::coordinate(box.low[k], box.high[k], at_index(k)); };
+  const auto coordinate = [&](Eigen::Index k) { return PoseForm::coordinate(box.low[k], box.high[k], at_index(k)); };
   FormPose out{{coordinate(0), coordinate(1), coordinate(2)}, {}, rotations_[rotation]};
   using Kind = InternalPointRule::Kind;
   if (rule_.kind == Kind::fixed) {
-    out.s = over_region::fixed(rule_.point);
+    out.s = constant<PoseForm>(rule_.point);
   } else if (rule_.kind == Kind::platform) {
-    out.s = out.p + over_region::turned(out, rule_.point);
+    out.s = out.p + turned(out, rule_.point);
   } else {
-    const Vector lower = centroid_of(robot_.geometry.base_internal()),
-                 arm = centroid_of(robot_.geometry.platform_internal());
-    const Vector upper = out.p + (arm.x * out.q[0] + arm.y * out.q[1] + arm.z * out.q[2]);
-    out.s = lower + Form(rule_.fraction) * (upper - lower);
+    const FormVector lower = centroid_of(geometry_.base_internal()), arm = centroid_of(geometry_.platform_internal());
+    const FormVector upper = out.p + (arm.x * out.q[0] + arm.y * out.q[1] + arm.z * out.q[2]);
+    out.s = lower + PoseForm(rule_.fraction) * (upper - lower);
   }
   return out;
 }
 
-bool PoseCuts::decided(const Form& f, Criteria which, Found& found) {
-  if (!finite_form(f)) {
+bool PoseCuts::decided(const PoseForm& f, Criteria which, Found& found) {
+  if (!is_known(f)) {
     put({}, found);
     return false;
   }
@@ -148,13 +135,13 @@ void PoseCuts::put(const Cut& cut, Found& found) {
 void PoseCuts::look_at_legs(const FormPose& pose, Found& found) const {
   for (int k = 0; k < 9; ++k) {
     if (!(found.open & bit(legs_first + k))) continue;
-    const Ends e = ends_of(robot_.geometry, pose, k);
-    const Vector v = e.to - e.from;
-    const Form squared = dot(v, v);
+    const FormEnds e = ends_of(geometry_, pose, k);
+    const FormVector v = e.to - e.from;
+    const PoseForm squared = dot(v, v);
     const double low = criteria_.legs->low[k], high = criteria_.legs->high[k];
     bool both = true;
-    if (low > 0.0) both = decided(squared - Form::of(square(Interval(low))), 0, found) && both;
-    if (std::isfinite(high)) both = decided(Form::of(square(Interval(high))) - squared, 0, found) && both;
+    if (low > 0.0) both = decided(squared - PoseForm::of(square(Interval(low))), 0, found) && both;
+    if (std::isfinite(high)) both = decided(PoseForm::of(square(Interval(high))) - squared, 0, found) && both;
     if (found.violated) return;
     if (both) found.open &= ~bit(legs_first + k);
   }
@@ -164,8 +151,8 @@ void PoseCuts::look_at_cones(const FormPose& pose, bool platform, Found& found) 
   const int first = platform ? platform_first : base_first;
   for (int k = 0; k < legs_at_body && !found.violated; ++k) {
     if (!(found.open & bit(first + k))) continue;
-    const Vector leg = from_joint(robot_.geometry, pose, platform, k);
-    Vector axis = (platform ? platform_axes_ : base_axes_)[at_index(k)];
+    const FormVector leg = from_joint(geometry_, pose, platform, k);
+    FormVector axis = (platform ? platform_axes_ : base_axes_)[at_index(k)];
     if (platform) axis = axis.x * pose.q[0] + axis.y * pose.q[1] + axis.z * pose.q[2];
     decided(dot(unit(leg), axis) - (platform ? least_platform_cosine_ : least_base_cosine_), bit(first + k), found);
   }
@@ -177,13 +164,13 @@ void PoseCuts::look_at_clearance(const FormPose& pose, Found& found) const {
     if (!(found.open & which)) continue;
     const auto [a, b] = leg_pair(pair);
     const DistanceCut cut =
-        distance_cut(ends_of(robot_.geometry, pose, a), ends_of(robot_.geometry, pose, b), *criteria_.leg_clearance);
+        distance_cut(ends_of(geometry_, pose, a), ends_of(geometry_, pose, b), *criteria_.leg_clearance);
     if (cut.everywhere) {
       found.open &= ~which;
       continue;
     }
     put({cut.slope, cut.allowed}, found);
-    if (!finite_form(cut.lack)) continue;
+    if (!is_known(cut.lack)) continue;
     if (lower(cut.lack) > 0.0) {
       found.violated = true;
       return;
@@ -197,19 +184,19 @@ void PoseCuts::look_at_clearance(const FormPose& pose, Found& found) const {
 void PoseCuts::look_at_signs(const FormPose& pose, Found& found) const {
   for (int d = 0; d < 3 && !found.violated; ++d)
     if (found.open & bit(signs_first + d))
-      decided(sides_[at_index(d)] * determinant(robot_.geometry, pose, d), bit(signs_first + d), found);
+      decided(sides_[at_index(d)] * determinant(geometry_, pose, d), bit(signs_first + d), found);
 }
 
 void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
   if (!(found.open & bit(condition_first))) return;
-  over_region::Slopes unused;
-  const over_region::ConditionSplit split =
-      over_region::split_by_condition(over_region::split_gram(robot_, pose, unused), *criteria_.condition_number);
+  Moves unused;
+  const forms::ConditionSplit split = forms::split_by_condition(
+      forms::split_gram(geometry_, criteria_.characteristic_length, pose, unused), *criteria_.condition_number);
   if (split.everywhere) {
     found.open &= ~bit(condition_first);
     return;
   }
-  if (!finite_form(split.excess)) {
+  if (!is_known(split.excess)) {
     put({}, found);
     return;
   }
@@ -242,9 +229,9 @@ PositionBox PoseCuts::reached_with(std::size_t rotation) const {
   for (int leg = 0; leg < 9; ++leg) {
     const Interval k = leg < 3 ? Interval(1.0) : leg < 6 ? share - 1.0 : share, high(criteria_.legs->high[leg]);
     if (!std::isfinite(high.hi) || (k.lo <= 0.0 && k.hi >= 0.0)) continue;
-    const Ends e = ends_of(robot_.geometry, zero, leg);
-    const Vector at = e.to - e.from;
-    const std::array<const Form*, 3> parts{&at.x, &at.y, &at.z};
+    const FormEnds e = ends_of(geometry_, zero, leg);
+    const FormVector at = e.to - e.from;
+    const std::array<const PoseForm*, 3> parts{&at.x, &at.y, &at.z};
     for (int i = 0; i < 3; ++i) {
       const Interval start(lower(*parts[at_index(i)]), upper(*parts[at_index(i)]));
       const Interval one = (-start - high) / k, other = (high - start) / k;

@@ -4,16 +4,14 @@
 
 #include <cstdint>
 
+#include "conditioning/forms/gram.hpp"
 #include "ninedof/workspace/certified.hpp"
-#include "proof/region/gram.hpp"
 #include "robot/leg_pairs.hpp"
+#include "robot/pose_of.hpp"
 
 namespace ninedof::certified {
 
-using over_region::Form;
-using over_region::FormPose;
-using over_region::Slope3;
-using over_region::Vector;
+using forms::Slope3;
 
 /// A plane as in BoxCut.
 struct Cut {
@@ -57,17 +55,17 @@ class PoseCuts {
   void look_at_signs(const FormPose& pose, Found& found) const;
   void look_at_condition(const FormPose& pose, Found& found) const;
   /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether the criterion is decided.
-  static bool decided(const Form& f, Criteria bit, Found& found);
+  static bool decided(const PoseForm& f, Criteria bit, Found& found);
   static void put(const Cut& cut, Found& found);
   PositionBox reached_with(std::size_t rotation) const;
 
-  PosedRobot robot_;
+  Geometry geometry_;
   WorkspaceCriteria criteria_;
   InternalPointRule rule_;
   bool some_;  // one allowed rotation is enough
-  std::vector<std::array<Vector, 3>> rotations_;  // by columns
-  std::array<Vector, 6> base_axes_, platform_axes_;
-  Form least_base_cosine_, least_platform_cosine_;
+  std::vector<std::array<FormVector, 3>> rotations_;  // by columns
+  std::array<FormVector, 6> base_axes_, platform_axes_;
+  PoseForm least_base_cosine_, least_platform_cosine_;
   std::array<double, 3> sides_{};
   Criteria all_ = 0;
 };
@@ -77,8 +75,8 @@ struct DistanceCut {
   bool everywhere = false;
   Slope3 slope{};
   double allowed = std::numeric_limits<double>::infinity();
-  Form lack;
+  PoseForm lack;
 };
-DistanceCut distance_cut(const over_region::Ends& one, const over_region::Ends& two, double distance);
+DistanceCut distance_cut(const FormEnds& one, const FormEnds& two, double distance);
 
 }  // namespace ninedof::certified

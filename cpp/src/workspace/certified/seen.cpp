@@ -8,9 +8,9 @@
 namespace ninedof::certified {
 namespace {
 
-using over_region::hull_above;
-using over_region::reach;
-using over_region::share_below;
+using forms::hull_above;
+using forms::reach;
+using forms::share_below;
 
 constexpr std::size_t most_compared = 8;
 

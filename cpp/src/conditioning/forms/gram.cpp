@@ -1,19 +1,19 @@
-#include "proof/region/gram.hpp"
+#include "conditioning/forms/gram.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/linear/jacobi_svd.hpp"
 
-namespace ninedof::over_region {
+namespace ninedof::forms {
 namespace {
 
-const Form& at(const Symmetric3& s, std::size_t i, std::size_t j) {
+const PoseForm& at(const Symmetric3& s, std::size_t i, std::size_t j) {
   return s[entry(i, j)];
 }
 
-void add_square(Symmetric3& s, const Vector& v) {
-  const std::array<const Form*, 3> x{&v.x, &v.y, &v.z};
+void add_square(Symmetric3& s, const FormVector& v) {
+  const std::array<const PoseForm*, 3> x{&v.x, &v.y, &v.z};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j <= i; ++j) s[entry(i, j)] = s[entry(i, j)] + *x[i] * *x[j];
 }
@@ -24,7 +24,7 @@ Symmetric3 inverted(const Symmetric3& s) {
   };
   const Symmetric3 adjugate{minor(1, 2, 1, 2), -minor(0, 2, 1, 2), minor(0, 2, 0, 2),
                             minor(0, 1, 1, 2), -minor(0, 1, 0, 2), minor(0, 1, 0, 1)};
-  const Form one_over = inverse(at(s, 0, 0) * adjugate[0] + at(s, 1, 0) * adjugate[1] + at(s, 2, 0) * adjugate[3]);
+  const PoseForm one_over = inverse(at(s, 0, 0) * adjugate[0] + at(s, 1, 0) * adjugate[1] + at(s, 2, 0) * adjugate[3]);
   Symmetric3 out;
   for (std::size_t k = 0; k < 6; ++k) out[k] = one_over * adjugate[k];
   return out;
@@ -35,7 +35,7 @@ Symmetric3 parallel(const Symmetric3& h, const Symmetric3& f) {
   Symmetric3 sum;
   for (std::size_t k = 0; k < 6; ++k) sum[k] = h[k] + f[k];
   const Symmetric3 x = inverted(sum);
-  std::array<std::array<Form, 3>, 3> xh;
+  std::array<std::array<PoseForm, 3>, 3> xh;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       xh[i][j] = at(x, i, 0) * at(h, 0, j) + at(x, i, 1) * at(h, 1, j) + at(x, i, 2) * at(h, 2, j);
@@ -48,32 +48,32 @@ Symmetric3 parallel(const Symmetric3& h, const Symmetric3& f) {
 
 }  // namespace
 
-Symmetric6 gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves) {
-  const Geometry& g = machine.geometry;
-  const double inverse_lc = 1.0 / machine.characteristic_length;
+Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
+  const double inverse_lc = 1.0 / characteristic_length;
   const auto direction = [&](int k) {
-    const Ends e = ends_of(g, pose, k);
-    const Vector out = direction_of(e.to - e.from);
+    const FormEnds e = ends_of(g, pose, k);
+    const FormVector out = direction_of(e.to - e.from);
     moves.add(out);
     return out;
   };
   Symmetric6 out;
   Symmetric3 upper_legs, lower_legs;
   for (int i = 0; i < 3; ++i) {
-    const Vector e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
-    const Vector m = inverse_lc * cross(u, e);
-    const std::array<const Form*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
+    const FormVector e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
+    const FormVector m = inverse_lc * cross(u, e);
+    const std::array<const PoseForm*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
     for (std::size_t j = 0; j < 6; ++j)
       for (std::size_t k = 0; k <= j; ++k) out[entry(j, k)] = out[entry(j, k)] + *row[j] * *row[k];
     add_square(upper_legs, direction(i + 3));
     add_square(lower_legs, direction(i + 6));
   }
   const Symmetric3 p = parallel(upper_legs, lower_legs);
-  const Vector y = inverse_lc * (pose.s - pose.p);
+  const FormVector y = inverse_lc * (pose.s - pose.p);
   // Columns of K: e_k x y for turns, e_k for shifts.
-  const Form zero = 0.0;
-  const std::array<Vector, 3> turn{Vector{zero, -y.z, y.y}, Vector{y.z, zero, -y.x}, Vector{-y.y, y.x, zero}};
-  std::array<Vector, 3> p_turn;
+  const PoseForm zero = 0.0;
+  const std::array<FormVector, 3> turn{FormVector{zero, -y.z, y.y}, FormVector{y.z, zero, -y.x},
+                                       FormVector{-y.y, y.x, zero}};
+  std::array<FormVector, 3> p_turn;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto row = [&](std::size_t i) {
       return at(p, i, 0) * turn[k].x + at(p, i, 1) * turn[k].y + at(p, i, 2) * turn[k].z;
@@ -112,7 +112,7 @@ double condition_attained(const Symmetric6& g) {
       const Interval x(v[static_cast<Eigen::Index>(i)]);
       square_sum += square(x);
       for (std::size_t j = 0; j < 6; ++j) {
-        const Form& e = g[entry(i, j)];
+        const PoseForm& e = g[entry(i, j)];
         sum += Interval(lower(e), upper(e)) * (x * Interval(v[static_cast<Eigen::Index>(j)]));
       }
     }
@@ -122,4 +122,4 @@ double condition_attained(const Symmetric6& g) {
   return most.lo > 0.0 ? sqrt(most / Interval(least.hi)).lo : 0.0;
 }
 
-}  // namespace ninedof::over_region
+}  // namespace ninedof::forms

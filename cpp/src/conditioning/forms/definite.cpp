@@ -1,13 +1,13 @@
-/// Whether the condition number is at most K, or is not, where in a box. Declared in proof/region/gram.hpp.
+/// Whether the condition number is at most K, or is not, where in a box. Declared in conditioning/forms/gram.hpp.
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "conditioning/forms/gram.hpp"
 #include "math/linear/jacobi_svd.hpp"
-#include "proof/region/gram.hpp"
 
-namespace ninedof::over_region {
+namespace ninedof::forms {
 namespace {
 
 constexpr std::size_t packed(std::size_t n) {
@@ -40,7 +40,7 @@ class LinearTest {
       : g_(g), condition_(condition * (1.0 - 0x1p-51)), squared_(condition_ * condition_ * (1.0 - 0x1p-51)) {
     if (!g.known) return;
     double largest = 0.0;
-    const auto seen = [&](const Form& x) {
+    const auto seen = [&](const PoseForm& x) {
       largest = std::max(largest, std::abs(x.c) + spread(x));
       return x.r;
     };
@@ -72,15 +72,15 @@ class LinearTest {
     const double share = 1.0 / (1.0 + condition);
     t_ = (1.0 - share) * most + share * squared_ * least;
     double slopes = 0.0;
-    for (std::size_t k = 0; k < form_size; ++k) {
+    for (std::size_t k = 0; k < PoseForm::size; ++k) {
       Mat6 part;
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j)
           part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = g.above[entry(i, j)].a[k];
       bool moves = !part.isZero(0.0);
       for (std::size_t b = 0; b < 3; ++b) {
-        for (const Form& x : g.across[b]) moves = moves || x.a[k] != 0.0;
-        for (const Form& x : g.sum) moves = moves || x.a[k] != 0.0;
+        for (const PoseForm& x : g.across[b]) moves = moves || x.a[k] != 0.0;
+        for (const PoseForm& x : g.sum) moves = moves || x.a[k] != 0.0;
       }
       if (!moves) continue;
       slope_[count_] = (1.0 - share) * high_.dot(part * high_) + share * squared_ * low_.dot(part * low_);
@@ -99,8 +99,8 @@ class LinearTest {
   const Vec6& high() const { return high_; }
   const Vec6& low() const { return low_; }
 
-  bool holds_at(const std::array<double, form_size>& at) const {
-    const auto value = [&](const Form& f) {
+  bool holds_at(const std::array<double, PoseForm::size>& at) const {
+    const auto value = [&](const PoseForm& f) {
       double out = f.c;
       for (std::size_t k = 0; k < count_; ++k) out += at[active_[k]] * f.a[active_[k]];
       return out;
@@ -128,7 +128,7 @@ class LinearTest {
 
   bool holds_everywhere() const {
     for (std::size_t corner = 0; corner < (std::size_t{1} << count_); ++corner) {
-      std::array<double, form_size> at{};
+      std::array<double, PoseForm::size> at{};
       for (std::size_t k = 0; k < count_; ++k) at[active_[k]] = (corner >> k) % 2 == 0 ? -1.0 : 1.0;
       if (!holds_at(at)) return false;
     }
@@ -140,18 +140,18 @@ class LinearTest {
   double condition_, squared_, t_ = 0.0;
   bool known_ = false, holds_in_the_middle_ = false;
   Vec6 high_, low_;
-  std::array<std::size_t, form_size> active_{};
-  std::array<double, form_size> slope_{};
+  std::array<std::size_t, PoseForm::size> active_{};
+  std::array<double, PoseForm::size> slope_{};
   std::size_t count_ = 0;
   std::array<double, 6> room_above_{};
   std::array<double, 9> room_below_{};
 };
 
 /// v^T G v.
-Form quadratic(const Symmetric6& g, const Vec6& v) {
-  Form out;
+PoseForm quadratic(const Symmetric6& g, const Vec6& v) {
+  PoseForm out;
   for (std::size_t i = 0; i < 6; ++i) {
-    Form row;
+    PoseForm row;
     for (std::size_t j = 0; j < 6; ++j) row = row + v[static_cast<Eigen::Index>(j)] * g[entry(i, j)];
     out = out + v[static_cast<Eigen::Index>(i)] * row;
   }
@@ -171,7 +171,7 @@ double least_eigenvalue(const Symmetric3& s) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const Form& x = s[entry(i, j)];
+      const PoseForm& x = s[entry(i, j)];
       middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = x.c;
       entries[entry(i, j)] = x.c;
       room[i] += radius(x);
@@ -187,16 +187,16 @@ double least_eigenvalue(const Symmetric3& s) {
 }
 
 /// A number below v^T M^T M v: what the minimum over w takes from `above`, or the part of the external legs.
-Form quadratic_from_below(const SplitGram& g, const Vec6& v) {
+PoseForm quadratic_from_below(const SplitGram& g, const Vec6& v) {
   const double least = least_eigenvalue(g.sum);
   if (!(least > 0.0)) return quadratic(g.external, v);
-  Form taken;
-  for (const std::array<Form, 6>& row : g.across) {
-    Form x;
+  PoseForm taken;
+  for (const std::array<PoseForm, 6>& row : g.across) {
+    PoseForm x;
     for (std::size_t i = 0; i < 6; ++i) x = x + v[static_cast<Eigen::Index>(i)] * row[i];
     taken = taken + x * x;
   }
-  return quadratic(g.above, v) - Form::of(Interval(1.0) / Interval(least)) * taken;
+  return quadratic(g.above, v) - PoseForm::of(Interval(1.0) / Interval(least)) * taken;
 }
 
 }  // namespace
@@ -211,12 +211,12 @@ ConditionSplit split_by_condition(const SplitGram& g, double condition) {
   constexpr int tries = 9;
   ConditionSplit out;
   out.level = std::numeric_limits<double>::infinity();
-  out.excess = detail::unknown();
+  out.excess = PoseForm::unknown();
   const LinearTest test(g, condition);
   if (!test.known()) return out;
   const Interval squared = square(Interval(condition));
-  out.excess = Form::of(squared_length(test.low())) * quadratic_from_below(g, test.high()) -
-               Form::of(squared * squared_length(test.high())) * quadratic(g.above, test.low());
+  out.excess = PoseForm::of(squared_length(test.low())) * quadratic_from_below(g, test.high()) -
+               PoseForm::of(squared * squared_length(test.high())) * quadratic(g.above, test.low());
   if (!std::isfinite(radius(out.excess))) return out;
   for (std::size_t k = 0; k < 3; ++k) out.slope[k] = -out.excess.a[k];
   const double most = reach(out.slope);
@@ -245,4 +245,4 @@ ConditionSplit split_by_condition(const SplitGram& g, double condition) {
   return out;
 }
 
-}  // namespace ninedof::over_region
+}  // namespace ninedof::forms

@@ -1,14 +1,14 @@
 #pragma once
 /// The part of a box on one side of a plane: its share of the volume, and points whose hull holds it.
 ///
-/// Coordinates t go from -1 to 1 over each side of the box, so that linear forms (region_form.hpp) give the planes.
+/// Coordinates t go from -1 to 1 over each side of the box, so that linear forms (form.hpp) give the planes.
 
 #include <array>
 #include <vector>
 
 #include "ninedof/math/interval.hpp"
 
-namespace ninedof::over_region {
+namespace ninedof::forms {
 
 using Slope3 = std::array<double, 3>;
 
@@ -22,4 +22,4 @@ Interval share_below(const Slope3& slope, double level);
 /// below the level by rounding. None where no t of the box is above it.
 std::vector<Slope3> hull_above(const Slope3& slope, double level);
 
-}  // namespace ninedof::over_region
+}  // namespace ninedof::forms

@@ -1,9 +1,9 @@
-#include "proof/region/box_share.hpp"
+#include "math/box_share.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace ninedof::over_region {
+namespace ninedof::forms {
 namespace {
 
 /// Coordinates whose slope is below this part of the greatest are taken for an uncertainty of the level: where two of
@@ -90,4 +90,4 @@ std::vector<Slope3> hull_above(const Slope3& slope, double level) {
   return out;
 }
 
-}  // namespace ninedof::over_region
+}  // namespace ninedof::forms

@@ -1,7 +1,7 @@
 /// box_share.hpp: shares of a box beyond planes, and hulls that hold what is beyond them. Oracle: the share integrated
 /// over two coordinates in long double, exactly along the third; directions that would show a point outside a hull.
 
-#include "proof/region/box_share.hpp"
+#include "math/box_share.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 
 using namespace ninedof;
-using namespace ninedof::over_region;
+using namespace ninedof::forms;
 
 namespace {
 

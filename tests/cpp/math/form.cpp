@@ -1,28 +1,28 @@
-/// region_form.hpp: every value of a formula at a point of the box lies within what its form allows. Oracle: the same
+/// form.hpp: every value of a formula at a point of the box lies within what its form allows. Oracle: the same
 /// formula in long double at random points.
+
+#include "math/form.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "proof/region/form.hpp"
-
-using namespace ninedof::over_region;
+using namespace ninedof;
 
 namespace {
 
-using Point = std::array<double, form_size>;
+using Point = std::array<double, PoseForm::size>;
 
 struct Both {
-  Form form;
+  PoseForm form;
   long double value;
 };
 
 /// Whether the value is within the error of the form at the point.
 bool holds(const Both& x, const Point& t) {
   long double linear = x.form.c;
-  for (std::size_t k = 0; k < form_size; ++k) linear += static_cast<long double>(x.form.a[k]) * t[k];
+  for (std::size_t k = 0; k < PoseForm::size; ++k) linear += static_cast<long double>(x.form.a[k]) * t[k];
   return !(std::abs(x.value - linear) > x.form.r) && lower(x.form) <= x.value && x.value <= upper(x.form);
 }
 
@@ -33,7 +33,7 @@ long double mean_cosine(long double u) {  // (1 - cos(theta)) / theta^2
 
 }  // namespace
 
-TEST_SUITE("region_form") {
+TEST_SUITE("form") {
   TEST_CASE("values at points of a box are within the error of a form") {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -45,11 +45,11 @@ TEST_SUITE("region_form") {
       for (std::size_t k = 0; k < x.size(); ++k) {
         const double middle = 3.0 * any(random), low = middle - size * std::abs(any(random)),
                      high = middle + size * std::abs(any(random));
-        x[k].form = Form::coordinate(low, high, k);
+        x[k].form = PoseForm::coordinate(low, high, k);
         x[k].value =
             0.5L * (static_cast<long double>(low) + high) + 0.5L * (static_cast<long double>(high) - low) * t[k];
       }
-      const auto check = [&](const Form& form, long double value) {
+      const auto check = [&](const PoseForm& form, long double value) {
         const Both both{form, value};
         CHECK(holds(both, t));
         return both;
@@ -72,7 +72,7 @@ TEST_SUITE("region_form") {
     }
   }
   TEST_CASE("nothing is known of what may be divided by zero") {
-    const Form x = Form::coordinate(-1.0, 2.0, 0);
+    const PoseForm x = PoseForm::coordinate(-1.0, 2.0, 0);
     CHECK(std::isinf(upper(inverse(x))));
     CHECK(std::isinf(lower(inverse_root(x))));
     CHECK(std::isinf(upper(inverse(x) * x - inverse(x))));
@@ -81,16 +81,17 @@ TEST_SUITE("region_form") {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> any(0.1, 1.0);
     for (int trial = 0; trial < 100; ++trial) {
-      Form x(any(random));
+      PoseForm x(any(random));
       x.a[0] = 0.9 * any(random) * x.c;
-      const Form small = 0x1p-420 * x;
+      const PoseForm small = 0x1p-420 * x;
       CHECK(inverse_root(small).r * 0x1p-210 >= inverse_root(x).r * (1.0 - 1e-13));
     }
   }
 
   TEST_CASE("the error is of second order in the size of the box") {
     const auto error = [](double half) {
-      const Form x = Form::coordinate(1.0 - half, 1.0 + half, 0), y = Form::coordinate(2.0 - half, 2.0 + half, 1);
+      const PoseForm x = PoseForm::coordinate(1.0 - half, 1.0 + half, 0),
+                     y = PoseForm::coordinate(2.0 - half, 2.0 + half, 1);
       return (inverse_root(x * x + y * y) * x * y).r;
     };
     CHECK(error(1e-3) < 1.1e-2 * error(1e-2));

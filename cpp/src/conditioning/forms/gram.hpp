@@ -3,13 +3,13 @@
 /// values of M, so that the condition number is at most K where K^2 M^T M - t and t - M^T M are positive definite for
 /// some t.
 
-#include "proof/region/box_share.hpp"
-#include "proof/region/quantity.hpp"
+#include "math/box_share.hpp"
+#include "robot/pose_of.hpp"
 
-namespace ninedof::over_region {
+namespace ninedof::forms {
 
 /// A symmetric matrix: its entries (i, j) with i >= j, row after row.
-using Symmetric6 = std::array<Form, 21>;
+using Symmetric6 = std::array<PoseForm, 21>;
 
 constexpr std::size_t entry(std::size_t i, std::size_t j) {
   return i >= j ? i * (i + 1) / 2 + j : entry(j, i);
@@ -18,13 +18,13 @@ constexpr std::size_t entry(std::size_t i, std::size_t j) {
 /// M^T M = A^T A + K^T ((C^T C)^-1 + (B^T B)^-1)^-1 K, with K = [-y x / l_c, 1], y = s - p. The middle matrix is
 /// H - H (H + F)^-1 H with H = C^T C and F = B^T B: neither needs to be regular. `moves` is of the directions of the
 /// legs.
-Symmetric6 gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves);
+Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves);
 
 /// The matrix at the middle of the box.
 Mat6 middle_of(const Symmetric6& g);
 
 /// A symmetric 3 x 3 matrix: its entries as above.
-using Symmetric3 = std::array<Form, 6>;
+using Symmetric3 = std::array<PoseForm, 6>;
 
 /// M^T M between bounds without an inverse: for a number w of three components,
 ///     x^T M^T M x = min over w of x^T above x + 2 w^T across x + w^T sum w,
@@ -32,11 +32,11 @@ using Symmetric3 = std::array<Form, 6>;
 struct SplitGram {
   Symmetric6 above;
   Symmetric6 external;  ///< A^T A, which is not above M^T M
-  std::array<std::array<Form, 6>, 3> across;
+  std::array<std::array<PoseForm, 6>, 3> across;
   Symmetric3 sum;  ///< H + F
   bool known = false;
 };
-SplitGram split_gram(const PosedRobot& machine, const FormPose& pose, Slopes& moves);
+SplitGram split_gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves);
 
 /// Whether the condition number is proved to be at most K in all of the box.
 bool bounded(const SplitGram& g, double condition);
@@ -46,14 +46,14 @@ struct ConditionSplit {
   bool everywhere = false;  ///< at most K in all of the box
   Slope3 slope{};
   double level = 0.0;  ///< at most K where slope . t >= level; infinite where that is nowhere known
-  Form excess;         ///< above K where it is positive
+  PoseForm excess;         ///< above K where it is positive
 };
 ConditionSplit split_by_condition(const SplitGram& g, double condition);
 
 /// The directions of a vector: its change from the middle, with an error that falls with the square of the box.
-Vector direction_of(const Vector& v);
+FormVector direction_of(const FormVector& v);
 
 /// A number that the condition number of some matrix of the form, taken at one pose, is not below.
 double condition_attained(const Symmetric6& g);
 
-}  // namespace ninedof::over_region
+}  // namespace ninedof::forms

@@ -1,4 +1,4 @@
-/// region_gram.hpp: directions, bounds of M^T M, and where in a box the condition number is proved to be at most K, or
+/// gram.hpp: directions, bounds of M^T M, and where in a box the condition number is proved to be at most K, or
 /// not. Oracle: directions in long double; the singular values of the conditioning matrix at points of the box.
 
 #include <doctest/doctest.h>
@@ -7,15 +7,15 @@
 #include <cmath>
 #include <random>
 
+#include "conditioning/forms/gram.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
-#include "proof/region/gram.hpp"
 
 using namespace ninedof;
-using namespace ninedof::over_region;
+using namespace ninedof::forms;
 
 namespace {
 
-using Point = std::array<double, form_size>;
+using Point = std::array<double, PoseForm::size>;
 
 struct Sampler {
   std::mt19937_64 random{11};
@@ -28,19 +28,19 @@ struct Sampler {
   }
 };
 
-double at(const Form& f, const Point& t) {
+double at(const PoseForm& f, const Point& t) {
   double out = f.c;
-  for (std::size_t k = 0; k < form_size; ++k) out += f.a[k] * t[k];
+  for (std::size_t k = 0; k < PoseForm::size; ++k) out += f.a[k] * t[k];
   return out;
 }
 
 /// A box of positions about a pose of a random robot, O half way.
 struct Case {
-  PosedRobot robot;
+  Geometry robot;
   Configuration home;
   double half;
 
-  explicit Case(Sampler& draw, double size) : robot{geometry(draw), {}, 1.0, {}, {}, {}}, half(size) {
+  explicit Case(Sampler& draw, double size) : robot(geometry(draw)), half(size) {
     home.position = Vec3(0.3 * draw(), 0.3 * draw(), 4.5 + 0.5 * draw());
     home.internal_point = Vec3(0.2 * draw(), 0.2 * draw(), 2.3 + 0.3 * draw());
   }
@@ -57,37 +57,37 @@ struct Case {
   }
   FormPose pose() const {
     const auto form = [&](int k) {
-      return Form::coordinate(home.position[k] - half, home.position[k] + half, static_cast<std::size_t>(k));
+      return PoseForm::coordinate(home.position[k] - half, home.position[k] + half, static_cast<std::size_t>(k));
     };
     FormPose out;
     out.p = {form(0), form(1), form(2)};
     const Vec3 apart = home.internal_point - 0.5 * home.position;
-    out.s = 0.5 * out.p + fixed(apart);
-    for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = fixed(Vec3::Unit(k));
+    out.s = 0.5 * out.p + constant<PoseForm>(apart);
+    for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = constant<PoseForm>(Vec3::Unit(k));
     return out;
   }
   double condition(const Point& t) const {
     Configuration c = home;
     c.position += half * Vec3(t[0], t[1], t[2]);
     c.internal_point += 0.5 * half * Vec3(t[0], t[1], t[2]);
-    return condition_number(robot.geometry, c, 1.0);
+    return condition_number(robot, c, 1.0);
   }
 };
 
 }  // namespace
 
-TEST_SUITE("region_split") {
+TEST_SUITE("condition_split") {
   TEST_CASE("directions at points of a box are within the error of their forms") {
     Sampler draw;
     for (int trial = 0; trial < 20'000; ++trial) {
       const double size = std::exp(4.0 * draw() - 4.0), unit = trial % 5 == 0 ? 1e80 : 1.0;
-      std::array<Form, 3> v;
-      for (Form& x : v) {
+      std::array<PoseForm, 3> v;
+      for (PoseForm& x : v) {
         x.c = 3.0 * draw() * unit;
         for (std::size_t k = 0; k < 3; ++k) x.a[k] = size * draw() * unit;
         x.r = trial % 2 == 0 ? 0.0 : 0.1 * size * std::abs(draw()) * unit;
       }
-      const Vector e = direction_of({v[0], v[1], v[2]});
+      const FormVector e = direction_of({v[0], v[1], v[2]});
       const Point t = draw.point();
       std::array<long double, 3> value;
       long double square = 0.0L;
@@ -96,31 +96,31 @@ TEST_SUITE("region_split") {
         for (std::size_t k = 0; k < 3; ++k) value[i] += static_cast<long double>(v[i].a[k]) * t[k];
         square += value[i] * value[i];
       }
-      const std::array<const Form*, 3> form{&e.x, &e.y, &e.z};
+      const std::array<const PoseForm*, 3> form{&e.x, &e.y, &e.z};
       for (std::size_t i = 0; i < 3; ++i) {
         long double linear = form[i]->c;
         for (std::size_t k = 0; k < 3; ++k) linear += static_cast<long double>(form[i]->a[k]) * t[k];
         CHECK(!(std::abs(value[i] / std::sqrt(square) - linear) > form[i]->r));
       }
     }
-    CHECK(std::isinf(direction_of({Form(1e-150), Form(0.0), Form(0.0)}).x.r));
-    CHECK(std::isinf(direction_of({Form(1e150), Form(0.0), Form(0.0)}).x.r));
-    CHECK(std::isinf(direction_of({Form::coordinate(-1.0, 2.0, 0), Form(0.0), Form(0.0)}).x.r));
+    CHECK(std::isinf(direction_of({PoseForm(1e-150), PoseForm(0.0), PoseForm(0.0)}).x.r));
+    CHECK(std::isinf(direction_of({PoseForm(1e150), PoseForm(0.0), PoseForm(0.0)}).x.r));
+    CHECK(std::isinf(direction_of({PoseForm::coordinate(-1.0, 2.0, 0), PoseForm(0.0), PoseForm(0.0)}).x.r));
   }
 
   TEST_CASE("the bound above M^T M is above it, and the minimum gives it") {
     Sampler draw;
     for (int trial = 0; trial < 500; ++trial) {
       const Case one(draw, std::pow(10.0, -1.5 + draw()));
-      Slopes unused;
-      const SplitGram split = split_gram(one.robot, one.pose(), unused);
+      Moves unused;
+      const SplitGram split = split_gram(one.robot, 1.0, one.pose(), unused);
       REQUIRE(split.known);
       const Point t = draw.point();
       Case point = one;
       point.home.position += one.half * Vec3(t[0], t[1], t[2]);
       point.home.internal_point += 0.5 * one.half * Vec3(t[0], t[1], t[2]);
       point.half = 0.0;
-      const Mat6 exact = middle_of(gram(one.robot, point.pose(), unused));
+      const Mat6 exact = middle_of(gram(one.robot, 1.0, point.pose(), unused));
       Mat6 above, error;
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j) {
@@ -142,8 +142,8 @@ TEST_SUITE("region_split") {
       const Case one(draw, std::pow(10.0, -2.0 + draw()));
       const double limit = one.condition({}) * (1.0 + draw() * one.half);
       if (!(limit > 1.0)) continue;
-      Slopes unused;
-      const SplitGram g = split_gram(one.robot, one.pose(), unused);
+      Moves unused;
+      const SplitGram g = split_gram(one.robot, 1.0, one.pose(), unused);
       const ConditionSplit split = split_by_condition(g, limit);
       const bool all = bounded(g, limit);
       everywhere += all;

@@ -1,0 +1,73 @@
+#pragma once
+/// A pose and the points of a robot there over a number type: doubles, or linear forms over a box of poses.
+
+#include <array>
+
+#include "math/form.hpp"
+#include "ninedof/math/xyz.hpp"
+#include "ninedof/robot/configuration.hpp"
+#include "ninedof/robot/geometry.hpp"
+#include "ninedof/robot/points.hpp"
+
+namespace ninedof {
+
+/// p, s, and Q by columns.
+template <class T>
+struct PoseOf {
+  Xyz<T> p, s;
+  std::array<Xyz<T>, 3> q;
+};
+
+template <class T>
+Xyz<T> constant(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+template <class T>
+Xyz<T> turned(const PoseOf<T>& pose, const Vec3& body) {
+  return body.x() * pose.q[0] + body.y() * pose.q[1] + body.z() * pose.q[2];
+}
+
+/// The joint of a robot with this index of Points, or p or s.
+template <class T>
+Xyz<T> point_at(const Geometry& g, const PoseOf<T>& pose, int point) {
+  if (point == point_p) return pose.p;
+  if (point == point_s) return pose.s;
+  const Triple& triple = point < point_r_hat     ? g.base_external()
+                         : point < point_u       ? g.base_internal()
+                         : point < point_u_tilde ? g.platform_external()
+                                                 : g.platform_internal();
+  const Vec3& joint = triple[at_index(point % 3)];
+  return point < point_u ? constant<T>(joint) : pose.p + turned(pose, joint);
+}
+
+template <class T>
+struct Ends {
+  Xyz<T> from, to;
+};
+/// The ends of a leg, in the order of leg_ends.
+template <class T>
+Ends<T> ends_of(const Geometry& g, const PoseOf<T>& pose, int leg) {
+  const LegEnds ends = leg_ends(leg);
+  return {point_at(g, pose, ends.from), point_at(g, pose, ends.to)};
+}
+
+// Over a box of poses.
+using FormVector = Xyz<PoseForm>;
+using FormPose = PoseOf<PoseForm>;
+using FormEnds = Ends<PoseForm>;
+
+/// The columns of a rotation matrix of doubles, and of the rotation next to it: matrices may come from elsewhere, with
+/// fewer digits.
+std::array<FormVector, 3> rotation_columns(const Mat3& q);
+
+/// A configuration as a box of one pose.
+FormPose form_pose(const Configuration& c);
+
+/// How far vectors move along each coordinate of a box, the most of all: what a box is divided by.
+struct Moves {
+  std::array<double, PoseForm::size> along{};
+  void add(const FormVector& v, double scale = 1.0);
+};
+
+}  // namespace ninedof
