@@ -4,7 +4,7 @@ Configurations come as three flat arrays: position (n, 3), rotation (n, 3, 3), i
 float64; characteristic lengths as one value or n.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from numpy import float64, intc, uint8
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 _Floats = NDArray[float64]
 _Out = _Floats | None
 _Triple = tuple[float, float, float]
+_MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
 
 version: str
@@ -244,16 +245,21 @@ class Settings:
         warm: Sequence[Sequence[float]] | _Floats | None = ...,
     ) -> None: ...
 
-def pose_extremes(
+def limits_over_poses(
     geometry: Geometry,
     position: _Floats,
     rotation: _Floats,
     internal_point: _Floats,
-    region: dict[str, Any] | None,
-    quantities: Sequence[dict[str, Any]],
-    settings: dict[str, Any],
+    region: Mapping[str, Any] | None,
+    problem: Problem,
+    tolerance: float,
+    settings: Mapping[str, Any],
     /,
-) -> list[tuple[float, float, _Triple, _Triple, float, int, int]]: ...
+) -> tuple[
+    list[tuple[str, str, str, float, tuple[float, float], str, list[_MetAt], bool, int]],
+    list[tuple[float, float]],
+    list[_MetAt],
+]: ...
 def worst_condition(
     geometry: Geometry,
     position: _Floats,
@@ -265,7 +271,7 @@ def worst_condition(
     boxes: Sequence[Sequence[float]],
     progress: _Progress | None,
     /,
-) -> tuple[tuple[float, float, _Triple, _Triple, float, int, int], list[list[float]], int, float, bool]: ...
+) -> tuple[float, float, _MetAt, int, list[list[float]], int, float, bool]: ...
 def region_pose(region: dict[str, Any], at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
 def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
 def search_region(

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "ninedof/math/interval.hpp"
+#include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/bounds.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
@@ -51,46 +52,36 @@ ProofSettings settings_from(const py::dict& d) {
   return out;
 }
 
-PoseQuantity quantity_from(const py::dict& d) {
-  using Kind = PoseQuantity::Kind;
-  PoseQuantity out;
-  const auto kind = d["kind"].cast<std::string>();
-  if (kind == "base_cone") out.kind = Kind::base_cone;
-  else if (kind == "platform_cone") out.kind = Kind::platform_cone;
-  else if (kind == "clearance") out.kind = Kind::clearance;
-  else if (kind == "determinant") out.kind = Kind::determinant;
-  out.item = d["item"].cast<int>();
-  out.greatest = d["greatest"].cast<bool>();
-  out.relative = d["relative"].cast<double>();
-  out.limit = d["limit"].cast<double>();
-  const auto axis = d["axis"].cast<std::vector<double>>();
-  if (axis.size() == 3) out.axis = Vec3(axis[0], axis[1], axis[2]);
-  return out;
-}
-
-/// (low, high, shift of p, tilt, yaw, index of a listed pose or -1, boxes)
-py::tuple tuple_of(const Extreme& e) {
+/// (shift of p, tilt, yaw, index of a listed pose or -1)
+py::tuple tuple_of(const MetAt& at) {
   const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
-  return py::make_tuple(e.low, e.high, three(e.at.shift), three(e.at.tilt), e.at.yaw, e.at.pose, e.boxes);
+  return py::make_tuple(three(at.shift), three(at.tilt), at.yaw, at.pose);
 }
 
 }  // namespace
 
 void bind_machine(py::module_& m) {
-  m.def("pose_extremes", [](const Geometry& g, const Array& position, const Array& rotation,
-                            const Array& internal_point, const py::object& region,
-                            const std::vector<py::dict>& quantities, const py::dict& settings) {
-    const PosedRobot robot = robot_from(g, position, rotation, internal_point, 1.0, region);
-    ProofSettings how = settings_from(settings);
-    if (!robot.rule.empty()) how.boxes = boxes_by_rule;
-    std::vector<PoseQuantity> wanted;
-    for (const py::dict& quantity : quantities) wanted.push_back(quantity_from(quantity));
-    const auto found =
-        interruptible(py::none(), [&](const Control& control) { return pose_extremes(robot, wanted, how, control); });
-    py::list out;
-    for (const Extreme& extreme : found) out.append(tuple_of(extreme));
-    return out;
-  });
+  m.def("limits_over_poses",
+        [](const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
+           const py::object& region, const Problem& problem, double tolerance, const py::dict& settings) {
+          const PosedRobot robot = robot_from(g, position, rotation, internal_point, 1.0, region);
+          ProofSettings how = settings_from(settings);
+          if (!robot.rule.empty()) how.boxes = boxes_by_rule;
+          const LimitsOverPoses found = interruptible(py::none(), [&](const Control& control) {
+            return limits_over_poses(robot, problem.limits, exempt_pairs(problem), tolerance, how, control);
+          });
+          py::list limits, lengths, met;
+          for (const LimitOverPoses& one : found.limits) {
+            py::list at;
+            for (const MetAt& pose : one.at) at.append(tuple_of(pose));
+            const auto ends = [](const Interval& x) { return py::make_tuple(x.lo, x.hi); };
+            limits.append(py::make_tuple(one.name, to_string(one.kind), one.side == Side::high ? "max" : "min",
+                                         one.limit, ends(one.value), one.part, at, one.at_neutral, one.boxes));
+          }
+          for (const Interval& length : found.lengths) lengths.append(py::make_tuple(length.lo, length.hi));
+          for (const MetAt& pose : found.met) met.append(tuple_of(pose));
+          return py::make_tuple(limits, lengths, met);
+        });
   m.def("worst_condition", [](const Geometry& g, const Array& position, const Array& rotation,
                               const Array& internal_point, double characteristic_length, const py::object& region,
                               const py::dict& settings, const PoseBoxes& from, const py::object& progress) {
@@ -101,8 +92,8 @@ void bind_machine(py::module_& m) {
         [](WorstCondition& worst) { return worst.interrupted = true; });
     // More boxes than a record holds are only counted: as Python objects they would fill the memory.
     const auto count = found.left.size();
-    return py::make_tuple(tuple_of(found.extreme), count <= most_kept ? found.left : PoseBoxes{}, count, found.tried,
-                          found.interrupted);
+    return py::make_tuple(found.extreme.low, found.extreme.high, tuple_of(found.extreme.at), found.extreme.boxes,
+                          count <= most_kept ? found.left : PoseBoxes{}, count, found.tried, found.interrupted);
   });
 }
 

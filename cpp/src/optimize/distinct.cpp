@@ -47,7 +47,7 @@ DesignEvaluation evaluate_what_matters(const PreparedProblem& p, Eigen::VectorXd
 Eigen::VectorXd signature(const PreparedProblem& p, const Candidate& c) {
   const DesignEvaluation design = evaluate_what_matters(p, p.coordinates.coordinates(c.variables));
   std::vector<double> all(design.state.pose(0).legs.length.begin(), design.state.pose(0).legs.length.end());
-  for (int joint = 0; joint < 12; ++joint) all.push_back(joint_radius(design.state, joint));
+  for (const Vec3& joint : design.state.blueprint.joint) all.push_back(joint.head<2>().norm());
   std::sort(all.begin(), all.begin() + 9);
   std::sort(all.begin() + 9, all.begin() + 15);
   std::sort(all.begin() + 15, all.end());

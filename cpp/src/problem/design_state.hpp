@@ -27,10 +27,7 @@ struct PoseSpec {
 std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates);
 
 /// One design at one pose.
-struct PoseState {
-  Points at;
-  NineLegs legs;
-  Mat3 rotation;       ///< Q
+struct PoseState : PosedPoints {
   Vec3 twist_axis;     ///< the platform turns about it as theta_z grows
   Vec3 p_by_zp, s_by_zp;
   double fraction;

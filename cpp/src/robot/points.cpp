@@ -28,4 +28,10 @@ Points points(const Geometry& g, const Configuration& c) {
   return at;
 }
 
+PosedPoints posed_points(const Geometry& g, const Configuration& c) {
+  PosedPoints out{points(g, c), {}, c.rotation};
+  out.legs = nine_legs(out.at);
+  return out;
+}
+
 }  // namespace ninedof

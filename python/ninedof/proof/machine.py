@@ -11,10 +11,10 @@ from ninedof.design.limits import label
 from ninedof.design.region import Region
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
-from ninedof.proof.machine_limits import SPREADS, Plan
+from ninedof.proof.machine_limits import proved_limits
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
 from ninedof.proof.machine_seal import belongs, machine_digest, sealed
-from ninedof.proof.machine_search import ConditionSearch, extremes
+from ninedof.proof.machine_search import ConditionSearch
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -111,12 +111,7 @@ def certify(
     alone = configurations[[0, 0]]
     stack = alone if only_neutral else configurations
     shape = None if region is None else region.for_core() | ({"rule": followed.for_core()} if followed else {})
-    plan = Plan(study, geometry, configurations[0], tolerance)
-    found = extremes(plan, list(plan.requests), geometry, configurations, shape, how)
-    proofs = [row(found) for row in plan.rows]
-    if any(proof.answer == UNDECIDED and proof.name.startswith(SPREADS) for proof in proofs):
-        found |= extremes(plan, plan.narrowed(), geometry, configurations, shape, how)
-        proofs = [row(found) for row in plan.rows]
+    found = proved_limits(study, geometry, configurations, shape, tolerance, how)
 
     phase(progress, "proving the condition number")
     objective = study.objective
@@ -153,8 +148,8 @@ def certify(
         certificate = MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
-            limits=(*proofs, *of_condition, *at_neutral),
-            lengths=tuple((found[a].value[0], found[b].value[1]) for a, b in plan.legs),
+            limits=(*found.limits, *of_condition, *at_neutral),
+            lengths=found.lengths,
             condition=(runs.low, runs.high),
             condition_at=runs.at,
             condition_boxes=runs.boxes,

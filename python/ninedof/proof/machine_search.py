@@ -1,4 +1,4 @@
-"""Searches over the poses of a machine: extreme values of its limits, and the worst condition number."""
+"""Searches for the worst condition number over the poses of a machine."""
 
 from __future__ import annotations
 
@@ -7,40 +7,8 @@ from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Any
 
-from ninedof import _core
-from ninedof.proof.machine_limits import Extreme, Key, Plan
+from ninedof.proof.machine_limits import met_at
 from ninedof.proof.machine_record import MachineCertificate, Met
-from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
-
-
-def extremes(
-    plan: Plan,
-    keys: Sequence[Key],
-    geometry: Geometry,
-    configurations: Configuration,
-    shape: dict[str, Any] | None,
-    how: dict[str, Any],
-) -> dict[Key, Extreme]:
-    """Return the extreme values that a plan asks for."""
-    found: dict[Key, Extreme] = {}
-    alone = configurations[[0, 0]]
-    only_neutral = shape is None and len(configurations) == 1
-    for where, posed, of in (("poses", alone if only_neutral else configurations, shape), ("neutral", alone, None)):
-        here = [key for key in keys if key[0] == where]
-        wanted = [plan.requests[key] for key in here]
-        arrays = (posed.position, posed.rotation, posed.internal_point)
-        ends = _core.pose_extremes(geometry, *arrays, of, wanted, how) if here else []
-        at_neutral = only_neutral or where == "neutral"
-        found |= {k: Extreme(end[:2], met_at(end, at_neutral), end[6]) for k, end in zip(here, ends, strict=True)}
-    return found
-
-
-def met_at(end: Any, neutral: bool) -> Met:
-    """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
-    _, _, shift, tilt, yaw, listed, _ = end
-    return Met(shift, tilt, yaw, None if listed < 0 else 0 if neutral else listed + 1)
-
 
 SLICE = 20.0  # seconds between two states that are kept
 LEAST = 0.1  # seconds of a search, also where the time is over
@@ -137,11 +105,11 @@ class ConditionSearch:
     def _search_for(self, boxes: list[tuple[float, ...]], target: float, seconds: float) -> None:
         # A bound within the gap is tried at once, another after wider ones.
         gap = min(self._how["gap"], target / self.low - 1.0) if target and self.low else self._how["gap"]
-        end, left, count, tried, stopped = self._search(
+        low, high, at, boxes_done, left, count, tried, stopped = self._search(
             self._how | {"seconds": seconds, "condition": target, "gap": gap}, boxes
         )
-        if not self.low or end[0] > self.low:
-            self.low, self.at = end[0], met_at(end, self._only_neutral)
-        self.high = min(self.high, end[1])
-        self.boxes += end[6]
+        if not self.low or low > self.low:
+            self.low, self.at = low, met_at(at, self._only_neutral)
+        self.high = min(self.high, high)
+        self.boxes += boxes_done
         self.left, self.left_count, self.target, self.interrupted = left, count, tried, stopped

@@ -13,9 +13,8 @@ from ninedof.design.region import Region
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import configurations_at
 from ninedof.design.study import Study
-from ninedof.proof.machine_limits import Plan
+from ninedof.proof.machine_limits import met_at, proved_limits
 from ninedof.proof.machine_record import PROVED, LimitProof, Met
-from ninedof.proof.machine_search import extremes, met_at
 from ninedof.proof.point_rule import PointRule
 from ninedof.proof.rule_fit import Checked, fit_rule
 from ninedof.robot.configuration import Configuration
@@ -76,14 +75,15 @@ def _worst_by_rule(
     assert region is not None
     shape = region.for_core() | {"rule": rule.for_core()}
     how = {"threads": threads, "seconds": SECONDS, "gap": WIDE, "condition": 0.0}
-    plan = Plan(study, geometry, configurations[0], 0.0)
-    found = extremes(plan, list(plan.requests), geometry, configurations, shape, how)
+    found = proved_limits(study, geometry, configurations, shape, 0.0, how)
     arrays = (configurations.position, configurations.rotation, configurations.internal_point)
-    end, *_, interrupted = _core.worst_condition(geometry, *arrays, characteristic_length, shape, how, [], None)
+    worst, _, at, *_, interrupted = _core.worst_condition(
+        geometry, *arrays, characteristic_length, shape, how, [], None
+    )
     if interrupted:  # what a proof would keep is of no use to a fit
         raise KeyboardInterrupt
-    met = [*(extreme.at for extreme in found.values()), met_at(end, False)]
-    return [row(found) for row in plan.rows], end[0], [at for at in met if at is not None and at.listed is None]
+    met = [*found.met, met_at(at, False)]
+    return list(found.limits), worst, [one for one in met if one.listed is None]
 
 
 def _coordinates(region: Region, neutral: Configuration, met: Sequence[Met]) -> Floats:

@@ -1,7 +1,7 @@
-/// constraints.hpp and the constraints of the library's sources: margins against the same taken by hand from joints,
+/// limits.hpp and the constraints of the library's sources: margins against the same taken by hand from joints,
 /// legs and poses (hand.hpp), gradients of every row against differences, for every constraint there is.
 
-#include "ninedof/problem/constraints.hpp"
+#include "ninedof/limits/limits.hpp"
 
 #include <doctest/doctest.h>
 

@@ -36,9 +36,16 @@ def compare(found):
         size = np.abs(known[np.isfinite(known)]).max(initial=1e-300)
         if "margin" in what:
             size = max(size, 1.0)  # at a limit a margin is rounding
+        if "O best" in subject and what in ("lengths", "limits", "condition"):
+            # Where several places of O are as good, rounding decides between them, and with it on what depends on O.
+            np.testing.assert_allclose(values, known, rtol=5e-3, atol=1e-6, err_msg=name)
+            continue
         searched = next((t for word, t in NO_WORSE.items() if what.startswith(word) and "design" not in subject), None)
         if searched is not None:
             sign, worse = searched
+            if "O best" in subject and "legs" in what:
+                assert (abs(values - known)[3:] <= 0.02 * size).all(), (name, values - known)
+                values, known = values[:3], known[:3]
             assert values.shape == known.shape, name
             assert (sign * (values - known) <= worse * size).all(), (name, values - known)
         else:

@@ -389,8 +389,8 @@ class Scripted:
 
     def __call__(self, how, boxes):
         low, high, left, count, stopped = self.answers.pop(0)
-        end = (low, high, (0.0,) * 3, (0.0,) * 3, 0.0, -1, 1)
-        return end, left, count, how["condition"] or 4.0, stopped
+        at = ((0.0,) * 3, (0.0,) * 3, 0.0, -1)
+        return low, high, at, 1, left, count, how["condition"] or 4.0, stopped
 
 
 BOX, OTHER = (0.0, 1.0), (1.0, 2.0)

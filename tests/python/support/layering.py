@@ -19,6 +19,7 @@ CPP_ROOMS = (
     "singularity",
     "statics",
     "batch",
+    "limits",
     "redundancy",
     "problem",
     "proof",

@@ -1,12 +1,13 @@
 #pragma once
 /// A design problem: a family, bounds of its variables, limits, and an objective to be minimized.
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "ninedof/conditioning/characteristic_length.hpp"
 #include "ninedof/families/design_family.hpp"
-#include "ninedof/problem/constraints.hpp"
+#include "ninedof/limits/limits.hpp"
 #include "ninedof/problem/objective.hpp"
 
 namespace ninedof {
@@ -44,6 +45,10 @@ struct Problem {
   /// poses whose internal point the optimizer chooses, its offset in fractions of zp ("pose3.s_x", ...).
   std::vector<std::string> names() const;
 };
+
+/// The pairs of legs (order of leg_clearance) that may meet, as their joints coincide in every design of a problem.
+/// Joints that coincide in one design alone collide.
+std::array<bool, 21> exempt_pairs(const Problem& problem);
 
 /// The characteristic length of one design; `variables` is a full set, bounds are not enforced.
 double characteristic_length(const Problem& problem, const Eigen::VectorXd& variables);

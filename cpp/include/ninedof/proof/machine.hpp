@@ -6,9 +6,12 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
+#include "ninedof/limits/limits.hpp"
 #include "ninedof/math/control.hpp"
+#include "ninedof/math/interval.hpp"
 #include "ninedof/problem/region.hpp"
 #include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
@@ -26,17 +29,10 @@ struct PosedRobot {
   std::vector<PointRule> rule;  ///< none or one: where s is in the region, in place of what the region says
 };
 
-/// A number of a pose.
+/// A number of a pose: what a limit is about, for one of its items.
 struct PoseQuantity {
-  enum class Kind {
-    leg_length,
-    base_cone,      ///< angle of leg k of the base (joint_cones.hpp) from `axis`
-    platform_cone,  ///< likewise; the axis is one of the platform's frame
-    clearance,      ///< distance of the axes of pair k of legs (leg_pairs.hpp)
-    determinant,    ///< of N, B or C (singularity.hpp), times its sign at the neutral configuration
-  };
-  Kind kind = Kind::leg_length;
-  int item = 0;
+  std::string limit_name = "leg_length";  ///< a limit that has a value at every pose
+  int item = 0;                           ///< a leg, a pair of legs (leg_pairs.hpp), det N, B or C
   Vec3 axis = Vec3::Zero();  ///< of cones; zero: the leg's direction at the neutral configuration
   bool greatest = true;      ///< which end of its range is asked for
   double relative = 1e-7;    ///< width of its enclosure at which the search ends
@@ -71,6 +67,31 @@ struct ProofSettings {
 /// The extreme values over all poses. On a stop or when the time is over, enclosures are wider.
 std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<PoseQuantity>& quantities,
                                    const ProofSettings& settings, const Control& control = {});
+
+/// One side of a limit over all poses.
+struct LimitOverPoses {
+  std::string name;  ///< its label; "no singularity" for the three determinants, which have no limit but 0
+  LimitKind kind = LimitKind::ratio;  ///< as in the table of limits, whatever a length is a fraction of
+  Side side = Side::high;
+  double limit = 0.0;       ///< a length, radians or a ratio: what is a fraction of zp or a radius is multiplied by it
+  Interval value;           ///< holds the worst value; one end was met
+  std::string part;         ///< the leg, pair of legs or determinant that is worst
+  std::vector<MetAt> at;    ///< where it was met; of a stroke where the leg is longest and where shortest
+  bool at_neutral = false;  ///< the limit holds at the neutral pose alone
+  long boxes = 0;
+};
+
+struct LimitsOverPoses {
+  std::vector<LimitOverPoses> limits;  ///< "no singularity", then those given, in their order
+  std::array<Interval, 9> lengths;     ///< every leg is between lo and hi
+  std::vector<MetAt> met;              ///< every pose of the region or of the list where an extreme was met
+};
+
+/// Where the worst value of each limit is, and in what it is enclosed. Pairs of legs that are `exempt` may meet.
+/// `tolerance`: a limit that is passed by no more counts as kept, so that the search goes on until that is decided.
+LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
+                                  const std::array<bool, 21>& exempt, double tolerance, const ProofSettings& settings,
+                                  const Control& control = {});
 
 /// Boxes of poses: numbers of the piece, then low and high ends of its six coordinates.
 using PoseBoxes = std::vector<std::array<double, 13>>;

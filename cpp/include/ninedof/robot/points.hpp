@@ -40,6 +40,14 @@ struct NineLegs {
 };
 NineLegs nine_legs(const Points& at);
 
+/// A robot at a pose: its points, its legs, and Q.
+struct PosedPoints {
+  Points at;
+  NineLegs legs;
+  Mat3 rotation;
+};
+PosedPoints posed_points(const Geometry& g, const Configuration& c);
+
 /// The points of a robot in a configuration.
 Points points(const Geometry& g, const Configuration& c);
 

@@ -26,11 +26,6 @@ Problem with_free_point(Problem problem) {
   return problem;
 }
 
-/// For limits on differences between poses the goal has ranges.
-bool compares_poses(const std::string& name) {
-  return name == "leg_ratio" || name == "stroke" || name == "stroke_ratio";
-}
-
 }  // namespace
 
 PlacedPose::PlacedPose(const Problem& problem, const Eigen::VectorXd& variables, const PlacementGoal& goal)
@@ -58,7 +53,9 @@ void PlacedPose::list_rows(const Eigen::VectorXd& variables) {
     const bool moves = probed[0][k] != probed[1][k] || probed[0][k] != probed[2][k];
     const auto item = static_cast<int>(k);
     const std::string& name = p_.margin_name(item);
-    if (compares_poses(name)) continue;
+    // For limits of the lengths over all poses the goal has ranges.
+    if (const int c = p_.margins[at_index(k)].constraint; c >= 0 && p_.constraints[at_index(c)]->compares_poses())
+      continue;
     (moves && !name.ends_with(" at neutral") ? rows_ : of_design_).push_back({Row::Kind::limit, item, 0});
   }
   for (std::size_t range = 0; range < goal_.ranges.size(); ++range)

@@ -13,9 +13,6 @@ namespace {
 /// Number of unrelated designs. What holds in all of them is taken to hold in every design.
 constexpr int probes = 3;
 
-/// Their size limit where single designs are evaluated.
-constexpr double probe_size = 100.0;
-
 /// Difference of margins that counts as none.
 double same_margin(double margin) {
   return 1e-11 * std::max(1.0, std::abs(margin));
@@ -30,7 +27,7 @@ int count_auxiliary(const Problem& problem) {
   int count = 0;
   for (const Limit& limit : problem.limits)
     count +=
-        make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve)->auxiliary_count();
+        make_constraint(limit, static_cast<int>(problem.objective.poses.size()), Purpose::solve, {})->auxiliary_count();
   return count;
 }
 
@@ -38,14 +35,11 @@ int count_auxiliary(const Problem& problem) {
 
 PreparedProblem::PreparedProblem(const Problem& given, double size_limit)
     : PreparedProblem(given, Coordinates(given, size_limit, count_auxiliary(given)), Purpose::solve) {
-  learn_constraints(coordinates);
   drop_repeated_margins();
 }
 
 PreparedProblem::PreparedProblem(const Problem& given)
-    : PreparedProblem(given, Coordinates::plain(given), Purpose::evaluate) {
-  learn_constraints(Coordinates(given, probe_size * given.unit()));
-}
+    : PreparedProblem(given, Coordinates::plain(given), Purpose::evaluate) {}
 
 PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpose purpose)
     : problem(given),
@@ -80,8 +74,10 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
       if (weighted) row_levels.push_back({row, levels - 1});
     }
   const auto full = static_cast<int>(full_variables(problem).size());
+  const bool pairs = std::ranges::any_of(problem.limits, [](const Limit& l) { return l.name == "leg_clearance"; });
+  const std::array<bool, leg_pairs> exempt = pairs ? exempt_pairs(problem) : std::array<bool, leg_pairs>{};
   for (const Limit& limit : problem.limits) {
-    constraints.push_back(make_constraint(limit, objective_poses, purpose));
+    constraints.push_back(make_constraint(limit, objective_poses, purpose, exempt));
     const int own = constraints.back()->auxiliary_count();
     if (own > 0)
       constraints.back()->set_auxiliary(full + auxiliary_count, coordinates.coordinate(full + auxiliary_count));
@@ -113,12 +109,6 @@ std::vector<DesignState> PreparedProblem::unrelated_designs(const Coordinates& w
   for (int k = 0; k < probes; ++k)
     designs[at_index(k)].set(*family, within, problem.characteristic_length, {{}}, 0, within.start(7 * k + 1, 12345));
   return designs;
-}
-
-void PreparedProblem::learn_constraints(const Coordinates& within) {
-  if (constraints.empty()) return;
-  const std::vector<DesignState> designs = unrelated_designs(within);
-  for (const auto& c : constraints) c->learn(designs);
 }
 
 void PreparedProblem::drop_repeated_margins() {

@@ -83,7 +83,6 @@ struct PreparedProblem {
  private:
   PreparedProblem(const Problem& problem, Coordinates solved, Purpose purpose);
   std::vector<DesignState> unrelated_designs(const Coordinates& within) const;
-  void learn_constraints(const Coordinates& within);
   void drop_repeated_margins();
 
   std::vector<int> first_row_;

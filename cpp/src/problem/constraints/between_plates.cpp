@@ -21,7 +21,7 @@ class BetweenPlates : public Constraint {
     l.low = plate_gap;
     return l;
   }
-  Form form() const override { return Form::plain; }
+  SolverMargin form() const override { return SolverMargin::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
   int pose(const DesignState& v, int item) const { return v.first_pose + poses_[at_index(item / 2)]; }
   static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }

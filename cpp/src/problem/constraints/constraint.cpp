@@ -3,6 +3,13 @@
 #include <cmath>
 
 namespace ninedof {
+namespace {
+
+double radius_of(const DesignState& v, int body) {
+  return v.blueprint.joint[at_index(widest_joint(v.blueprint.joint, body))].head<2>().norm();
+}
+
+}  // namespace
 
 ShownMargin share_of_limit(Side side, double logarithm) {
   const double sign = side == Side::high ? -1.0 : 1.0;
@@ -26,15 +33,15 @@ void Constraint::add_gradient(const DesignState& v, int row, Row out) const {
 }
 
 double Constraint::price_factor(int) const {
-  return form() == Form::plain ? limit_.low : 1.0;
+  return form() == SolverMargin::plain ? limit_.low : 1.0;
 }
 
 double Constraint::item_margin(const DesignState& v, Side side, int item) const {
   const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
-    case Form::logarithm: return sign * std::log(limit / now);
-    case Form::linear: return sign * (1.0 - now / limit);
-    case Form::plain: return now - limit;
+    case SolverMargin::logarithm: return sign * std::log(limit / now);
+    case SolverMargin::linear: return sign * (1.0 - now / limit);
+    case SolverMargin::plain: return now - limit;
   }
   return 0.0;
 }
@@ -42,9 +49,9 @@ double Constraint::item_margin(const DesignState& v, Side side, int item) const 
 double Constraint::value_at(Side side, double margin) const {
   const double away = side == Side::high ? -margin : margin;
   switch (form()) {
-    case Form::logarithm: return bound(side) * std::exp(away);
-    case Form::linear: return bound(side) * (1.0 + away);
-    case Form::plain: return bound(side) + margin;
+    case SolverMargin::logarithm: return bound(side) * std::exp(away);
+    case SolverMargin::linear: return bound(side) * (1.0 + away);
+    case SolverMargin::plain: return bound(side) + margin;
   }
   return 0.0;
 }
@@ -52,11 +59,11 @@ double Constraint::value_at(Side side, double margin) const {
 void Constraint::add_item_gradient(const DesignState& v, Side side, int item, Row out) const {
   const double now = value(v, side, item), limit = bound(side), sign = side == Side::high ? 1.0 : -1.0;
   switch (form()) {
-    case Form::logarithm:
+    case SolverMargin::logarithm:
       if (now > 0.0) add_value_gradient(v, side, item, -sign / now, out);
       return;
-    case Form::linear: return add_value_gradient(v, side, item, -sign / limit, out);
-    case Form::plain: return add_value_gradient(v, side, item, 1.0, out);
+    case SolverMargin::linear: return add_value_gradient(v, side, item, -sign / limit, out);
+    case SolverMargin::plain: return add_value_gradient(v, side, item, 1.0, out);
   }
 }
 
@@ -64,37 +71,27 @@ double Constraint::unit(const DesignState& v, int body) const {
   switch (limit_.of) {
     case Unit::length: return 1.0;
     case Unit::zp: return v.blueprint.zp;
-    case Unit::radius: return joint_radius(v, widest_joint(v, body));
+    case Unit::radius: return radius_of(v, body);
   }
   return 1.0;
 }
 
 void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out, int body) const {
   if (limit_.of == Unit::zp) v.add_zp(scale, out);
-  if (limit_.of == Unit::radius) add_joint_radius(v, widest_joint(v, body), scale, out);
-}
-
-double joint_radius(const DesignState& v, int joint) {
-  return v.blueprint.joint[at_index(joint)].head<2>().norm();
-}
-
-int widest_joint(const DesignState& v, int body) {
-  const int begin = body < 0 ? 0 : body, end = body < 0 ? 12 : body + 6;
-  int widest = begin;
-  double most = -1.0;
-  for (int k = begin; k < end; ++k) {
-    const double squared = v.blueprint.joint[at_index(k)].head<2>().squaredNorm();
-    if (squared <= most) continue;
-    most = squared;
-    widest = k;
-  }
-  return widest;
-}
-
-void add_joint_radius(const DesignState& v, int joint, double scale, Row out) {
+  if (limit_.of != Unit::radius) return;
+  const int joint = widest_joint(v.blueprint.joint, body);
   const Vec3& at = v.blueprint.joint[at_index(joint)];
   const double radius = at.head<2>().norm();
   if (radius > 0.0) v.add_joint(joint, scale * Vec3(at.x() / radius, at.y() / radius, 0.0), out);
+}
+
+std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose,
+                                            const std::array<bool, leg_pairs>& exempt) {
+  const LimitRow& row = limit_row(limit.name);
+  const int where = limit.at == LimitAt::neutral ? 0 : poses;
+  return row.pose != nullptr     ? make_pose_limit(limit, row, where, exempt)
+         : row.design != nullptr ? make_design_limit(limit, row)
+                                 : make_spread(limit, row, where, purpose);
 }
 
 }  // namespace ninedof

@@ -3,14 +3,12 @@
 
 #include <memory>
 
+#include "limits/table.hpp"
 #include "math/numbers.hpp"
-#include "ninedof/problem/constraints.hpp"
 #include "problem/design_state.hpp"
+#include "robot/leg_pairs.hpp"
 
 namespace ninedof {
-
-/// The side of a limit that a margin belongs to.
-enum class Side { high, low };
 
 /// A margin as people read it, and its derivative by the margin of the row that the solver has.
 struct ShownMargin {
@@ -33,19 +31,19 @@ class Constraint {
   Side side_of(int row) const { return item_of(row).first; }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
   ShownMargin shown(int row, double margin) const {
-    return form() == Form::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
+    return form() == SolverMargin::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
   }
   /// The limited value of a design whose margin on that side is given.
   double value_at(Side side, double margin) const;
+
+  /// Whether it is about the lengths over all poses together.
+  virtual bool compares_poses() const { return false; }
 
   /// Whether margins that agree at a few unrelated designs are the same function; false for piecewise functions.
   virtual bool analytic() const { return true; }
 
   /// Violation of the limit over violation of the row: 2 where an auxiliary variable shares it between two rows.
   virtual double violation_factor(int) const { return 1.0; }
-
-  /// Receives a few unrelated designs within the study's bounds: what holds in all of them holds by construction.
-  virtual void learn(const std::vector<DesignState>&) {}
 
   /// Derivative of a row's margin by the logarithm of its limit, at the limit: 1, or 0 for a row without a limit.
   virtual double price_factor(int row) const;
@@ -62,12 +60,7 @@ class Constraint {
   virtual double auxiliary_value(const DesignState&, int) const { return 0.0; }
 
  protected:
-  enum class Form {
-    logarithm,  ///< log(high / value), log(value / low): for positive values
-    linear,     ///< 1 - value / high, value / low - 1
-    plain       ///< value - low
-  };
-  virtual Form form() const { return Form::logarithm; }
+  virtual SolverMargin form() const { return SolverMargin::logarithm; }
   /// Number of margins of a side.
   virtual int items(Side side) const = 0;
   /// The limited value. The second adds `scale` times its derivatives.
@@ -99,18 +92,20 @@ class Constraint {
 /// Use of the rows: `solve` needs smooth rows; `evaluate`, of one design, needs the smallest margin only.
 enum class Purpose { solve, evaluate };
 
-/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone). Valid limits only.
-std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose);
+std::unique_ptr<Constraint> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
+                                            const std::array<bool, leg_pairs>& exempt);
+std::unique_ptr<Constraint> make_design_limit(const Limit& limit, const LimitRow& row);
+std::unique_ptr<Constraint> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose);
+
+/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone), where `exempt` pairs of
+/// legs may meet. Valid limits only.
+std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose,
+                                            const std::array<bool, leg_pairs>& exempt);
 
 /// Least distance of O from the planes of base and platform, in zp, where O is placed.
 inline constexpr double plate_gap = 1e-6;
 
 /// 0 < zs < zp (eq. 9b), which no study has to ask for, at the neutral configuration and `poses`.
 std::unique_ptr<Constraint> make_between_plates(std::vector<int> poses);
-
-/// Distance of a joint from z in its body's frame, and the joint of a body (0 base, 6 platform, -1 both) farthest off.
-double joint_radius(const DesignState& v, int joint);
-int widest_joint(const DesignState& v, int body);
-void add_joint_radius(const DesignState& v, int joint, double scale, Row out);
 
 }  // namespace ninedof

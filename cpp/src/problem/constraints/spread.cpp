@@ -1,5 +1,5 @@
 /// leg_ratio: longest over shortest leg, of all legs at all poses where the limit holds. stroke: longest less shortest
-/// length of each leg over those poses; stroke_ratio: longest over shortest. Declared in problem/constraints/table.hpp.
+/// length of each leg over those poses; stroke_ratio: longest over shortest. Declared in problem/constraints/constraint.hpp.
 ///
 /// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
 /// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many
@@ -16,19 +16,18 @@ namespace {
 
 class Spread : public Constraint {
  public:
-  enum class Measure { ratio, difference };
-
   /// One group of all legs, or one for each leg; a leg at each of `poses` poses is a member.
-  Spread(const Limit& limit, Measure measure, bool each_leg, int poses, Purpose purpose)
+  Spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose)
       : Constraint(limit),
-        measure_(measure),
-        each_leg_(each_leg),
-        groups_(each_leg ? 9 : 1),
-        count_(each_leg ? poses : 9 * poses),
+        row_(row),
+        each_leg_(row.spread->each_leg),
+        groups_(each_leg_ ? 9 : 1),
+        count_(each_leg_ ? poses : 9 * poses),
         way_(purpose == Purpose::evaluate || count_ < 2 ? Way::ruling
              : count_ <= few                            ? Way::pairs
                                                         : Way::auxiliary) {}
 
+  bool compares_poses() const override { return !at_neutral(); }
   double price_factor(int row) const override {
     const auto [side, item] = item_of(row);
     return way_ == Way::auxiliary && side == Side::high && item % each() < count_ ? 0.0 : 1.0;
@@ -43,7 +42,7 @@ class Spread : public Constraint {
   }
 
  private:
-  Form form() const override { return measure_ == Measure::ratio ? Form::logarithm : Form::linear; }
+  SolverMargin form() const override { return row_.solver; }
   enum class Way { pairs, auxiliary, ruling };
   static constexpr int few = 9;
 
@@ -74,14 +73,14 @@ class Spread : public Constraint {
     return each_leg_ ? LegExtreme{v.shortest_of[at_index(group)], group} : v.shortest;
   }
 
-  double room() const { return measure_ == Measure::ratio ? std::log(limit().high) : 1.0; }
+  double room() const { return row_.spread->ratio ? std::log(limit().high) : 1.0; }
   double phi(const DesignState& v, const LegExtreme& l) const {
-    if (measure_ == Measure::ratio) return std::log(v.length(l) / v.unit);
+    if (row_.spread->ratio) return std::log(v.length(l) / v.unit);
     return v.length(l) / (limit().high * unit(v));
   }
   void add_phi(const DesignState& v, const LegExtreme& l, double scale, Row out) const {
     const double length = v.length(l);
-    if (measure_ == Measure::ratio) {
+    if (row_.spread->ratio) {
       if (length > 0.0) v.add_leg(l.pose, l.leg, scale / length, out);
       return;
     }
@@ -123,7 +122,7 @@ class Spread : public Constraint {
     out[auxiliary_coordinate() + group] -= sign;
   }
 
-  Measure measure_;
+  const LimitRow& row_;
   bool each_leg_;
   int groups_, count_;
   Way way_;
@@ -131,13 +130,8 @@ class Spread : public Constraint {
 
 }  // namespace
 
-std::unique_ptr<Constraint> make_leg_ratio(const Limit& limit, int poses, Purpose purpose) {
-  return std::make_unique<Spread>(limit, Spread::Measure::ratio, false, std::max(poses, 1), purpose);
-}
-
-std::unique_ptr<Constraint> make_stroke(const Limit& limit, int poses, Purpose purpose) {
-  const auto measure = limit.name == "stroke_ratio" ? Spread::Measure::ratio : Spread::Measure::difference;
-  return std::make_unique<Spread>(limit, measure, true, std::max(poses, 1), purpose);
+std::unique_ptr<Constraint> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose) {
+  return std::make_unique<Spread>(limit, row, std::max(poses, 1), purpose);
 }
 
 }  // namespace ninedof

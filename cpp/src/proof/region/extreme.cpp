@@ -5,10 +5,12 @@
 #include <cmath>
 #include <queue>
 
+#include "limits/leg_clearance.hpp"
+#include "limits/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
-#include "proof/region/quantity.hpp"
+#include "proof/region/pose.hpp"
 
 namespace ninedof {
 namespace over_region {
@@ -23,15 +25,72 @@ struct Open {
   bool operator<(const Open& other) const { return bound < other.bound; }
 };
 
+/// A number as a function to be maximized: u of its row, or less u, or less the distance of two legs.
+class Sought {
+ public:
+  Sought(const Domain& domain, const PoseQuantity& wanted)
+      : domain_(domain),
+        row_(*limit_row(wanted.limit_name).pose),
+        item_(wanted.item),
+        home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
+        sign_(wanted.greatest != row_.falls ? 1.0 : -1.0) {}
+
+  /// At least every value at the poses of the domain in the box.
+  double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
+    const FormPose pose = domain_.pose(box);
+    const FormLook look(domain_.machine().geometry, pose, home_);
+    if (row_.form == nullptr) return less_distance(look, box, slope, moves);
+    const PoseForm f = sign_ * row_.form(look, item_);
+    slope = f.a;
+    row_.moves(look, item_, moves);
+    return domain_.greatest(f, box);
+  }
+  /// At most the value at a box of one pose.
+  double attained(const Box& point) const {
+    const FormPose pose = domain_.pose(point);
+    const FormLook look(domain_.machine().geometry, pose, home_);
+    if (row_.form != nullptr) return lower(sign_ * row_.form(look, item_));
+    return -detail::above(std::sqrt(upper(squared_distance_above(leg_pair_forms(look, item_)))));
+  }
+  /// The number, where the function is within `value`.
+  Interval number(const Interval& value) const {
+    const Interval u = sign_ > 0.0 ? value : -value;
+    return row_.form != nullptr ? row_.read(u) : u;
+  }
+
+ private:
+  double less_distance(const FormLook& look, const Box& box, std::array<double, PoseForm::size>& slope,
+                       Moves& moves) const {
+    const LegPairForms legs = leg_pair_forms(look, item_);
+    if (!(legs.middle.apart.squaredNorm() > 0.0)) return 0.0;
+    const EndDistances ends = end_distances(legs, fixed_direction(legs));
+    double out = -infinity;
+    for (std::size_t k = 0; k < ends.along.size(); ++k) {
+      const PoseForm f = -ends.along[k];
+      const double most = domain_.greatest(f, box);
+      if (!(most > out)) continue;
+      // The ends that decide. Others count for little: a direction that moves only them need not be divided.
+      slope = f.a;
+      moves = {};
+      moves.add(ends.between[k]);
+      out = most;
+    }
+    for (const FormEnds* e : {&legs.one, &legs.two}) moves.add(e->to - e->from, 1e-3);
+    return std::min(out, 0.0);
+  }
+
+  const Domain& domain_;
+  const PoseRow& row_;
+  int item_;
+  FormHome home_;
+  double sign_;
+};
+
 /// Maximizes one quantity: always the box of the greatest bound next, until no bound is above what was met.
 class Climb {
  public:
   Climb(const Domain& domain, const PoseQuantity& wanted, const ProofSettings& settings)
-      : domain_(domain),
-        wanted_(wanted),
-        made_(make_quantity(domain.machine(), wanted)),
-        quantity_(*made_),
-        settings_(settings) {}
+      : domain_(domain), wanted_(wanted), sought_(domain, wanted), settings_(settings) {}
 
   template <class Stop>
   Extreme run(const Stop& stopped) {
@@ -41,7 +100,7 @@ class Climb {
     double done = -infinity;  // the greatest bound of boxes that were given up
     while (!open_.empty()) {
       const Open top = open_.top();
-      const bool near = contains(quantity_.number({met_, top.bound}), wanted_.limit);
+      const bool near = contains(sought_.number({met_, top.bound}), wanted_.limit);
       if (top.bound <= met_ + (near ? settings_.relative : wanted_.relative) * std::abs(met_)) break;
       if (boxes >= settings_.boxes || (boxes % 256 == 0 && stopped())) break;
       open_.pop();
@@ -53,29 +112,29 @@ class Climb {
       ++boxes;
     }
     const double most = std::max({met_, done, open_.empty() ? -infinity : open_.top().bound});
-    const Interval number = quantity_.number({met_, most});
+    const Interval number = sought_.number({met_, most});
     return {number.lo, number.hi, domain_.met(at_), boxes};
   }
 
  private:
   void look(const Box& box) {
     if (domain_.outside(box)) return;
-    Slopes slopes;
-    const double bound = quantity_.bound(domain_, box, slopes);
+    std::array<double, PoseForm::size> slope{};
+    Moves moves;
+    const double bound = sought_.bound(box, slope, moves);
     if (!(bound > met_)) return;
-    const Box point = domain_.towards(slopes.slope, box);
-    const double value = quantity_.attained(domain_.pose(point));
+    const Box point = domain_.towards(slope, box);
+    const double value = sought_.attained(point);
     if (value > met_) {
       met_ = value;
       at_ = point;
     }
-    open_.push({bound, box, divided_coordinate(box, slopes.moves.along)});
+    open_.push({bound, box, divided_coordinate(box, moves.along)});
   }
 
   const Domain& domain_;
   const PoseQuantity& wanted_;
-  std::unique_ptr<Quantity> made_;
-  const Quantity& quantity_;
+  Sought sought_;
   const ProofSettings& settings_;
   std::priority_queue<Open> open_;
   double met_ = -infinity;

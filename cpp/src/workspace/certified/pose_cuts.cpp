@@ -28,52 +28,24 @@ FormVector centroid_of(const Triple& t) {
   return third * (constant<PoseForm>(t[0]) + constant<PoseForm>(t[1]) + constant<PoseForm>(t[2]));
 }
 
-FormVector unit(const FormVector& v) {
-  return inverse_root(dot(v, v)) * v;
-}
-
-/// Leg k of a body from its joint, in the base frame.
-FormVector from_joint(const Geometry& g, const FormPose& pose, bool platform, int k) {
-  const FormEnds e = ends_of(g, pose, leg_at(platform, k));
-  return sense_at(platform, k) * (e.to - e.from);
-}
-
-FormVector in_platform(const FormPose& pose, const FormVector& v) {
-  return {dot(pose.q[0], v), dot(pose.q[1], v), dot(pose.q[2], v)};
-}
-
-/// The three determinants without their positive factors: rows are not of unit length.
-PoseForm determinant(const Geometry& g, const FormPose& pose, int which) {
-  const auto row = [&](int k) -> FormVector {
-    const FormEnds e = ends_of(g, pose, k + (which == 1 ? 6 : which == 2 ? 3 : 0));
-    return which > 0 ? e.to - e.from : cross(e.from - pose.s, e.to - pose.s);
-  };
-  return dot(row(0), cross(row(1), row(2)));
-}
-
 }  // namespace
 
 PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                    const WorkspaceCriteria& criteria, const Configuration& home)
-    : geometry_(g), criteria_(criteria), rule_(rule), some_(domain.archetype == Archetype::reachable) {
+    : geometry_(g),
+      criteria_(criteria),
+      rule_(rule),
+      home_(g, home, Vec3::Zero()),
+      some_(domain.archetype == Archetype::reachable) {
   for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
-  const FormPose at_home = form_pose(home);
   if (criteria.legs)
     for (int k = 0; k < 9; ++k)
       if (criteria.legs->low[k] > 0.0 || std::isfinite(criteria.legs->high[k])) all_ |= bit(legs_first + k);
   const auto cones = [&](const std::optional<ConeLimit>& limit, bool platform) {
-    std::array<FormVector, 6>& axes = platform ? platform_axes_ : base_axes_;
     if (!limit || !(limit->angle < std::numbers::pi)) return;  // no angle is greater
     all_ |= bits(platform ? platform_first : base_first, legs_at_body);
+    (platform ? platform_home_ : base_home_).emplace(g, home, limit->axis);
     (platform ? least_platform_cosine_ : least_base_cosine_) = PoseForm::of(cos(Interval(limit->angle)));
-    for (int k = 0; k < legs_at_body; ++k) {
-      FormVector axis = constant<PoseForm>(limit->axis);
-      if (limit->axis.isZero(0.0)) {
-        axis = from_joint(g, at_home, platform, k);
-        if (platform) axis = in_platform(at_home, axis);
-      }
-      axes[at_index(k)] = unit(axis);
-    }
   };
   cones(criteria.base_cone, false);
   cones(criteria.platform_cone, true);
@@ -84,13 +56,11 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
   }
   if (criteria.singularity_free) {
     all_ |= bits(signs_first, 3);
-    for (int d = 0; d < 3; ++d) {
-      const PoseForm at = determinant(g, at_home, d);
-      if (!(lower(at) > 0.0 || upper(at) < 0.0))
+    const FormPose at_home = form_pose(home);
+    for (int d = 0; d < 3; ++d)
+      if (!(lower(determinant_numerator(FormLook(g, at_home, home_), d)) > 0.0))
         throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
                               "a regular one with singularity_free");
-      sides_[at_index(d)] = lower(at) > 0.0 ? 1.0 : -1.0;
-    }
   }
   if (criteria.condition_number) all_ |= bit(condition_first);
 }
@@ -133,11 +103,10 @@ void PoseCuts::put(const Cut& cut, Found& found) {
 }
 
 void PoseCuts::look_at_legs(const FormPose& pose, Found& found) const {
+  const FormLook look(geometry_, pose, home_);
   for (int k = 0; k < 9; ++k) {
     if (!(found.open & bit(legs_first + k))) continue;
-    const FormEnds e = ends_of(geometry_, pose, k);
-    const FormVector v = e.to - e.from;
-    const PoseForm squared = dot(v, v);
+    const PoseForm squared = leg_length_row.form(look, k);
     const double low = criteria_.legs->low[k], high = criteria_.legs->high[k];
     bool both = true;
     if (low > 0.0) both = decided(squared - PoseForm::of(square(Interval(low))), 0, found) && both;
@@ -149,42 +118,68 @@ void PoseCuts::look_at_legs(const FormPose& pose, Found& found) const {
 
 void PoseCuts::look_at_cones(const FormPose& pose, bool platform, Found& found) const {
   const int first = platform ? platform_first : base_first;
-  for (int k = 0; k < legs_at_body && !found.violated; ++k) {
-    if (!(found.open & bit(first + k))) continue;
-    const FormVector leg = from_joint(geometry_, pose, platform, k);
-    FormVector axis = (platform ? platform_axes_ : base_axes_)[at_index(k)];
-    if (platform) axis = axis.x * pose.q[0] + axis.y * pose.q[1] + axis.z * pose.q[2];
-    decided(dot(unit(leg), axis) - (platform ? least_platform_cosine_ : least_base_cosine_), bit(first + k), found);
-  }
+  if (!(found.open & bits(first, legs_at_body))) return;
+  const FormLook look(geometry_, pose, platform ? *platform_home_ : *base_home_);
+  const PoseRow& row = platform ? platform_cone_row : base_cone_row;
+  for (int k = 0; k < legs_at_body && !found.violated; ++k)
+    if (found.open & bit(first + k))
+      decided(row.form(look, k) - (platform ? least_platform_cosine_ : least_base_cosine_), bit(first + k), found);
 }
 
 void PoseCuts::look_at_clearance(const FormPose& pose, Found& found) const {
+  const FormLook look(geometry_, pose, home_);
+  const double distance = *criteria_.leg_clearance;
   for (int pair = 0; pair < leg_pairs; ++pair) {
     const Criteria which = bit(pairs_first + pair);
     if (!(found.open & which)) continue;
-    const auto [a, b] = leg_pair(pair);
-    const DistanceCut cut =
-        distance_cut(ends_of(geometry_, pose, a), ends_of(geometry_, pose, b), *criteria_.leg_clearance);
-    if (cut.everywhere) {
+    const LegPairForms legs = leg_pair_forms(look, pair);
+    Cut apart;
+    if (all_apart(legs, distance, apart)) {
       found.open &= ~which;
       continue;
     }
-    put({cut.slope, cut.allowed}, found);
-    if (!is_known(cut.lack)) continue;
-    if (lower(cut.lack) > 0.0) {
+    put(apart, found);
+    const PoseForm lack = PoseForm::of(square(Interval(distance))) - squared_distance_above(legs);
+    if (!is_known(lack)) continue;
+    if (lower(lack) > 0.0) {
       found.violated = true;
       return;
     }
     // Less than the distance apart where lack > 0: slope . t below.
-    put({{-cut.lack.a[0], -cut.lack.a[1], -cut.lack.a[2]}, -infinity, ninedof::detail::below(cut.lack.c - cut.lack.r)},
-        found);
+    put({{-lack.a[0], -lack.a[1], -lack.a[2]}, -infinity, ninedof::detail::below(lack.c - lack.r)}, found);
   }
 }
 
+bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) {
+  FormVector direction = turning_direction(legs);
+  if (!is_known(direction.x)) direction = fixed_direction(legs);
+  // The distance is at least the least of four numbers; each is above a plane of one slope, that of the least of them.
+  std::array<PoseForm, 4> spare = end_distances(legs, direction).along;
+  std::size_t lowest = 0;
+  for (std::size_t k = 0; k < spare.size(); ++k) {
+    spare[k] = spare[k] - PoseForm(distance);
+    if (!is_known(spare[k])) return false;
+    if (lower(spare[k]) < lower(spare[lowest])) lowest = k;
+  }
+  if (lower(spare[lowest]) > 0.0) return true;
+  double level = -infinity;
+  for (PoseForm rest : spare) {
+    if (lower(rest) > 0.0) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      apart.slope[i] = spare[lowest].a[i];
+      rest.a[i] -= apart.slope[i];
+      rest.r += 0x1p-52 * std::abs(rest.a[i]);
+    }
+    level = std::max(level, -lower(rest));
+  }
+  apart.allowed = ninedof::detail::above(level);
+  return false;
+}
+
 void PoseCuts::look_at_signs(const FormPose& pose, Found& found) const {
+  const FormLook look(geometry_, pose, home_);
   for (int d = 0; d < 3 && !found.violated; ++d)
-    if (found.open & bit(signs_first + d))
-      decided(sides_[at_index(d)] * determinant(geometry_, pose, d), bit(signs_first + d), found);
+    if (found.open & bit(signs_first + d)) decided(determinant_numerator(look, d), bit(signs_first + d), found);
 }
 
 void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {

@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "conditioning/forms/gram.hpp"
+#include "limits/leg_clearance.hpp"
+#include "limits/pose_row.hpp"
 #include "ninedof/workspace/certified.hpp"
-#include "robot/leg_pairs.hpp"
-#include "robot/pose_of.hpp"
 
 namespace ninedof::certified {
 
@@ -57,26 +57,19 @@ class PoseCuts {
   /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether the criterion is decided.
   static bool decided(const PoseForm& f, Criteria bit, Found& found);
   static void put(const Cut& cut, Found& found);
+  /// Whether two legs are at least the distance apart in all of the box; else where they are.
+  static bool all_apart(const LegPairForms& legs, double distance, Cut& apart);
   PositionBox reached_with(std::size_t rotation) const;
 
   Geometry geometry_;
   WorkspaceCriteria criteria_;
   InternalPointRule rule_;
+  FormHome home_;
   bool some_;  // one allowed rotation is enough
   std::vector<std::array<FormVector, 3>> rotations_;  // by columns
-  std::array<FormVector, 6> base_axes_, platform_axes_;
+  std::optional<FormHome> base_home_, platform_home_;  // with the axes of cones
   PoseForm least_base_cosine_, least_platform_cosine_;
-  std::array<double, 3> sides_{};
   Criteria all_ = 0;
 };
-
-/// Where two legs are at least the distance apart: an allowed plane, and a number that is positive where they are not.
-struct DistanceCut {
-  bool everywhere = false;
-  Slope3 slope{};
-  double allowed = std::numeric_limits<double>::infinity();
-  PoseForm lack;
-};
-DistanceCut distance_cut(const FormEnds& one, const FormEnds& two, double distance);
 
 }  // namespace ninedof::certified

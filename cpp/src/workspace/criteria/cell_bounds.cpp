@@ -10,7 +10,7 @@
 namespace ninedof {
 
 CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const Chart& chart, const Placement& placement,
-                       const LegLimits& limits, const std::vector<int>& limited, const std::vector<const Cones*>& cones)
+                       const LegLimits& limits, const std::vector<int>& limited, const std::vector<BodyCones>& cones)
     : chart_(chart),
       rotations_(chart.positional() ? domain.rotations.size() : 1),
       some_(domain.archetype == Archetype::reachable) {
@@ -34,22 +34,23 @@ CellBounds::CellBounds(const Geometry& g, const WorkspaceDomain& domain, const C
     return reach > rounding_;
   };
   for (const int leg : limited) line(leg, 1.0);  // for the size, before anything is compared with it
-  for (const Cones* body : cones)
-    for (int k = 0; k < legs_at_body; ++k) line(leg_at(body->of_platform(), k), sense_at(body->of_platform(), k));
+  for (const BodyCones& body : cones)
+    for (int k = 0; k < legs_at_body; ++k) line(leg_at(body.platform, k), sense_at(body.platform, k));
   rounding_ = 1e-12 * size_;
   for (const int leg : limited) {
     Leg one{line(leg, 1.0), limits.low[leg], limits.high[leg]};
     constant_.push_back(!moves(one, std::min(one.at[0].norm(), one.arm.norm())));
     if (!constant_.back()) legs_.push_back(std::move(one));
   }
-  for (const Cones* body : cones)
+  for (const BodyCones& body : cones)
     for (int k = 0; k < legs_at_body; ++k) {
-      const bool platform = body->of_platform();
+      const bool platform = body.platform;
       ConedLeg one{line(leg_at(platform, k), sense_at(platform, k)), {}, platform};
       for (std::size_t r = 0; r < rotations_; ++r)
-        one.cone.emplace_back(platform && chart.positional() ? domain.rotations[r] * body->axis(k) : body->axis(k),
-                              body->angle());
-      const bool limits_it = body->angle() < std::numbers::pi;
+        one.cone.emplace_back(
+            platform && chart.positional() ? domain.rotations[r] * body.axis[at_index(k)] : body.axis[at_index(k)],
+            body.angle);
+      const bool limits_it = body.angle < std::numbers::pi;
       constant_.push_back(!(limits_it && moves(one, platform ? one.at[0].norm() : one.arm.norm())));
       if (!constant_.back()) cones_.push_back(std::move(one));
     }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "workspace/chart.hpp"
-#include "workspace/criteria/cones.hpp"
 #include "workspace/criteria/convex_cone.hpp"
 #include "workspace/criteria/placement.hpp"
 
@@ -17,11 +16,18 @@ struct Proof {
   bool inside = true;    ///< legs, cones and region allow all points
 };
 
+/// The cones of the joints of a body, with the axes that they have, in its frame.
+struct BodyCones {
+  bool platform;
+  double angle;
+  std::array<Vec3, 6> axis;
+};
+
 class CellBounds {
  public:
   /// Of the legs in `limited`, and of all legs at the bodies of `cones`, in that order.
   CellBounds(const Geometry& g, const WorkspaceDomain& domain, const Chart& chart, const Placement& placement,
-             const LegLimits& limits, const std::vector<int>& limited, const std::vector<const Cones*>& cones);
+             const LegLimits& limits, const std::vector<int>& limited, const std::vector<BodyCones>& cones);
 
   /// Positions: the lengths have their extremes at the points of a box nearest to and farthest from a centre, so that
   /// the bounds are exact up to rounding; allowed directions are a convex cone, or those not allowed. Orientations: the

@@ -8,17 +8,11 @@
 namespace ninedof {
 namespace {
 
-constexpr std::array leg_names{"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"};
-
-std::string leg_name(int leg) {
-  return leg_names[at_index(leg)];
-}
-
 /// Name of item `k` of a criterion.
 std::string item_name(const ConstraintInfo& row, int k) {
   const std::string name = std::string(row.name) + " ";
   switch (row.items) {
-    case WorkspaceItems::leg_sides: return leg_name(k % 9) + (k < 9 ? " low" : " high");
+    case WorkspaceItems::leg_sides: return std::string(leg_name(k % 9)) + (k < 9 ? " low" : " high");
     case WorkspaceItems::base_legs: return name + leg_name(k < 3 ? k : k + 3);
     case WorkspaceItems::platform_legs: return name + leg_name(k);
     case WorkspaceItems::pairs_of_legs: {

@@ -2,7 +2,7 @@
 /// Numbers of what may end a workspace, as indices into limit_names(): the items of the criteria in the order of their
 /// table, then the region, the box and the search for O.
 
-#include "problem/constraints/table.hpp"
+#include "limits/table.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof::limit {
@@ -29,7 +29,7 @@ constexpr int margins_of(WorkspaceItems items) {
 /// The sum of `count` over the criteria before one; over all of them for "".
 consteval int sum_before(int (*count)(WorkspaceItems), std::string_view criterion = "") {
   int sum = 0;
-  for (const ConstraintRow& row : constraint_rows) {
+  for (const LimitRow& row : limit_rows) {
     if (row.info.name == criterion) return sum;
     sum += count(row.info.items);
   }

@@ -7,7 +7,6 @@
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/singularity/singularity.hpp"
-#include "robot/joint_cones.hpp"
 
 namespace ninedof {
 namespace {
@@ -68,9 +67,7 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
     }
   }
   home_at_ = chart_.positional() ? home_.position : chart_.coordinates(home_.rotation);
-  const Points home_points = points(g_, home_);
-  if (criteria.base_cone) base_.emplace(*criteria.base_cone, false, home_points, home_.rotation);
-  if (criteria.platform_cone) platform_.emplace(*criteria.platform_cone, true, home_points, home_.rotation);
+  home_points_ = posed_points(g_, home_);
   const PerMechanism at_home = singularity_margins(g, home_);
   signs_ = {at_home.n < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
 
@@ -83,16 +80,25 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
       if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
   groups(std::ssize(limited_legs_), size_);
   if (placement_.searched()) groups(1, size_);
-  if (base_) groups(6, 1.0);
-  if (platform_) groups(6, 1.0);
+  if (criteria.base_cone) groups(6, 1.0);
+  if (criteria.platform_cone) groups(6, 1.0);
   if (criteria.leg_clearance) groups(1, size_);
   if (criteria.condition_number) groups(1, 1.0);
   if (criteria.singularity_free) groups(3, 1.0);
   groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
   // The first margins, of legs and cones, have bounds. Where O is searched for its legs have none.
-  std::vector<const Cones*> cones;
-  for (const std::optional<Cones>* body : {&base_, &platform_})
-    if (*body && !placement_.searched()) cones.push_back(&**body);
+  std::vector<BodyCones> cones;
+  for (const bool platform : {false, true}) {
+    const std::optional<ConeLimit>& cone = platform ? criteria.platform_cone : criteria.base_cone;
+    if (!cone || placement_.searched()) continue;
+    BodyCones body{platform, cone->angle, {}};
+    const PointLook at_home_look(home_points_, home_points_, cone->axis);
+    for (int k = 0; k < legs_at_body; ++k) {
+      const Xyz<double> axis = at_home_look.axis(platform, k);
+      body.axis[at_index(k)] = {axis.x, axis.y, axis.z};
+    }
+    cones.push_back(body);
+  }
   const std::size_t first = limited_legs_.size() + legs_at_body * cones.size();
   bounds_.emplace(g_, domain_, chart_, placement_, criteria.legs.value_or(LegLimits{}), limited_legs_, cones);
   all_bounded_ = pose_groups_ == static_cast<int>(first);
@@ -153,15 +159,16 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   if (placement_.searched())
     put(b.found[Block::size(k)] || legs < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
   const Configuration c = b.at(k);
-  Points at;
-  if (base_ || platform_ || criteria_.leg_clearance) at = points(g_, c);
-  const auto put_cones = [&](const Cones& cones, int first) {
-    for (const double margin : cones.margins(at, c.rotation)) put(margin, first++);
+  PosedPoints here;
+  if (criteria_.base_cone || criteria_.platform_cone || criteria_.leg_clearance) here = posed_points(g_, c);
+  const auto put_cones = [&](const std::optional<ConeLimit>& cone, const PoseRow& row, int first) {
+    for (int item = 0; cone && item < row.items; ++item)
+      put(cone->angle - row.number(PointLook(here, home_points_, cone->axis), item), first + item);
   };
-  if (base_) put_cones(*base_, limit::base_cone);
-  if (platform_) put_cones(*platform_, limit::platform_cone);
+  put_cones(criteria_.base_cone, base_cone_row, limit::base_cone);
+  put_cones(criteria_.platform_cone, platform_cone_row, limit::platform_cone);
   if (criteria_.leg_clearance) {
-    const Closest closest = closest_legs(at, share_joint_);
+    const Closest closest = closest_legs(here.at, share_joint_);
     put(std::min(closest.distance, 10.0 * scale_[next]) - *criteria_.leg_clearance,
         limit::clearance + std::max(closest.pair, 0));
   }

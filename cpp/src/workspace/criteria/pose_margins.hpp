@@ -8,7 +8,6 @@
 
 #include "workspace/chart.hpp"
 #include "workspace/criteria/cell_bounds.hpp"
-#include "workspace/criteria/cones.hpp"
 #include "workspace/criteria/limits.hpp"
 #include "workspace/criteria/placement.hpp"
 
@@ -87,7 +86,7 @@ class Margins {
   double size_;
   Configuration home_;
   Vec3 home_at_;
-  std::optional<Cones> base_, platform_;
+  PosedPoints home_points_;
   std::array<bool, leg_pairs> share_joint_;
   std::vector<int> limited_legs_;
   std::array<double, 3> signs_{};

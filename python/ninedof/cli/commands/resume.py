@@ -31,9 +31,9 @@ def resume(
     context: typer.Context,
     run: Annotated[Path, typer.Argument(help="The folder of a run that was interrupted or killed.")],
 ) -> None:
-    """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again: finished
-    rounds of a region, points of a front, blocks of a table; the one that was under way begins anew.
+    """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again.
 
+    Kept are finished rounds of a region, points of a front and blocks of a table; what was under way begins anew.
     A proof that ended before all was decided goes on too, for the time that its command has.
     """
     files = _commands(run)

@@ -1,6 +1,6 @@
 #pragma once
-/// Design constraints as signed margins, positive where the design is allowed. They are relative to their limit: 0.01
-/// is one per cent to spare.
+/// Limits: what a design, a pose or all poses together have to keep. Their margins are positive where they are kept, and
+/// relative to the limit: 0.01 is one per cent to spare.
 
 #include <limits>
 #include <string>
@@ -33,7 +33,7 @@ enum class LimitAt {
 
 /// low <= named quantity <= high; -infinity (or, for ratios and lengths, 0) and infinity leave a side open.
 ///
-/// What each name means is said in the file of that name in src/problem/constraints. 0 < zs < zp (eq. 9b) always holds.
+/// What each name means is said in src/limits, see the table there. 0 < zs < zp (eq. 9b) always holds.
 struct Limit {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
@@ -54,6 +54,9 @@ struct Limit {
   /// constraint does not have; at the neutral pose also for what compares poses: strokes, and cones without an axis.
   void validate() const;
 };
+
+/// The side of a limit that a margin belongs to.
+enum class Side { high, low };
 
 /// The sides that a limit can have.
 enum class LimitSides { both, only_low, only_high };

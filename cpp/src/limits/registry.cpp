@@ -1,43 +1,46 @@
-/// Lookups in the table of constraints, and the checks of a limit against its row.
-/// Declared in ninedof/problem/constraints.hpp.
+/// Lookups in the table of limits, and the checks of a limit against its row.
+/// Declared in ninedof/limits/limits.hpp.
 
 #include <cmath>
 
+#include "limits/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
-#include "problem/constraints/constraint.hpp"
-#include "problem/constraints/table.hpp"
 
 namespace ninedof {
 namespace {
-
-const ConstraintRow& find(const std::string& name) {
-  std::string names;
-  for (const ConstraintRow& row : constraint_rows) {
-    if (row.make == nullptr) continue;
-    if (name == row.info.name) return row;
-    names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
-  }
-  throw InvalidArgument("constraints", "\"" + name + "\"", "one of " + names);
-}
 
 /// The rows that `keep` accepts.
 template <class Keep>
 std::vector<ConstraintInfo> rows_where(const Keep& keep) {
   std::vector<ConstraintInfo> out;
-  for (const ConstraintRow& row : constraint_rows)
+  for (const LimitRow& row : limit_rows)
     if (keep(row)) out.push_back(row.info);
   return out;
 }
 
 }  // namespace
 
+const LimitRow& limit_row(std::string_view name) {
+  std::string names;
+  for (const LimitRow& row : limit_rows) {
+    if (!row.is_constraint()) continue;
+    if (name == row.info.name) return row;
+    names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
+  }
+  throw InvalidArgument("constraints", "\"" + std::string(name) + "\"", "one of " + names);
+}
+
+const char* leg_name(int leg) {
+  return std::array{"l1", "l2", "l3", "q1", "q2", "q3", "r1", "r2", "r3"}[at_index(leg)];
+}
+
 std::string Limit::label() const {
   return at == LimitAt::neutral ? name + " at neutral" : name;
 }
 
 void Limit::validate() const {
-  const ConstraintInfo& row = find(name).info;
+  const ConstraintInfo& row = limit_row(name).info;
   const std::string text = format_interval(low, high), label = this->label();
   if (std::isnan(low) || std::isnan(high) || low > high || low == infinity)
     throw InvalidArgument(label, text, "low <= high, low finite or open");
@@ -65,11 +68,11 @@ void Limit::validate() const {
 }
 
 std::vector<ConstraintInfo> constraint_table() {
-  return rows_where([](const ConstraintRow& row) { return row.make != nullptr; });
+  return rows_where([](const LimitRow& row) { return row.is_constraint(); });
 }
 
 std::vector<ConstraintInfo> criterion_table() {
-  return rows_where([](const ConstraintRow& row) { return row.info.items != WorkspaceItems::none; });
+  return rows_where([](const LimitRow& row) { return row.info.items != WorkspaceItems::none; });
 }
 
 const char* to_string(LimitKind kind) {
@@ -101,10 +104,6 @@ LimitAt limit_at_from(const std::string& word) {
   if (word == "poses") return LimitAt::poses;
   if (word == "neutral") return LimitAt::neutral;
   throw InvalidArgument("at", "\"" + word + "\"", "\"poses\" or \"neutral\"");
-}
-
-std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose) {
-  return find(limit.name).make(limit, limit.at == LimitAt::neutral ? 0 : poses, purpose);
 }
 
 }  // namespace ninedof

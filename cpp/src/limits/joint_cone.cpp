@@ -1,0 +1,68 @@
+/// base_cone, platform_cone: angle between each leg, pointing away from its joint on that body, and an axis of the
+/// body: a given one, or the direction of that leg at the neutral configuration. u is its cosine.
+/// Declared in limits/pose_row.hpp.
+
+#include <algorithm>
+#include <cmath>
+
+#include "limits/pose_row.hpp"
+
+namespace ninedof {
+namespace {
+
+template <bool platform>
+struct JointCone {
+  static constexpr int items = legs_at_body;
+  static constexpr bool falls = true, at_home = true;
+
+  static std::string part(int item) { return leg_name(leg_at(platform, item)); }
+  static double slopes(const PointLook& look, int item, PointSlopes& out) {
+    const LegEnds ends = leg_ends(leg_at(platform, item));
+    return slopes_of<JointCone, 2>(look, item, {ends.from, ends.to}, out);
+  }
+  template <class Look>
+  static auto direction(const Look& look, int item) {
+    return sense_at(platform, item) * look.direction(leg_at(platform, item));
+  }
+  /// The axis at the pose, base frame.
+  template <class Look>
+  static auto axis(const Look& look, int item) {
+    const auto a = look.axis(platform, item);
+    if constexpr (!platform) return a;
+    const auto& q = look.q();
+    return a.x * q[0] + a.y * q[1] + a.z * q[2];
+  }
+  template <class Look>
+  static auto u(const Look& look, int item) {
+    return dot(direction(look, item), axis(look, item));
+  }
+  /// By the tangent: the cosine alone leaves 1e-8 of a small angle.
+  static double number(const PointLook& look, int item) {
+    const Xyz<double> v = direction(look, item), a = axis(look, item), across = cross(v, a);
+    return std::atan2(std::sqrt(dot(across, across)), dot(v, a));
+  }
+  static double number_of(double, const PointLook& look, int item) { return number(look, item); }
+  /// On the axis the angle has no slope.
+  static double slope(double angle) {
+    const double sine = std::sin(angle);
+    return sine > 1e-12 ? -1.0 / sine : 0.0;
+  }
+  /// acos of the C library is within two units in the last place.
+  static Interval read(const Interval& cosine) {
+    const double most = std::clamp(cosine.hi, -1.0, 1.0), least = std::clamp(cosine.lo, -1.0, 1.0);
+    return {std::max(std::acos(most) * (1.0 - 0x1p-50), 0.0), std::acos(least) * (1.0 + 0x1p-50)};
+  }
+  static void moves(const FormLook& look, int item, Moves& out) {
+    const FormVector v = from_joint(platform, item, [&](int point) { return look.at(point); });
+    out.add(v);
+    const Xyz<double> middle = centre(v);
+    out.add(axis(look, item), std::sqrt(dot(middle, middle)));
+  }
+};
+
+}  // namespace
+
+constinit const PoseRow base_cone_row = pose_row_of<JointCone<false>>();
+constinit const PoseRow platform_cone_row = pose_row_of<JointCone<true>>();
+
+}  // namespace ninedof

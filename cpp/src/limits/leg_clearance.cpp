@@ -1,0 +1,96 @@
+/// leg_clearance: distance of the axes of every two legs that can be apart. The internal legs all end in O, so that one
+/// of every two is external. Pairs whose joints coincide are exempt; which those are is for whoever looks.
+
+#include "limits/leg_clearance.hpp"
+
+#include <cmath>
+
+#include "limits/pose_row.hpp"
+
+namespace ninedof {
+namespace {
+
+Vec3 middle(const FormVector& v) {
+  return {v.x.c, v.y.c, v.z.c};
+}
+
+struct LegClearances {
+  static constexpr int items = leg_pairs;
+  static constexpr bool at_home = false;
+
+  static std::string part(int item) {
+    const auto [a, b] = leg_pair(item);
+    return std::string(leg_name(a)) + "-" + leg_name(b);
+  }
+  static std::array<int, 4> touched(int item) {
+    const auto [a, b] = leg_pair(item);
+    const LegEnds one = leg_ends(a), two = leg_ends(b);
+    return {one.from, one.to, two.from, two.to};
+  }
+  static double slopes(const PointLook& look, int item, PointSlopes& out) {
+    return slopes_of<LegClearances, 4>(look, item, touched(item), out);
+  }
+  /// The squared distance with the nearest points held on their legs, which has the slopes of the squared distance.
+  template <class Look>
+  static auto u(const Look& look, int item) {
+    const auto [a, b] = leg_pair(item);
+    const Nearest near = nearest(look.here().at, item);
+    const auto apart = look.on_leg(a, near.s) - look.on_leg(b, near.t);
+    return dot(apart, apart);
+  }
+  static double number(const PointLook& look, int item) { return nearest(look.here().at, item).apart.norm(); }
+  static double number_of(double squared, const PointLook&, int) { return std::sqrt(squared); }
+  static double slope(double distance) { return distance > 0.0 ? 0.5 / distance : 0.0; }
+};
+
+}  // namespace
+
+LegPairForms leg_pair_forms(const FormLook& look, int pair) {
+  const auto [a, b] = leg_pair(pair);
+  const FormEnds one = look.ends(a), two = look.ends(b);
+  return {one, two, nearest(middle(one.from), middle(one.to), middle(two.from), middle(two.to))};
+}
+
+PoseForm squared_distance_above(const LegPairForms& legs) {
+  const FormVector x = legs.one.from + PoseForm(legs.middle.s) * (legs.one.to - legs.one.from),
+                   y = legs.two.from + PoseForm(legs.middle.t) * (legs.two.to - legs.two.from);
+  return dot(x - y, x - y);
+}
+
+FormVector fixed_direction(const LegPairForms& legs) {
+  const double distance = legs.middle.apart.norm();
+  if (!(distance > 0.0)) return {PoseForm::unknown(), PoseForm::unknown(), PoseForm::unknown()};
+  return constant<PoseForm>(legs.middle.apart / (-distance * (1.0 + 0x1p-48)));
+}
+
+/// Across the legs that the shortest connection meets between their ends.
+FormVector turning_direction(const LegPairForms& legs) {
+  const auto between_ends = [](double part) { return 0.0 < part && part < 1.0; };
+  const auto& [one, two, near] = legs;
+  const bool first = between_ends(near.s), second = between_ends(near.t);
+  const FormVector u = one.to - one.from, v = two.to - two.from;
+  const FormVector from = near.s < 0.5 ? one.from : one.to, to = near.t < 0.5 ? two.from : two.to;
+  const auto across = [](const FormVector& w, const FormVector& leg) { return dot(leg, leg) * w - dot(w, leg) * leg; };
+  FormVector m;
+  if (first && second) m = cross(u, v);
+  else if (first) m = across(to - one.from, u);
+  else if (second) m = across(two.from - from, v);
+  else m = to - from;
+  return unit(middle(m).dot(near.apart) > 0.0 ? -1.0 * m : m);  // `apart` is from the second to the first
+}
+
+EndDistances end_distances(const LegPairForms& legs, const FormVector& direction) {
+  EndDistances out;
+  std::size_t k = 0;
+  for (const FormVector* a : {&legs.one.from, &legs.one.to})
+    for (const FormVector* b : {&legs.two.from, &legs.two.to}) {
+      out.between[k] = *b - *a;
+      out.along[k] = dot(direction, out.between[k]);
+      ++k;
+    }
+  return out;
+}
+
+constinit const PoseRow leg_clearance_row = pose_row_of<LegClearances>();
+
+}  // namespace ninedof

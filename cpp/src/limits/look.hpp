@@ -1,0 +1,197 @@
+#pragma once
+/// What a limit may see of a robot: its points and the columns of Q at a pose, and at the neutral pose, which fixes the
+/// axes of cones without one and the sides of determinants. A formula of a limit is a template over these three, which
+/// have the same members:
+///
+///   PointLook   doubles
+///   DualLook    their derivatives by the points that the limit touches, and by turns of the platform
+///   FormLook    linear forms over a box of poses
+
+#include <algorithm>
+
+#include "ninedof/math/dual.hpp"
+#include "robot/joint_cones.hpp"
+#include "robot/pose_of.hpp"
+
+namespace ninedof {
+
+// The unit vector of a vector. One of no length has none: zero, and over a box where that may be, not known.
+
+inline Xyz<double> unit(const Xyz<double>& v) {
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 0.0)) return {0.0, 0.0, 0.0};
+  return {v.x / length, v.y / length, v.z / length};
+}
+template <std::size_t N>
+Xyz<Form<N>> unit(const Xyz<Form<N>>& v) {
+  return inverse_root(dot(v, v)) * v;
+}
+
+/// Leg k of a body (joint_cones.hpp) from its joint, base frame.
+template <class Point>
+auto from_joint(bool platform, int k, const Point& point) {
+  const LegEnds ends = leg_ends(leg_at(platform, k));
+  return sense_at(platform, k) * (point(ends.to) - point(ends.from));
+}
+
+/// A vector of the base frame in that of the platform, or of a body.
+template <class T>
+Xyz<T> in_body(bool platform, const std::array<Xyz<T>, 3>& q, const Xyz<T>& v) {
+  return platform ? Xyz<T>{dot(q[0], v), dot(q[1], v), dot(q[2], v)} : v;
+}
+
+class PointLook {
+ public:
+  using Number = double;
+  /// `axis` of a cone: in the frame of its body, zero for the leg's own direction at home.
+  PointLook(const PosedPoints& here, const PosedPoints& home, const Vec3& axis)
+      : here_(here), home_(home), axis_(axis) {}
+
+  Xyz<double> at(int point) const { return xyz(here_.at[at_index(point)]); }
+  Xyz<double> direction(int leg) const { return xyz(here_.legs.direction[at_index(leg)]); }
+  Xyz<double> towards(int from, int to) const { return unit(at(to) - at(from)); }
+  /// The point at a fraction of a leg.
+  Xyz<double> on_leg(int leg, double t) const {
+    const LegEnds ends = leg_ends(leg);
+    return at(ends.from) + t * (at(ends.to) - at(ends.from));
+  }
+  std::array<Xyz<double>, 3> q() const { return columns(here_.rotation); }
+  Xyz<double> axis(bool platform, int k) const {
+    if (!axis_.isZero(0.0)) return xyz(axis_.normalized());
+    const Xyz<double> along = xyz(home_.legs.direction[at_index(leg_at(platform, k))]);
+    return in_body(platform, columns(home_.rotation), sense_at(platform, k) * along);
+  }
+  double side(int which) const;
+
+  const PosedPoints& here() const { return here_; }
+  const PosedPoints& home() const { return home_; }
+  const Vec3& given_axis() const { return axis_; }
+
+  static Xyz<double> xyz(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  static std::array<Xyz<double>, 3> columns(const Mat3& q) { return {xyz(q.col(0)), xyz(q.col(1)), xyz(q.col(2))}; }
+
+ private:
+  const PosedPoints& here_;
+  const PosedPoints& home_;
+  const Vec3& axis_;
+};
+
+/// Derivatives by P points of the pose, and where the limit looks at home too, by a turn of the platform about base axes,
+/// by the same points at home and by a turn there, in this order.
+template <int P, bool at_home>
+class DualLook {
+ public:
+  static constexpr int turn = 3 * P, home_points = turn + 3, home_turn = home_points + 3 * P;
+  static constexpr int variables = at_home ? home_turn + 3 : 3 * P;
+  using Number = Dual<variables>;
+  DualLook(const PointLook& look, const std::array<int, P>& touched) : look_(look), touched_(touched) {}
+
+  Xyz<Number> at(int point) const {
+    Xyz<Number> out = constant(look_.at(point));
+    add(out, 1.0, place(point));
+    return out;
+  }
+  /// The point at a fraction of a leg.
+  Xyz<Number> on_leg(int leg, double t) const {
+    const LegEnds ends = leg_ends(leg);
+    Xyz<Number> out = constant(look_.on_leg(leg, t));
+    add(out, 1.0 - t, place(ends.from));
+    add(out, t, place(ends.to));
+    return out;
+  }
+  Xyz<Number> direction(int leg) const {
+    const LegEnds ends = leg_ends(leg);
+    const NineLegs& legs = look_.here().legs;
+    return turning_vector(legs.direction[at_index(leg)], legs.length[leg], place(ends.from), place(ends.to));
+  }
+  Xyz<Number> towards(int from, int to) const {
+    const Vec3 v = look_.here().at[at_index(to)] - look_.here().at[at_index(from)];
+    const double length = v.norm();
+    return turning_vector(length > 0.0 ? Vec3(v / length) : v, length, place(from), place(to));
+  }
+  std::array<Xyz<Number>, 3> q() const { return turned_columns(look_.here().rotation, turn); }
+  Xyz<Number> axis(bool platform, int k) const {
+    if (!look_.given_axis().isZero(0.0)) return constant(look_.axis(platform, k));
+    const int leg = leg_at(platform, k);
+    const LegEnds ends = leg_ends(leg);
+    const NineLegs& legs = look_.home().legs;
+    const Xyz<Number> along =
+        turning_vector(sense_at(platform, k) * legs.direction[at_index(leg)], sense_at(platform, k) * legs.length[leg],
+                       home_points + place(ends.from), home_points + place(ends.to));
+    return platform ? in_body(true, turned_columns(look_.home().rotation, home_turn), along) : along;
+  }
+  double side(int which) const { return look_.side(which); }
+  const PosedPoints& here() const { return look_.here(); }
+
+ private:
+  static Xyz<Number> constant(const Xyz<double>& v) { return {v.x, v.y, v.z}; }
+  /// The first variable of a touched point.
+  int place(int point) const { return 3 * static_cast<int>(std::ranges::find(touched_, point) - touched_.begin()); }
+  /// v changes by `by` times the three variables from `first` on.
+  static void add(Xyz<Number>& v, const Mat3& by, int first) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const auto k = at_index(first) + at_index(j);
+      v.x.gradient[k] += by(0, j);
+      v.y.gradient[k] += by(1, j);
+      v.z.gradient[k] += by(2, j);
+    }
+  }
+  static void add(Xyz<Number>& v, double by, int first) {
+    const auto k = at_index(first);
+    v.x.gradient[k] += by;
+    v.y.gradient[k + 1] += by;
+    v.z.gradient[k + 2] += by;
+  }
+  /// A unit vector between two points can only turn: it changes by what is across it over the length.
+  static Xyz<Number> turning_vector(const Vec3& e, double length, int from, int to) {
+    Xyz<Number> out = constant(PointLook::xyz(e));
+    if (length == 0.0) return out;
+    const Mat3 by = (Mat3::Identity() - e * e.transpose()) / length;
+    add(out, by, to);
+    add(out, -by, from);
+    return out;
+  }
+  /// The columns of a rotation, which change by w x column for a turn w.
+  static std::array<Xyz<Number>, 3> turned_columns(const Mat3& rotation, int first) {
+    std::array<Xyz<Number>, 3> out;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Vec3 c = rotation.col(k);
+      out[at_index(k)] = constant(PointLook::xyz(c));
+      Mat3 by;
+      by << 0.0, c.z(), -c.y(), -c.z(), 0.0, c.x(), c.y(), -c.x(), 0.0;
+      add(out[at_index(k)], by, first);
+    }
+    return out;
+  }
+
+  const PointLook& look_;
+  const std::array<int, P>& touched_;
+};
+
+/// The axes and sides of a robot as forms: the same in every box.
+struct FormHome {
+  FormHome(const Geometry& g, const Configuration& home, const Vec3& axis);
+  std::array<std::array<FormVector, 6>, 2> axis;  ///< of base and platform
+  std::array<double, 3> side;
+};
+
+class FormLook {
+ public:
+  using Number = PoseForm;
+  FormLook(const Geometry& g, const FormPose& pose, const FormHome& home) : g_(g), pose_(pose), home_(home) {}
+
+  FormVector at(int point) const { return point_at(g_, pose_, point); }
+  FormVector direction(int leg) const { return towards(leg_ends(leg).from, leg_ends(leg).to); }
+  FormVector towards(int from, int to) const { return unit(at(to) - at(from)); }
+  const std::array<FormVector, 3>& q() const { return pose_.q; }
+  const FormVector& axis(bool platform, int k) const { return home_.axis[platform][at_index(k)]; }
+  double side(int which) const { return home_.side[at_index(which)]; }
+  FormEnds ends(int leg) const { return ends_of(g_, pose_, leg); }
+
+ private:
+  const Geometry& g_;
+  const FormPose& pose_;
+  const FormHome& home_;
+};
+
+}  // namespace ninedof

@@ -1,0 +1,94 @@
+#pragma once
+/// Limits that have a value at one pose, as rows: what they limit, over every number type. One file defines one quantity,
+/// once; whoever looks at a limit takes it from here.
+
+#include <string>
+
+#include "limits/look.hpp"
+#include "ninedof/math/interval.hpp"
+
+namespace ninedof {
+
+/// The derivatives of a number by what it touches.
+struct PointSlopes {
+  struct Of {
+    int point;
+    Vec3 slope;
+  };
+  int points = 0, home_points = 0;
+  bool turns = false;  ///< whether Q and the pose at home count beyond these points
+  std::array<Of, 7> at;    ///< by points of the pose
+  std::array<Of, 2> home;  ///< by points of the neutral pose
+  Vec3 turn, home_turn;    ///< by a turn of the platform about base axes beyond that of its points
+};
+
+/// The functions of a row. u is the smooth quantity behind the number that people read: a squared length, a cosine.
+struct PoseRow {
+  int items = 0;                                ///< legs, pairs of legs, determinants
+  std::string (*part)(int item) = nullptr;      ///< "l1", "det N"
+  /// The number that people read, at a pose.
+  double (*number)(const PointLook&, int item) = nullptr;
+  /// `number` and its derivatives, zero where it has none.
+  double (*slopes)(const PointLook&, int item, PointSlopes&) = nullptr;
+  /// u over a box of poses. Null for leg_clearance, see limits/leg_clearance.hpp.
+  PoseForm (*form)(const FormLook&, int item) = nullptr;
+  /// The vectors that u is made of.
+  void (*moves)(const FormLook&, int item, Moves&) = nullptr;
+  /// The number, of u.
+  Interval (*read)(const Interval& u) = nullptr;
+  /// Whether the number falls as u grows.
+  bool falls = false;
+};
+
+extern const PoseRow leg_length_row, external_length_row, upper_length_row, lower_length_row, base_cone_row,
+    platform_cone_row, leg_clearance_row, singularity_free_row;
+
+/// "l1" to "r3", in the order of leg_lengths.
+const char* leg_name(int leg);
+
+/// det N, det B and det C (0 to 2) without their positive factors, times the side at home: rows are not of unit length.
+PoseForm determinant_numerator(const FormLook& look, int which);
+
+/// The number of a row and its slopes, by P touched points.
+template <class Row, int P>
+double slopes_of(const PointLook& look, int item, const std::array<int, P>& touched, PointSlopes& out) {
+  using Seen = DualLook<P, Row::at_home>;
+  const auto u = Row::u(Seen(look, touched), item);
+  const double number = Row::number_of(u.value, look, item), slope = Row::slope(number);
+  out.points = out.home_points = 0;
+  out.turns = false;
+  if (slope == 0.0) return number;
+  const auto three = [&](int first) {
+    const auto f = at_index(first);
+    return Vec3(slope * Vec3(u.gradient[f], u.gradient[f + 1], u.gradient[f + 2]));
+  };
+  for (int k = 0; k < P; ++k) out.at[at_index(out.points++)] = {touched[at_index(k)], three(3 * k)};
+  if constexpr (Row::at_home) {
+    out.turns = true;
+    out.turn = three(Seen::turn);
+    out.home_turn = three(Seen::home_turn);
+    if (!look.given_axis().isZero(0.0)) return number;
+    for (int k = 0; k < P; ++k)
+      out.home[at_index(out.home_points++)] = {touched[at_index(k)], three(Seen::home_points + 3 * k)};
+  }
+  return number;
+}
+
+/// Makes the functions of a row from its formula.
+template <class Row>
+constexpr PoseRow pose_row_of() {
+  PoseRow out;
+  out.items = Row::items;
+  out.part = Row::part;
+  out.number = [](const PointLook& look, int item) { return Row::number(look, item); };
+  out.slopes = Row::slopes;
+  if constexpr (requires { Row::read; }) {
+    out.form = [](const FormLook& look, int item) { return Row::u(look, item); };
+    out.moves = Row::moves;
+    out.read = Row::read;
+    out.falls = Row::falls;
+  }
+  return out;
+}
+
+}  // namespace ninedof

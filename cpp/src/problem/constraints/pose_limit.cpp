@@ -1,0 +1,66 @@
+/// A limit at every pose, and singularity_free on the way there. Declared in problem/constraints/constraint.hpp.
+
+#include <algorithm>
+
+#include "problem/constraints/constraint.hpp"
+
+namespace ninedof {
+namespace {
+
+class PoseLimit : public Constraint {
+ public:
+  PoseLimit(const Limit& limit, const LimitRow& row, int poses, const std::array<bool, leg_pairs>& exempt)
+      : Constraint(limit),
+        row_(row),
+        on_the_way_(row.pose == &singularity_free_row),
+        pairs_(row.pose == &leg_clearance_row),
+        poses_(on_the_way_ ? 1 + poses * limit.steps : std::max(poses, 1)),
+        exempt_(exempt) {}
+
+  /// Which points of two legs are nearest changes from design to design.
+  bool analytic() const override { return !pairs_; }
+
+ private:
+  SolverMargin form() const override { return row_.solver; }
+  int items(Side) const override { return row_.pose->items * poses_; }
+  int part(int item) const { return item % row_.pose->items; }
+  /// The neutral pose comes first where the way is looked at.
+  int pose(const DesignState& v, int item) const { return (on_the_way_ ? 0 : first_pose(v)) + item / row_.pose->items; }
+  bool exempt(int item) const { return pairs_ && exempt_[at_index(part(item))]; }
+  PointLook look(const DesignState& v, int item) const { return {v.pose(pose(v, item)), v.pose(0), limit().axis}; }
+
+  double value(const DesignState& v, Side, int item) const override {
+    // Never the least, in any unit.
+    if (exempt(item)) return 1e6 * std::max(limit().low, v.length(v.longest) / unit(v));
+    return row_.pose->number(look(v, item), part(item)) / unit(v);
+  }
+  void add_value_gradient(const DesignState& v, Side, int item, double scale, Row out) const override {
+    if (exempt(item)) return;
+    PointSlopes slopes;
+    const double number = row_.pose->slopes(look(v, item), part(item), slopes), u = unit(v), by = scale / u;
+    const int k = pose(v, item);
+    for (int n = 0; n < slopes.points; ++n)
+      v.add_point(k, slopes.at[at_index(n)].point, by * slopes.at[at_index(n)].slope, out);
+    for (int n = 0; n < slopes.home_points; ++n)
+      v.add_point(0, slopes.home[at_index(n)].point, by * slopes.home[at_index(n)].slope, out);
+    if (slopes.turns) {
+      v.add_turn(k, by * slopes.turn, out);
+      v.add_turn(0, by * slopes.home_turn, out);
+    }
+    add_unit_gradient(v, -by * number / u, out);
+  }
+
+  const LimitRow& row_;
+  bool on_the_way_, pairs_;
+  int poses_;
+  std::array<bool, leg_pairs> exempt_;
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> make_pose_limit(const Limit& limit, const LimitRow& row, int poses,
+                                            const std::array<bool, leg_pairs>& exempt) {
+  return std::make_unique<PoseLimit>(limit, row, poses, exempt);
+}
+
+}  // namespace ninedof

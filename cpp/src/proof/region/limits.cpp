@@ -1,0 +1,276 @@
+/// Limits of a study as statements about extremes over all poses. Declared in ninedof/proof/machine.hpp.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "limits/table.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/proof/machine.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr double narrow = 1e-7;   // width of lengths that decide on a stroke
+constexpr double twice = 1e-6;    // of a number with two limits
+
+/// Width of an enclosure, relative, unless a limit lies inside: then the search goes on.
+double width_of(const PoseRow& row) {
+  if (row.form == nullptr) return 0.03;
+  if (row.falls) return 1e-5;
+  return &row == &singularity_free_row ? 1e-3 : 3e-5;
+}
+
+/// An extreme that a limit asks for.
+struct Asked {
+  PoseQuantity quantity;
+  const PoseRow* row;
+  bool at_neutral;
+  Extreme found = {};
+};
+
+class Statements {
+ public:
+  Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double tolerance,
+             const ProofSettings& settings, const Control& control)
+      : machine_(machine), exempt_(exempt), tolerance_(tolerance), settings_(settings), control_(control) {
+    const Points at = points(machine.geometry, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});
+    std::copy_n(at.begin(), joints_.size(), joints_.begin());
+  }
+
+  LimitsOverPoses prove(const std::vector<Limit>& limits) {
+    std::array<std::pair<std::size_t, std::size_t>, 9> ends;
+    for (int leg = 0; leg < 9; ++leg) ends[at_index(leg)] = ends_of_leg(leg, false);
+    add_pose_limit("no singularity", limit_row("singularity_free"), Side::low, 0.0, Vec3::Zero(), false);
+    for (const Limit& limit : limits) add(limit);
+    search(false);
+    answer();
+    if (std::ranges::any_of(strokes_, [this](const Stroke& s) { return undecided(out_.limits[s.limit]); })) {
+      for (Asked& one : asked_)
+        if (one.row == &leg_length_row) one.quantity.relative = narrow;
+      search(true);
+      answer();
+    }
+    for (std::size_t leg = 0; leg < 9; ++leg)
+      out_.lengths[leg] = {asked_[ends[leg].first].found.low, asked_[ends[leg].second].found.high};
+    for (const Asked& one : asked_)
+      if (!one.at_neutral && one.found.at.pose < 0) out_.met.push_back(one.found.at);
+    return std::move(out_);
+  }
+
+ private:
+  struct Group {
+    std::size_t limit;
+    std::vector<std::pair<std::size_t, std::string>> of;  ///< what is asked for each item, and its name
+  };
+  struct Stroke {
+    std::size_t limit;
+    const SpreadRow* row;
+    std::array<std::pair<std::size_t, std::size_t>, 9> ends;
+  };
+
+  std::size_t ask(const PoseRow& row, const std::string& name, int item, bool greatest, bool at_neutral, double limit,
+                  const Vec3& axis) {
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+      PoseQuantity& old = asked_[k].quantity;
+      if (asked_[k].row != &row || old.item != item || old.greatest != greatest || asked_[k].at_neutral != at_neutral ||
+          old.axis != axis)
+        continue;
+      if (std::isnan(old.limit)) old.limit = limit;
+      else if (!std::isnan(limit)) old.relative = twice;  // narrow in any case
+      return k;
+    }
+    asked_.push_back({{name, item, axis, greatest, width_of(row), limit}, &row, at_neutral});
+    return asked_.size() - 1;
+  }
+  std::pair<std::size_t, std::size_t> ends_of_leg(int leg, bool at_neutral) {
+    const auto end = [&](bool greatest) {
+      return ask(leg_length_row, "leg_length", leg, greatest, at_neutral, not_a_number, Vec3::Zero());
+    };
+    const std::size_t shortest = end(false);
+    return {shortest, end(true)};
+  }
+
+  LimitOverPoses& put(const std::string& name, const LimitRow& row, Side side, double limit, bool at_neutral) {
+    LimitOverPoses one;
+    one.name = name;
+    one.kind = row.info.kind;
+    one.side = side;
+    one.limit = limit;
+    one.at_neutral = at_neutral;
+    out_.limits.push_back(one);
+    return out_.limits.back();
+  }
+  double edge(Side side, double limit) const {
+    return limit * (side == Side::high ? 1.0 + tolerance_ : 1.0 - tolerance_);
+  }
+  bool undecided(const LimitOverPoses& one) const {
+    return one.side == Side::high
+               ? one.value.hi > edge(one.side, one.limit) && one.value.lo <= edge(one.side, one.limit)
+               : one.value.lo < edge(one.side, one.limit) && one.value.hi >= edge(one.side, one.limit);
+  }
+
+  void add(const Limit& limit) {
+    const LimitRow& row = limit_row(limit.name);
+    for (const Side side : {Side::low, Side::high}) {
+      const double given = side == Side::low ? limit.low : limit.high;
+      if (!(given > 0.0) || !std::isfinite(given)) continue;
+      const double bound = limit.of == Unit::zp ? given * machine_.neutral.position.z() : given;
+      const bool at_neutral = limit.at == LimitAt::neutral;
+      if (row.pose != nullptr) add_pose_limit(limit.label(), row, side, bound, limit.axis, at_neutral);
+      else if (row.design != nullptr) add_design_limit(limit, row, side);
+      else add_stroke(limit.label(), row, side, bound, at_neutral);
+    }
+  }
+  void add_pose_limit(const std::string& label, const LimitRow& row, Side side, double bound, const Vec3& axis,
+                      bool at_neutral) {
+    Group group{out_.limits.size(), {}};
+    for (int item = 0; item < row.pose->items; ++item) {
+      if (row.pose == &leg_clearance_row && exempt_[at_index(item)]) continue;
+      // All rows of lengths ask for the same numbers.
+      const bool length = row.info.kind == LimitKind::length && row.pose != &leg_clearance_row;
+      const std::string part = row.pose->part(item);
+      int leg = item;
+      while (length && part != leg_name(leg)) ++leg;
+      group.of.emplace_back(ask(length ? leg_length_row : *row.pose, length ? "leg_length" : row.info.name, leg,
+                                side == Side::high, at_neutral, edge(side, bound), axis),
+                            part);
+    }
+    if (group.of.empty()) return;
+    put(label, row, side, bound, at_neutral);
+    groups_.push_back(std::move(group));
+  }
+  void add_stroke(const std::string& label, const LimitRow& row, Side side, double bound, bool at_neutral) {
+    Stroke stroke{out_.limits.size(), row.spread, {}};
+    for (int leg = 0; leg < 9; ++leg) stroke.ends[at_index(leg)] = ends_of_leg(leg, at_neutral);
+    put(label, row, side, bound, at_neutral);
+    strokes_.push_back(stroke);
+  }
+
+  Touched<Interval> touched(std::pair<int, int> joints) const {
+    const auto exact = [&](int joint) {
+      const Vec3& x = joints_[at_index(joint)];
+      return Xyz<Interval>{x.x(), x.y(), x.z()};
+    };
+    return {exact(joints.first), exact(joints.second), machine_.neutral.position.z(),
+            machine_.neutral.internal_point.z()};
+  }
+  void add_design_limit(const Limit& limit, const LimitRow& row, Side side) {
+    const double given = side == Side::low ? limit.low : limit.high;
+    // Which joint is farthest from z was decided in doubles.
+    const Interval near_one(1.0 - 0x1p-49, 1.0 + 0x1p-49);
+    Interval value = side == Side::high ? Interval(-infinity) : Interval(infinity), unit(1.0);
+    for (int item = 0; item < row.design->items(side); ++item) {
+      Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item)), item) * near_one;
+      unit = unit_of(limit.of, row.design->body(item));
+      if (row.design->body(item) >= 0) here = here / unit;
+      value = side == Side::high ? max(value, here) : min(value, here);
+    }
+    // What has the whole robot as its unit is shown as a length.
+    const bool whole = row.design->body(0) < 0;
+    put(limit.label(), row, side, whole ? given * unit.hi : given, false).value = value;
+  }
+  Interval unit_of(Unit of, int body) const {
+    if (of == Unit::zp) return machine_.neutral.position.z();
+    if (of == Unit::length) return 1.0;
+    const Xyz<Interval> widest = touched({widest_joint(joints_, body), 0}).a;
+    return sqrt(square(widest.x) + square(widest.y)) * Interval(1.0 - 0x1p-49, 1.0 + 0x1p-49);
+  }
+
+  void search(bool lengths_alone) {
+    PosedRobot alone{machine_.geometry, machine_.neutral, machine_.characteristic_length, {}, {machine_.neutral}, {}};
+    for (const bool at_neutral : {false, true}) {
+      std::vector<PoseQuantity> wanted;
+      std::vector<Asked*> of;
+      for (Asked& one : asked_) {
+        if (one.at_neutral != at_neutral || (lengths_alone && one.row != &leg_length_row)) continue;
+        wanted.push_back(one.quantity);
+        of.push_back(&one);
+      }
+      if (wanted.empty()) continue;
+      const std::vector<Extreme> found = pose_extremes(at_neutral ? alone : machine_, wanted, settings_, control_);
+      for (std::size_t k = 0; k < found.size(); ++k) of[k]->found = found[k];
+    }
+  }
+
+  void answer() {
+    for (const Group& group : groups_) {
+      LimitOverPoses& limit = out_.limits[group.limit];
+      const bool most = limit.side == Side::high;
+      const std::pair<std::size_t, std::string>* worst = nullptr;
+      limit.boxes = 0;
+      double beyond = most ? -infinity : infinity;  // the end of the enclosure that was not met
+      const auto met = [&](const auto& item) {
+        return most ? asked_[item.first].found.low : asked_[item.first].found.high;
+      };
+      for (const auto& item : group.of) {
+        const Extreme& e = asked_[item.first].found;
+        limit.boxes += e.boxes;
+        beyond = most ? std::max(beyond, e.high) : std::min(beyond, e.low);
+        if (worst == nullptr || (most ? met(item) > met(*worst) : met(item) < met(*worst))) worst = &item;
+      }
+      limit.value = most ? Interval(met(*worst), beyond) : Interval(beyond, met(*worst));
+      limit.part = worst->second;
+      limit.at = {asked_[worst->first].found.at};
+    }
+    for (const Stroke& stroke : strokes_) answer(stroke);
+  }
+  void answer(const Stroke& stroke) {
+    LimitOverPoses& limit = out_.limits[stroke.limit];
+    struct Leg {
+      Interval shortest, longest;
+      MetAt shortest_at, longest_at;
+      std::string name;
+    };
+    std::vector<Leg> legs;
+    limit.boxes = 0;
+    for (int k = 0; k < 9; ++k) {
+      const auto& [first, second] = stroke.ends[at_index(k)];
+      const Extreme &a = asked_[first].found, &b = asked_[second].found;
+      limit.boxes += a.boxes + b.boxes;
+      legs.push_back({{a.low, a.high}, {b.low, b.high}, a.at, b.at, leg_name(k)});
+    }
+    if (!stroke.row->each_leg) {
+      Leg all = legs.front();
+      for (const Leg& leg : legs) {
+        if (leg.shortest.hi < all.shortest.hi) all.shortest_at = leg.shortest_at;
+        if (leg.longest.lo > all.longest.lo) all.longest_at = leg.longest_at;
+        all.shortest = min(all.shortest, leg.shortest);
+        all.longest = max(all.longest, leg.longest);
+      }
+      all.name = "all legs";
+      legs = {all};
+    }
+    Interval value(-infinity);
+    for (const Leg& leg : legs) {
+      const Interval one = stroke.row->ratio ? leg.longest / leg.shortest : leg.longest - leg.shortest;
+      if (one.lo > value.lo) {
+        limit.part = leg.name;
+        limit.at = {leg.longest_at, leg.shortest_at};
+      }
+      value = max(value, one);
+    }
+    limit.value = value;
+  }
+
+  const PosedRobot& machine_;
+  const std::array<bool, 21>& exempt_;
+  double tolerance_;
+  const ProofSettings& settings_;
+  const Control& control_;
+  std::array<Vec3, 12> joints_;
+  std::vector<Asked> asked_;
+  std::vector<Group> groups_;
+  std::vector<Stroke> strokes_;
+  LimitsOverPoses out_;
+};
+
+}  // namespace
+
+LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
+                                  const std::array<bool, 21>& exempt, double tolerance, const ProofSettings& settings,
+                                  const Control& control) {
+  return Statements(machine, exempt, tolerance, settings, control).prove(limits);
+}
+
+}  // namespace ninedof

@@ -1,0 +1,152 @@
+/// machine.hpp: the worst value of every limit over all poses of a machine lies in what it is enclosed in. Oracle: the
+/// same limits at thousands of poses of the region, by joints and legs.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "limits/table.hpp"
+#include "ninedof/problem/problem.hpp"
+#include "ninedof/proof/machine.hpp"
+#include "support/support.hpp"
+
+using namespace ninedof;
+using namespace support;
+
+namespace {
+
+const std::vector<Limit> every{{.name = "radius_ratio", .low = 0.5, .high = 2.0},
+                               {.name = "leg_ratio", .high = 3.0},
+                               {.name = "stroke_ratio", .high = 1.3},
+                               {.name = "stroke", .high = 0.2, .of = Unit::zp},
+                               {.name = "zs_fraction", .low = 0.1, .high = 0.9},
+                               {.name = "leg_length", .low = 0.1, .high = 2.0, .of = Unit::zp},
+                               {.name = "lower_length", .low = 0.5, .high = 9.0},
+                               {.name = "height", .low = 1.0, .high = 9.0},
+                               {.name = "footprint", .low = 1.0, .high = 9.0},
+                               {.name = "joint_height", .high = 0.5, .of = Unit::radius},
+                               {.name = "joint_spacing", .low = 0.1, .of = Unit::radius},
+                               {.name = "base_cone", .high = 0.5},
+                               {.name = "platform_cone", .high = 1.2, .axis = {0.0, 0.2, -1.0}},
+                               {.name = "platform_cone", .high = 1.2, .axis = {0.0, 0.0, -1.0}, .at = LimitAt::neutral},
+                               {.name = "leg_clearance", .low = 0.1},
+                               {.name = "singularity_free", .low = 0.01}};
+
+/// The worst value of a limit over poses.
+double worst(const LimitOverPoses& limit, const Limit& given, const Geometry& g, const std::vector<PosedPoints>& all) {
+  const LimitRow& row = limit_row(given.name);
+  const bool most = limit.side == Side::high;
+  double out = most ? -1e300 : 1e300;
+  const auto take = [&](double value) { out = most ? std::max(out, value) : std::min(out, value); };
+  if (row.pose != nullptr) {
+    const std::size_t count = limit.at_neutral ? 1 : all.size();
+    for (std::size_t k = 0; k < count; ++k)
+      for (int item = 0; item < row.pose->items; ++item) take(row.pose->number({all[k], all[0], given.axis}, item));
+    return out;
+  }
+  if (row.spread != nullptr) {
+    Vec9 longest = all[0].legs.length, shortest = longest;
+    for (const PosedPoints& pose : all) {
+      longest = longest.cwiseMax(pose.legs.length);
+      shortest = shortest.cwiseMin(pose.legs.length);
+    }
+    if (!row.spread->each_leg) return row.spread->of(longest.maxCoeff(), shortest.minCoeff());
+    for (int leg = 0; leg < 9; ++leg) take(row.spread->of(longest[leg], shortest[leg]));
+    return out;
+  }
+  const auto radius = [](const Triple& a, const Triple& b) {
+    double r = 0.0;
+    for (const Triple* t : {&a, &b})
+      for (const Vec3& x : *t) r = std::max(r, x.head<2>().norm());
+    return r;
+  };
+  const double base = radius(g.base_external(), g.base_internal()),
+               platform = radius(g.platform_external(), g.platform_internal());
+  if (given.name == "radius_ratio") return base / platform;
+  if (given.name == "footprint") return base;
+  if (given.name == "height") return all[0].at[point_p].z();
+  if (given.name == "zs_fraction") return all[0].at[point_s].z() / all[0].at[point_p].z();
+  const std::array bodies{std::pair{&g.base_external(), &g.base_internal()},
+                          std::pair{&g.platform_external(), &g.platform_internal()}};
+  for (const auto& [external, internal] : bodies) {
+    std::vector<Vec3> joints(external->begin(), external->end());
+    joints.insert(joints.end(), internal->begin(), internal->end());
+    for (std::size_t a = 0; a < joints.size(); ++a) {
+      if (given.name == "joint_height") take(std::abs(joints[a].z()));
+      for (std::size_t b = 0; b < a && given.name == "joint_spacing"; ++b)
+        take((joints[a] - joints[b]).norm() / radius(*external, *internal));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_SUITE("limits") {
+  TEST_CASE("the worst of every limit over a region is in its enclosure, and met") {
+    Random random(9);
+    for (int n = 0; n < 6; ++n) {
+      const Robot robot = random_symmetric_robot(random);
+      const double zp = 4.0;
+      Region region;
+      region.size = {0.2, 0.2, 0.1};
+      region.tilt = 0.1;
+      region.shifted = n % 2 == 0;
+      const PosedRobot machine{robot.geometry, neutral(zp, 2.2), 1.0, {region}, {}, {}};
+      const LimitsOverPoses found = limits_over_poses(machine, every, {}, 1e-6, {});
+      std::vector<PosedPoints> all{posed_points(machine.geometry, machine.neutral)};
+      for (int k = 0; k < 4000; ++k) {
+        Vec6 at = random.matrix<Vec6>().cwiseProduct(region.reach());
+        const Pose pose = region.pose(region.nearest(at));
+        Configuration c = machine.neutral;
+        c.position += pose.position;
+        c.internal_point += pose.internal;
+        c.rotation = Eigen::AngleAxisd(pose.rotation.norm(), pose.rotation.normalized()).toRotationMatrix();
+        if (!(pose.rotation.norm() > 0.0)) c.rotation.setIdentity();
+        all.push_back(posed_points(machine.geometry, c));
+      }
+      REQUIRE(found.limits.front().name == "no singularity");
+      std::size_t k = 1;
+      for (const Limit& limit : every)
+        for (const Side side : {Side::low, Side::high}) {
+          const double given = side == Side::low ? limit.low : limit.high;
+          if (!(given > 0.0) || !std::isfinite(given)) continue;
+          REQUIRE(k < found.limits.size());
+          const LimitOverPoses& one = found.limits[k++];
+          CAPTURE(one.name);
+          CHECK(one.name == limit.label());
+          CHECK(one.side == side);
+          const double value = worst(one, limit, machine.geometry, all), room = 1e-12 * std::abs(value);
+          if (side == Side::high) CHECK(value <= one.value.hi + room);
+          else CHECK(value >= one.value.lo - room);
+          CHECK(width(one.value) <= 0.05 * std::max(std::abs(one.value.lo), 0.1));
+          CHECK(std::abs(value - middle(one.value)) <= 0.1 * std::max(std::abs(value), 0.1));
+        }
+      CHECK(k == found.limits.size());
+      for (int leg = 0; leg < 9; ++leg)
+        for (const PosedPoints& pose : all) {
+          CHECK(pose.legs.length[leg] >= found.lengths[static_cast<std::size_t>(leg)].lo);
+          CHECK(pose.legs.length[leg] <= found.lengths[static_cast<std::size_t>(leg)].hi);
+        }
+    }
+  }
+
+  TEST_CASE("pairs of legs are exempt that share a joint in every design") {
+    Problem apart;
+    for (const auto& v : design_family(apart.family).variables()) apart.variables.push_back({v.low, v.high});
+    CHECK(std::ranges::none_of(exempt_pairs(apart), [](bool exempt) { return exempt; }));
+    Problem general;
+    general.family = "symmetric";
+    for (const auto& v : design_family(general.family).variables()) general.variables.push_back({v.low, v.high});
+    const auto fix = [&](const std::string& name, double value) {
+      general.variables[at_index(design_family("symmetric").index(name))] = {value, value};
+    };
+    fix("base_external_radius", 2.0);
+    fix("base_internal_radius", 2.0);
+    fix("base_internal_angle", 0.0);
+    int count = 0;
+    for (const bool exempt : exempt_pairs(general)) count += exempt;
+    CHECK(count == 3);  // l1 r1, l2 r2, l3 r3
+  }
+}
