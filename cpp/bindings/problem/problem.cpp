@@ -155,6 +155,7 @@ void bind_problem(py::module_& m) {
       .def("configurations", &configurations_at)
       .def("characteristic_length",
            [](const Problem& p, const std::vector<double>& x) { return characteristic_length(p, full(x)); })
+      .def("exempt_pairs", &exempt_pairs)
       .def("evaluate", &evaluate_at)
       .def("starts", [](const Problem& p, int count, std::uint64_t seed) {
         Settings settings;

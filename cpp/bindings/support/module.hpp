@@ -10,6 +10,7 @@ namespace py = pybind11;
 void bind_geometry(py::module_& m);
 void bind_kinematics(py::module_& m);
 void bind_position(py::module_& m);
+void bind_limits(py::module_& m);
 void bind_redundancy(py::module_& m);
 void bind_workspace(py::module_& m);
 void bind_certified_workspace(py::module_& m);

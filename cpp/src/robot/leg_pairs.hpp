@@ -63,14 +63,6 @@ inline Nearest nearest(const Points& at, int pair) {
   return nearest(point(one.from), point(one.to), point(two.from), point(two.to));
 }
 
-/// The pairs that share a joint in this robot.
-inline std::array<bool, leg_pairs> pairs_sharing_a_joint(const Geometry& g) {
-  const Points at = points(g, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});  // joints in the frames of their bodies
-  std::array<bool, leg_pairs> out{};
-  for (int pair = 0; pair < leg_pairs; ++pair) out[at_index(pair)] = share_joint(std::span(at).first<12>(), pair);
-  return out;
-}
-
 struct Closest {
   double distance;
   int pair;  ///< -1 where every pair shares a joint

@@ -11,10 +11,10 @@ from rich.table import Table
 from rich.text import Text
 
 from ninedof.cli.screen import Screen, bold
+from ninedof.design.limit_numbers import CONES
 from ninedof.motion import Followed
 from ninedof.redundancy.rules import where_o
 from ninedof.sheet.path_limits import LENGTHS, PathLimits, row_words
-from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, heading, per
@@ -85,7 +85,7 @@ def sentences(found: Followed, of_study: PathLimits | None) -> Iterator[str | Te
             yield bold("singularity", f": {broken.limit} changes sign at t = {broken.begin:.6g}")
         else:
             when = f"from t = {broken.begin:.6g} to {broken.end:.6g}"
-            cone = broken.limit.startswith(tuple(CONES))
+            cone = broken.limit.startswith(CONES)
             worst = f"{math.degrees(broken.worst):.5g}°" if cone else f"{broken.worst:.5g}"
             if broken in found.breaks or (broken.limit.startswith(LENGTHS) and not broken.limit.startswith("stroke_")):
                 worst = amount(worst, found.unit)

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ninedof.design.leg_limits import SPREADS
+from ninedof.design.limit_numbers import CONES
 from ninedof.design.region import Region
 from ninedof.design.study import Study
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.pose_limits import CONES
 from ninedof.workspace.study_criteria import LEGS
 from ninedof.workspace.study_question import rule_of_region, study_limits, with_leg_limits
 

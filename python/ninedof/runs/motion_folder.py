@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limit_numbers import CONES
 from ninedof.motion import Followed
 from ninedof.robot.leg_names import LEGS
 from ninedof.runs.folder import Record, write_drawn
 from ninedof.sheet.path_limits import PathLimits
-from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
 from ninedof.support.files import write_whole
 from ninedof.support.units import per, with_unit
@@ -76,7 +76,7 @@ def plain(found: Followed, limits: PathLimits | None) -> dict[str, Any]:
     out["limits"] = limits.worst()
     for broken in limits.breaks:
         row = broken._asdict()
-        if broken.limit.startswith(tuple(CONES)):
+        if broken.limit.startswith(CONES):
             row["worst_deg"] = math.degrees(row.pop("worst"))
         out["breaks"].append(row)
     out["breaks"].sort(key=lambda row: (row["begin"], row["limit"]))

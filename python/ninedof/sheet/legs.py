@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limit_numbers import CONES, PARTS, limit_numbers
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_legs
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.clearance import leg_ends
 from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
 from ninedof.sheet.weight import Weight, wrenches
 from ninedof.statics.statics import leg_forces
@@ -88,7 +88,9 @@ def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats, weigh
         ratio = high / low
     idle = idle_legs(lengths)
     speed, acceleration = (of(g, c, motion).max(axis=0) for of in (leg_speeds, leg_accelerations))
-    base, platform = cone_angles(g, c)
+    base, platform = (
+        dict(zip(PARTS[name], limit_numbers(name, g, c, c[0]).max(axis=0).tolist(), strict=True)) for name in CONES
+    )
     forces = forces_of(g, c, loads, weight)
     given = [of(g, c, motion) for of in (twist_rates, twist_accelerations)] if motion.twist is not None else []
     return tuple(
@@ -102,8 +104,8 @@ def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats, weigh
             idle=bool(idle[k]),
             speed=float(speed[k]),
             acceleration=float(acceleration[k]),
-            base_cone=None if 3 <= k < 6 else float(base[:, k].max()),
-            platform_cone=None if k >= 6 else float(platform[:, k].max()),
+            base_cone=base.get(LEGS[k]),
+            platform_cone=platform.get(LEGS[k]),
             forces=tuple(_ends(f[:, k]) for f in forces),
             **{name: _ends(x[:, k]) for name, x in zip(("twist_speed", "twist_acceleration"), given, strict=False)},
         )
@@ -118,21 +120,3 @@ def forces_of(g: Geometry, c: Configuration, loads: Floats, weight: Weight | Non
 
 def _ends(values: Floats) -> tuple[float, float]:
     return float(values.min()), float(values.max())
-
-
-def cone_angles(g: Geometry, c: Configuration) -> tuple[Floats, Floats]:
-    """Return the angles of the legs from their directions at the first pose, in the frames of base and platform."""
-    along, turned = directions(g, c)
-    return angle(along, along[0]), angle(turned, turned[0])
-
-
-def directions(g: Geometry, c: Configuration) -> tuple[Floats, Floats]:
-    """Return the leg vectors in the frames of base and platform, each of shape (n, 9, 3)."""
-    start, end = leg_ends(g, c)
-    return end - start, (end - start) @ c.rotation  # rows: Q^T v
-
-
-def angle(x: Floats, y: Floats) -> Floats:
-    """Return the angle of vectors, 0 to pi, accurate for small ones too."""
-    across = np.linalg.norm(np.cross(x, y), axis=-1)
-    return np.asarray(np.arctan2(across, np.sum(x * y, axis=-1)))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.limit_numbers import CONES, apart, clearances, limit_numbers
 from ninedof.design.limits import each, for_core
 from ninedof.design.pose import Pose
 from ninedof.design.region import Region
@@ -18,15 +19,12 @@ from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.clearance import clearances
 from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
 from ninedof.sheet.legs import forces_of
 from ninedof.sheet.near_singularity import near_singularities
-from ninedof.sheet.pose_limits import CONES, cone_angles
 from ninedof.sheet.region_search import Numbers, Poses, extreme_poses, finite_or_high
 from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
-from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import error_bounds
 from ninedof.support.arrays import Floats
 
@@ -127,12 +125,11 @@ def _look(region: Region, study: Study, g: Geometry, asked: Asked, even: Configu
 
 def _numbers(study: Study, g: Geometry, neutral: Configuration, asked: Asked) -> list[Numbers]:
     """Return the numbers of a sheet, each the worse the lower."""
-    signs = np.sign(singularity_margins(g, neutral))
-    motion, loads = asked.motion, asked.loads
+    motion, loads, pairs = asked.motion, asked.loads, apart(g, study)
     found: list[Numbers] = [
         _both(lambda c: leg_lengths(g, c)),
-        lambda c: clearances(g, c),
-        lambda c: np.stack(singularity_margins(g, c), axis=1) * signs,
+        lambda c: clearances(g, c, pairs),
+        lambda c: limit_numbers("singularity_free", g, c, neutral),
         _largest(lambda c: leg_speeds(g, c, motion)),
         _largest(lambda c: leg_accelerations(g, c, motion)),
     ]
@@ -154,7 +151,7 @@ def _numbers(study: Study, g: Geometry, neutral: Configuration, asked: Asked) ->
 
 
 def _cones(g: Geometry, neutral: Configuration, name: str, axis: Any) -> Numbers:
-    return lambda c: cone_angles(g, c, neutral, name, axis)
+    return lambda c: limit_numbers(name, g, c, neutral, axis)
 
 
 def _errors(g: Geometry, legs: ArrayLike, joints: ArrayLike) -> Numbers:

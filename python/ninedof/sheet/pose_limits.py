@@ -9,22 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.leg_limits import SPREADS
+from ninedof.design.limit_numbers import PARTS, apart, clearances, limit_numbers
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.clearance import clearances
-from ninedof.sheet.legs import angle, directions
-from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import margin_of
-
-CONES = {"base_cone": [0, 1, 2, 6, 7, 8], "platform_cone": [0, 1, 2, 3, 4, 5]}
-"""Legs at the joints of a body."""
 
 
 class PoseLimit(NamedTuple):
@@ -61,7 +55,7 @@ def pose_limits(
 
     Limits on the spread of lengths compare poses: at each they are taken over the stack up to it. The ways to the poses
     that `singularity_free` tests are left out: its determinants are those of the poses. Legs whose joints coincide in
-    this design are exempt from `leg_clearance`.
+    every design of the study are exempt from `leg_clearance`.
 
     Parameters
     ----------
@@ -83,7 +77,7 @@ def pose_limits(
         if given["at"] != "poses":
             continue
         unit = float(neutral.position[2]) if given["of"] == "zp" else 1.0
-        for part, values in _values(name, given["axis"], g, c, neutral, beside):
+        for part, values in _values(study, name, given["axis"], g, c, neutral, beside):
             for side, limit in (("min", unit * given["low"]), ("max", unit * given["high"])):
                 if side in ROWS[name].sides and math.isfinite(limit) and limit > 0.0:
                     margin = margin_of(ROWS[name].kind, side, limit, values)
@@ -95,12 +89,19 @@ def pose_limits(
 
 
 def _values(
-    name: str, axis: Sequence[float], g: Geometry, c: Configuration, neutral: Configuration, beside: Floats | None
+    study: Study,
+    name: str,
+    axis: Sequence[float],
+    g: Geometry,
+    c: Configuration,
+    neutral: Configuration,
+    beside: Floats | None,
 ) -> Iterator[tuple[str, Floats]]:
     """Yield the numbers that a constraint limits at each pose, by leg or determinant; none for limits of the design."""
-    if name in OF_LENGTHS:
-        lengths = leg_lengths(g, c)
-        yield from ((LEGS[k], lengths[:, k]) for k in OF_LENGTHS[name])
+    if name == "leg_clearance":
+        yield "", clearances(g, c, apart(g, study)).min(axis=1, initial=math.inf)
+    elif name in PARTS:
+        yield from zip(PARTS[name], limit_numbers(name, g, c, neutral, axis).T, strict=True)
     elif name in SPREADS:
         lengths = leg_lengths(g, c)
         if beside is None:
@@ -112,26 +113,3 @@ def _values(
         else:
             spread = long - short if name == "stroke" else long / short
             yield from zip(LEGS, spread.T, strict=True)
-    elif name == "leg_clearance":
-        yield "", clearances(g, c).min(axis=1)
-    elif name == "singularity_free":
-        home, here = singularity_margins(g, neutral), singularity_margins(g, c)
-        for det in home._fields:
-            yield det, np.asarray(getattr(here, det)) * float(np.sign(getattr(home, det)))
-    elif name in CONES:
-        angles = cone_angles(g, c, neutral, name, axis)
-        yield from ((LEGS[k], angles[:, i]) for i, k in enumerate(CONES[name]))
-
-
-def cone_angles(g: Geometry, c: Configuration, neutral: Configuration, name: str, axis: Sequence[float]) -> Floats:
-    """Return the angles of the six legs at a body, shape (n, 6): from an axis, or their directions at home without."""
-    platform = name == "platform_cone"
-    along, home = (directions(g, x)[int(platform)][:, CONES[name]] for x in (c, _stack_of(neutral)))
-    if not len(axis):
-        return angle(along, home)
-    away = np.where(platform & (np.arange(6) < 3), -1.0, 1.0)[:, None]  # external legs point at the platform
-    return angle(away * along, np.asarray(axis))
-
-
-def _stack_of(c: Configuration) -> Configuration:
-    return Configuration(c.position[None], c.rotation[None], c.internal_point[None])

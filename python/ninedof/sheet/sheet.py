@@ -14,12 +14,12 @@ from numpy.typing import ArrayLike
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.limit_numbers import apart, least_clearance
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
-from ninedof.sheet.clearance import least_clearance
 from ninedof.sheet.leg_motion import Motion, shown_internal
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
@@ -340,7 +340,7 @@ def sheet(
         ),
         condition_number=_worst(kappa),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
-        clearance=Clearance(*least_clearance(g, c)),
+        clearance=Clearance(*least_clearance(g, c, apart(g, study))),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
         singularities=near_singularities(g, c, motion.internal),

@@ -11,13 +11,14 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number, singular_values
 from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.leg_limits import SPREADS
+from ninedof.design.limit_numbers import CONES
 from ninedof.design.limits import ROWS, split_label
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.pose_limits import CONES, PoseLimit, pose_limits
+from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated, margin_of

@@ -14,7 +14,6 @@ from ninedof.plot import style
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.clearance import leg_ends
 from ninedof.support.arrays import Floats
 from ninedof.viewer import shapes
 from ninedof.viewer.html import RED
@@ -170,7 +169,7 @@ class Scene:
         )
 
     def _legs(self, g: Geometry, c: Configuration, found: Numbers) -> None:
-        start, end = (self.scale * ends for ends in leg_ends(g, c))
+        start, end = (self.scale * ends for ends in _leg_ends(g, c))
         arms = end - start
         lengths = np.linalg.norm(arms, axis=1)
         safe = np.maximum(lengths, 1e-9)
@@ -224,3 +223,15 @@ class Scene:
         """Let a node take its place again with the next picture, such as a handle that was let go."""
         for key in ("position", "wxyz"):
             self._sent.pop((name, key), None)
+
+
+def _leg_ends(g: Geometry, c: Configuration) -> tuple[Floats, Floats]:
+    """Return where the nine legs start and end, shape (..., 9, 3), base frame: base to platform, platform or base to O.
+
+    External legs go from base to platform, upper internal ones from the platform to O, lower ones from the base to O.
+    """
+    turned, p = np.swapaxes(c.rotation, -1, -2), c.position[..., None, :]
+    external, internal = p + g.platform_external @ turned, p + g.platform_internal @ turned
+    o = np.broadcast_to(c.internal_point[..., None, :], external.shape)
+    low, inner = (np.broadcast_to(triple, external.shape) for triple in (g.base_external, g.base_internal))
+    return np.concatenate([low, internal, inner], axis=-2), np.concatenate([external, o, o], axis=-2)

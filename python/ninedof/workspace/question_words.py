@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ninedof.design.limit_numbers import CONES
 from ninedof.redundancy.rules import where_o
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.leg_names import LEGS as LEG_NAMES
-from ninedof.sheet.pose_limits import CONES
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 

@@ -8,16 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.limit_numbers import CONES, apart, clearances, limit_numbers
 from ninedof.design.region import Region
 from ninedof.design.region_outline import extent
 from ninedof.design.region_stack import configurations_at, samples
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.clearance import clearances
-from ninedof.sheet.pose_limits import CONES, cone_angles
 from ninedof.sheet.region_search import Numbers, Poses, extreme_poses
-from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.workspace.study_criteria import EASE
 
@@ -58,14 +56,13 @@ def _kept(
             yield name, ((lengths >= limit[0]) & (lengths <= limit[1])).all(axis=1)
         elif name in CONES:
             most, axis = (limit["max"], limit["axis"]) if isinstance(limit, Mapping) else (limit, ())
-            yield name, (cone_angles(g, c, home, name, axis) <= most).all(axis=1)
+            yield name, (limit_numbers(name, g, c, home, axis) <= most).all(axis=1)
         elif name == "leg_clearance":
-            yield name, clearances(g, c).min(axis=1) >= limit
+            yield name, clearances(g, c, apart(g)).min(axis=1) >= limit
         elif name == "condition_number":
             yield name, condition_number(g, c, length) <= limit
         elif name == "singularity_free" and limit:
-            signs = np.sign(singularity_margins(g, home))
-            yield name, (np.stack(singularity_margins(g, c), axis=1) * signs > 0.0).all(axis=1)
+            yield name, (limit_numbers(name, g, c, home) > 0.0).all(axis=1)
 
 
 def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:

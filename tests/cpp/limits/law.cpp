@@ -9,6 +9,8 @@
 #include "limits/leg_clearance.hpp"
 #include "limits/table.hpp"
 #include "ninedof/batch/batch.hpp"
+#include "ninedof/limits/numbers.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/math/rotation.hpp"
 #include "ninedof/singularity/singularity.hpp"
 #include "support/support.hpp"
@@ -264,6 +266,29 @@ TEST_SUITE("law") {
         if (std::abs(value) > 1e-10) CHECK(numerator.c * value > 0.0);
       }
     }
+  }
+
+  TEST_CASE("the numbers of the public header are those of the rows") {
+    Random random(8);
+    const Case one(random, 0);
+    const PosedPoints here = posed_points(one.g, one.here), home = posed_points(one.g, one.home);
+    for (const std::string& name : limits_of_poses()) {
+      const LimitNumbers numbers(name, one.g, one.home, one.axis);
+      const PoseRow& row = *limit_row(name).pose;
+      REQUIRE(numbers.items() == row.items);
+      REQUIRE(limit_parts(name).size() == static_cast<std::size_t>(row.items));
+      std::vector<double> found(limit_parts(name).size());
+      numbers.at(one.here, found.data());
+      for (int item = 0; item < row.items; ++item)
+        CHECK(found[at_index(item)] == row.number(PointLook(here, home, one.axis), item));
+    }
+    CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home), doctest::Contains("height"), InvalidArgument);
+    Triple same = one.g.base_internal();
+    same[1] = one.g.base_external()[2];
+    const Geometry coupled(one.g.base_external(), same, one.g.platform_external(), one.g.platform_internal());
+    const std::array<bool, 21> exempt = pairs_sharing_a_joint(coupled);
+    for (int pair = 0; pair < leg_pairs; ++pair)
+      CHECK(exempt[at_index(pair)] == (leg_clearance_row.part(pair) == "l3-r2"));
   }
 
   TEST_CASE("rows of the design: slopes, and intervals that hold the value") {

@@ -15,8 +15,21 @@ from ninedof.export.model import model_of
 from ninedof.optimize.exchange import search
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import posed
-from ninedof.sheet.legs import cone_angles
 from ninedof.verify.region import random_poses
+
+
+def cone_angles(g, c):
+    """Angles of all legs from their directions at the first pose, in the frames of base and platform."""
+    external = c.position[:, None] + g.platform_external @ np.swapaxes(c.rotation, 1, 2) - g.base_external
+    upper = c.internal_point[:, None] - c.position[:, None] - g.platform_internal @ np.swapaxes(c.rotation, 1, 2)
+    lower = c.internal_point[:, None] - g.base_internal
+    legs = np.concatenate([external, upper, lower], axis=1)
+    found = []
+    for v in (legs, legs @ c.rotation):
+        v = v / np.linalg.norm(v, axis=2, keepdims=True)
+        found.append(2.0 * np.arcsin(np.linalg.norm(v - v[0], axis=2) / 2.0))
+    return found
+
 
 REGIONS = [
     {"box": [0.5, 0.4, 0.3], "tilt": 0.15},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "math/numbers.hpp"
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "robot/joint_cones.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/singularity/singularity.hpp"
 
 namespace ninedof {

@@ -1,0 +1,43 @@
+#pragma once
+/// What limits are about, at given poses.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "ninedof/math/types.hpp"
+#include "ninedof/robot/configuration.hpp"
+#include "ninedof/robot/geometry.hpp"
+#include "ninedof/robot/points.hpp"
+
+namespace ninedof {
+
+struct PoseRow;
+
+/// The limits that have a value at every pose, in the order of their table.
+std::vector<std::string> limits_of_poses();
+
+/// The items of one: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
+std::vector<std::string> limit_parts(const std::string& name);
+
+/// The numbers that one is about, an item each: lengths, angles in radians, distances of legs, or determinants, positive
+/// on the side of the neutral pose.
+class LimitNumbers {
+ public:
+  /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction.
+  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis = Vec3::Zero());
+  int items() const;
+  /// `out` has room for them.
+  void at(const Configuration& pose, double* out) const;
+
+ private:
+  const PoseRow& row_;
+  Geometry geometry_;
+  PosedPoints home_;
+  Vec3 axis_;
+};
+
+/// The pairs of legs whose joints coincide in this robot.
+std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g);
+
+}  // namespace ninedof

@@ -1,0 +1,58 @@
+"""What limits are about at the poses of a stack: the table of the core, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.design.study import Study
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.arrays import Floats
+
+PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
+"""The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
+CONES = ("base_cone", "platform_cone")
+
+
+def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Sequence[float] = ()) -> Floats:
+    """Return what a limit is about at each pose, shape (n, items): lengths, radians, distances, determinants.
+
+    Parameters
+    ----------
+    name : str
+        One of `PARTS`.
+    g : Geometry
+    c : Configuration, shape (n,)
+    home : Configuration
+        A single one: determinants are positive on its side, and cones without an axis are about its legs.
+    axis : sequence, optional
+        Of a cone, in the frame of its body.
+
+    """
+    at_home = (home.position[None], home.rotation[None], home.internal_point[None])
+    return _core.limit_numbers(name, axis, g, *at_home, c.position, c.rotation, c.internal_point)
+
+
+def apart(g: Geometry, study: Study | None = None) -> list[int]:
+    """Return the indices of the pairs of legs that are to keep a distance.
+
+    Others share a joint in every design of the study; without a study, in this robot.
+    """
+    exempt = _core.pairs_sharing_a_joint(g) if study is None else study.problem().exempt_pairs()
+    return [k for k, meet in enumerate(exempt) if not meet]
+
+
+def clearances(g: Geometry, c: Configuration, pairs: Sequence[int]) -> Floats:
+    """Return the distances of the axes of pairs of legs, shape (n, pairs)."""
+    return limit_numbers("leg_clearance", g, c, c[0])[:, pairs]
+
+
+def least_clearance(g: Geometry, c: Configuration, pairs: Sequence[int]) -> tuple[float, int, tuple[str, str]]:
+    """Return the least distance over a stack of poses, its pose and its pair."""
+    found = clearances(g, c, pairs)
+    pose, pair = np.unravel_index(int(np.argmin(found)), found.shape)
+    one, other = sorted(PARTS["leg_clearance"][pairs[int(pair)]].split("-"))  # "l3-l1" as l1 and l3
+    return float(found[pose, pair]), int(pose), (one, other)
