@@ -20,3 +20,4 @@ cp -r "$here" "$work/outside"
 cmake -S "$work/outside" -B "$work/outside/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release
 cmake --build "$work/outside/build"
 "$work/outside/build/outside"
+"$work/outside/build/certify"
