@@ -235,6 +235,7 @@ class Problem:
     def starts(self, count: int, seed: int, /) -> _Floats: ...
 
 limit_parts: dict[str, tuple[str, ...]]
+limits_over_lengths: tuple[str, ...]
 
 def limit_numbers(
     name: str,

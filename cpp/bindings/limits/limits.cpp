@@ -11,6 +11,7 @@ void bind_limits(py::module_& m) {
   py::dict parts;
   for (const std::string& name : limits_of_poses()) parts[py::str(name)] = py::tuple(py::cast(limit_parts(name)));
   m.attr("limit_parts") = parts;
+  m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
   m.def("limit_numbers", [](const std::string& name, const std::vector<double>& axis, const Geometry& g,
                             const Array& home_p, const Array& home_q, const Array& home_s, const Array& p,
                             const Array& q, const Array& s) {

@@ -22,6 +22,13 @@ std::vector<std::string> limits_of_poses() {
   return out;
 }
 
+std::vector<std::string> limits_over_lengths() {
+  std::vector<std::string> out;
+  for (const LimitRow& row : limit_rows)
+    if (row.spread != nullptr) out.emplace_back(row.info.name);
+  return out;
+}
+
 std::vector<std::string> limit_parts(const std::string& name) {
   const PoseRow& row = row_of(name);
   std::vector<std::string> out;

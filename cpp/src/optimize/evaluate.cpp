@@ -43,7 +43,9 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& variables) {
     const bool first = out.margins.empty() || out.margins.back().name != name;
     if (!first && !(value < out.margins.back().value)) continue;
     if (first) out.margins.emplace_back();
-    out.margins.back() = {name, value, slope * design.margin_gradient.row(k).transpose(),
+    // With a leg of no length a ratio is infinite, and its margin has no gradient.
+    const double by = std::isfinite(slope) ? slope : 0.0;
+    out.margins.back() = {name, value, by * design.margin_gradient.row(k).transpose(),
                           p.limited_value(static_cast<int>(k), design.margins[k])};
   }
   return out;

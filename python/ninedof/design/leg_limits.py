@@ -6,12 +6,18 @@ import math
 
 import numpy as np
 
-from ninedof.design.limits import each, for_core
+from ninedof import _core
+from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
+from ninedof.robot.leg_names import LEGS as LEG_NAMES
 from ninedof.support.arrays import Floats
 
-SPREADS = ("leg_ratio", "stroke", "stroke_ratio")  # limits that compare poses
-LEGS = {"leg_length": range(9), "external_length": range(3), "upper_length": range(3, 6), "lower_length": range(6, 9)}
+SPREADS = _core.limits_over_lengths  # limits that compare poses
+LEGS = {
+    name: [LEG_NAMES.index(part) for part in parts]
+    for name, parts in _core.limit_parts.items()
+    if ROWS[name].kind == "length" and set(parts) <= set(LEG_NAMES)
+}
 """Constraints of lengths, and their legs in the order of `leg_lengths`."""
 
 

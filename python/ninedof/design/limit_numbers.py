@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ninedof import _core
+from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -14,7 +15,7 @@ from ninedof.support.arrays import Floats
 
 PARTS: dict[str, tuple[str, ...]] = _core.limit_parts
 """The limits that have a value at every pose, and their items: legs, pairs of legs "l1-q2", determinants "det N"."""
-CONES = ("base_cone", "platform_cone")
+CONES = tuple(name for name in PARTS if ROWS[name].is_angle)
 
 
 def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration, axis: Sequence[float] = ()) -> Floats:

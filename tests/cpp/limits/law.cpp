@@ -176,7 +176,7 @@ int wrong_distances(const Case& one, double half, Random& random) {
 Broken broken_by(const PoseRow& row) {
   Random random(28);
   Broken out;
-  for (int n = 0; n < 12; ++n) {
+  for (int n = 0; n < cases(12); ++n) {
     const Case one(random, n);
     out.slopes += wrong_slopes(row, one);
     if (row.form != nullptr)
@@ -226,7 +226,7 @@ TEST_SUITE("law") {
 
   TEST_CASE("distances of legs are within their bounds") {
     Random random(5);
-    for (int n = 0; n < 30; ++n) {
+    for (int n = 0; n < cases(30); ++n) {
       const Case one(random, n);
       for (const double half : {1e-6, 0.02, 0.2}) CHECK(wrong_distances(one, half, random) == 0);
     }
@@ -282,6 +282,7 @@ TEST_SUITE("law") {
       for (int item = 0; item < row.items; ++item)
         CHECK(found[at_index(item)] == row.number(PointLook(here, home, one.axis), item));
     }
+    CHECK(limits_over_lengths() == std::vector<std::string>{"leg_ratio", "stroke_ratio", "stroke"});
     CHECK_THROWS_WITH_AS(LimitNumbers("height", one.g, one.home), doctest::Contains("height"), InvalidArgument);
     Triple same = one.g.base_internal();
     same[1] = one.g.base_external()[2];

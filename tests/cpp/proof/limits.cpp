@@ -86,7 +86,7 @@ double worst(const LimitOverPoses& limit, const Limit& given, const Geometry& g,
 TEST_SUITE("limits") {
   TEST_CASE("the worst of every limit over a region is in its enclosure, and met") {
     Random random(9);
-    for (int n = 0; n < 6; ++n) {
+    for (int n = 0; n < cases(6); ++n) {
       const Robot robot = random_symmetric_robot(random);
       const double zp = 4.0;
       Region region;
@@ -96,7 +96,7 @@ TEST_SUITE("limits") {
       const PosedRobot machine{robot.geometry, neutral(zp, 2.2), 1.0, {region}, {}, {}};
       const LimitsOverPoses found = limits_over_poses(machine, every, {}, 1e-6, {});
       std::vector<PosedPoints> all{posed_points(machine.geometry, machine.neutral)};
-      for (int k = 0; k < 4000; ++k) {
+      for (int k = 0; k < cases(4000); ++k) {
         Vec6 at = random.matrix<Vec6>().cwiseProduct(region.reach());
         const Pose pose = region.pose(region.nearest(at));
         Configuration c = machine.neutral;
@@ -125,10 +125,9 @@ TEST_SUITE("limits") {
         }
       CHECK(k == found.limits.size());
       for (int leg = 0; leg < 9; ++leg)
-        for (const PosedPoints& pose : all) {
-          CHECK(pose.legs.length[leg] >= found.lengths[static_cast<std::size_t>(leg)].lo);
-          CHECK(pose.legs.length[leg] <= found.lengths[static_cast<std::size_t>(leg)].hi);
-        }
+        CHECK(std::ranges::all_of(all, [&](const PosedPoints& pose) {
+          return contains(found.lengths[static_cast<std::size_t>(leg)], pose.legs.length[leg]);
+        }));
     }
   }
 

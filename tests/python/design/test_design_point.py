@@ -289,3 +289,26 @@ def test_the_oracle_of_distances():
     exact = between_segments(a, b, c, d)
     assert (exact <= grid + 1e-12).all()
     assert_allclose(exact, grid, atol=0.05)
+
+
+@pytest.mark.parametrize("limit", [(None, 3.0), (2.0, None), {"max": 3.0, "at": "neutral"}])
+def test_ratios_with_a_leg_of_no_length_have_no_gradient_but_zero(limit):
+    """It was NaN and infinite with a least ratio."""
+    joints = {
+        "base_external": [(2.0, 0.0, 3.0), (-1.0, -2.0, 0.0), (-1.0, 2.0, 0.0)],
+        "platform_external": [(2.0, 0.0, 0.0), (-1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)],
+    }
+    fixed = {
+        f"{triple}_{k}_{axis}": x
+        for triple, rows in joints.items()
+        for k, row in enumerate(rows, 1)
+        for axis, x in zip("xyz", row, strict=True)
+    }
+    study = nd.Study(
+        family="general", variables=fixed | {"zp": (1.0, 5.0), "zs": (0.1, 2.0)}, constraints={"leg_ratio": limit}
+    )
+    point = study.evaluate({"zp": 3.0, "zs": 1.5})
+    for slopes in point.margin_gradients.values():
+        assert np.isfinite(list(slopes.values())).all()
+    (margin,) = point.margins.values()
+    assert (margin > 1e100) if limit == (2.0, None) else (margin < -1e100)

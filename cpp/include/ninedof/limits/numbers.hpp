@@ -17,10 +17,13 @@ struct PoseRow;
 /// The limits that have a value at every pose, in the order of their table.
 std::vector<std::string> limits_of_poses();
 
-/// The items of one: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
+/// Those of the longest and shortest lengths of legs over all poses together.
+std::vector<std::string> limits_over_lengths();
+
+/// The items of a limit at poses: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
 std::vector<std::string> limit_parts(const std::string& name);
 
-/// The numbers that one is about, an item each: lengths, angles in radians, distances of legs, or determinants, positive
+/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, or determinants, positive
 /// on the side of the neutral pose.
 class LimitNumbers {
  public:
