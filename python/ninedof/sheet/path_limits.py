@@ -92,7 +92,8 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     Examples
     --------
     >>> import ninedof as nd
-    >>> study = nd.Study(constraints={"base_cone": {"max_deg": 5}, "leg_clearance": {"radius": 0.05}})
+    >>> limits = {"base_cone": {"max_deg": 5}, "leg_clearance": {"radius": 0.05}}
+    >>> study = nd.Study(variables={"a1": 0.0, "b2": 0.0}, constraints=limits)  # joints in pairs: these legs may meet
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(3.9828, 2.4432)
     >>> found = nd.follow(g, nd.Trajectory.line(home, [0.5, 0, 0]), home)
