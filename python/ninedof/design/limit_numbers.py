@@ -40,9 +40,11 @@ def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration,
 def apart(g: Geometry, study: Study | None = None) -> list[int]:
     """Return the indices of the pairs of legs that are to keep a distance.
 
-    Others share a joint in every design of the study; without a study, in this robot.
+    Others share a joint: where a study limits the distance, in every design of it, as joints that coincide in this one
+    alone collide; else in this robot.
     """
-    exempt = _core.pairs_sharing_a_joint(g) if study is None else study.problem().exempt_pairs()
+    limited = study is not None and "leg_clearance" in study.constraints
+    exempt = study.problem().exempt_pairs() if study is not None and limited else _core.pairs_sharing_a_joint(g)
     return [k for k, meet in enumerate(exempt) if not meet]
 
 
