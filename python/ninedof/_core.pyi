@@ -274,7 +274,7 @@ def limits_over_poses(
     settings: Mapping[str, Any],
     /,
 ) -> tuple[
-    list[tuple[str, str, str, float, tuple[float, float], str, list[_MetAt], bool, int]],
+    list[tuple[str, str, str, float, tuple[float, float], str, str, list[_MetAt], bool, int]],
     list[tuple[float, float]],
     list[_MetAt],
 ]: ...

@@ -28,7 +28,8 @@ PointRule rule_from(const py::dict& d) {
   return out;
 }
 
-/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the stack, then the listed poses.
+/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the stack,
+/// then the listed poses.
 PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
                       double characteristic_length, const py::object& region) {
   const ConfigurationStack all(position, rotation, internal_point);
@@ -70,13 +71,15 @@ void bind_machine(py::module_& m) {
           const LimitsOverPoses found = interruptible(py::none(), [&](const Control& control) {
             return limits_over_poses(robot, problem.limits, exempt_pairs(problem), tolerance, how, control);
           });
+          constexpr std::array words{"proved", "violated", "undecided"};
           py::list limits, lengths, met;
           for (const LimitOverPoses& one : found.limits) {
             py::list at;
             for (const MetAt& pose : one.at) at.append(tuple_of(pose));
             const auto ends = [](const Interval& x) { return py::make_tuple(x.lo, x.hi); };
             limits.append(py::make_tuple(one.name, to_string(one.kind), one.side == Side::high ? "max" : "min",
-                                         one.limit, ends(one.value), one.part, at, one.at_neutral, one.boxes));
+                                         one.limit, ends(one.value), words[static_cast<std::size_t>(one.answer)],
+                                         one.part, at, one.at_neutral, one.boxes));
           }
           for (const Interval& length : found.lengths) lengths.append(py::make_tuple(length.lo, length.hi));
           for (const MetAt& pose : found.met) met.append(tuple_of(pose));

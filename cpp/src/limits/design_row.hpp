@@ -33,6 +33,7 @@ struct DesignSlopes {
 };
 
 struct DesignRow {
+  bool picks_widest;  ///< whether `joints` depends on which joint is farthest from z
   /// A piecewise function has an item for each piece that may rule.
   int (*items)(Side side);
   /// The joints a and b that an item touches.

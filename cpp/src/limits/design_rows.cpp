@@ -13,8 +13,9 @@ T from_axis(const Xyz<T>& joint) {
   return sqrt(joint.x * joint.x + joint.y * joint.y);
 }
 
-/// What the rows have in common but for some of them.
+/// A row of one item that touches no joint; others hide what differs.
 struct PlainDesignRow {
+  static constexpr bool picks_widest = false;
   static int items(Side) { return 1; }
   static std::pair<int, int> joints(Joints, Side, int) { return {0, 0}; }
   static int body(int) { return -1; }
@@ -23,6 +24,7 @@ struct PlainDesignRow {
 /// Largest distance of a base joint from z over the same of the platform, each in its own frame. At most: every base
 /// joint against the widest of the platform. At least: the widest of the base against every other.
 struct RadiusRatio : PlainDesignRow {
+  static constexpr bool picks_widest = true;
   static int items(Side) { return 6; }
   static std::pair<int, int> joints(Joints all, Side side, int item) {
     if (side == Side::high) return {item, widest_joint(all, point_u)};
@@ -52,6 +54,7 @@ struct Height : PlainDesignRow {
 
 /// Largest distance of a base joint from z. At most: every base joint. At least: the widest one.
 struct Footprint : PlainDesignRow {
+  static constexpr bool picks_widest = true;
   static int items(Side side) { return side == Side::high ? 6 : 1; }
   static std::pair<int, int> joints(Joints all, Side side, int item) {
     const int joint = side == Side::high ? item : widest_joint(all, 0);
@@ -73,7 +76,8 @@ struct JointHeight : PlainDesignRow {
   }
 };
 
-/// Distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of that body from z.
+/// Distance of every two of the six joints of a body; of "radius": of the largest distance of a joint of that body from
+/// z.
 struct JointSpacing : PlainDesignRow {
   static constexpr int pairs = 15;
   static int items(Side) { return 2 * pairs; }
@@ -93,7 +97,8 @@ struct JointSpacing : PlainDesignRow {
 
 template <class Row>
 constexpr DesignRow design_row_of() {
-  return {Row::items,
+  return {Row::picks_widest,
+          Row::items,
           Row::joints,
           Row::body,
           [](const Touched<double>& x, int item) { return Row::u(x, item); },

@@ -8,7 +8,7 @@ namespace {
 
 template <int first, int count>
 struct LegLengths {
-  static constexpr int items = count;
+  static constexpr int items = count, first_leg = first;
   static constexpr bool falls = false, at_home = false;
 
   static std::string part(int item) { return leg_name(first + item); }

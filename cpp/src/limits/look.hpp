@@ -8,6 +8,7 @@
 ///   FormLook    linear forms over a box of poses
 
 #include <algorithm>
+#include <cassert>
 
 #include "ninedof/math/dual.hpp"
 #include "robot/joint_cones.hpp"
@@ -73,7 +74,7 @@ class PointLook {
  private:
   const PosedPoints& here_;
   const PosedPoints& home_;
-  const Vec3& axis_;
+  Vec3 axis_;
 };
 
 /// Derivatives by P points of the pose, and where the limit looks at home too, by a turn of the platform about base axes,

@@ -24,7 +24,8 @@ struct PointSlopes {
 
 /// The functions of a row. u is the smooth quantity behind the number that people read: a squared length, a cosine.
 struct PoseRow {
-  int items = 0;                                ///< legs, pairs of legs, determinants
+  int items = 0;       ///< legs, pairs of legs, determinants
+  int first_leg = -1;  ///< of a row of leg lengths, whose items are legs from this one on
   std::string (*part)(int item) = nullptr;      ///< "l1", "det N"
   /// The number that people read, at a pose.
   double (*number)(const PointLook&, int item) = nullptr;
@@ -52,6 +53,7 @@ PoseForm determinant_numerator(const FormLook& look, int which);
 /// The number of a row and its slopes, by P touched points.
 template <class Row, int P>
 double slopes_of(const PointLook& look, int item, const std::array<int, P>& touched, PointSlopes& out) {
+  static_assert(P <= 7 && (P <= 2 || !Row::at_home), "PointSlopes has no room for more");
   using Seen = DualLook<P, Row::at_home>;
   const auto u = Row::u(Seen(look, touched), item);
   const double number = Row::number_of(u.value, look, item), slope = Row::slope(number);
@@ -79,6 +81,7 @@ template <class Row>
 constexpr PoseRow pose_row_of() {
   PoseRow out;
   out.items = Row::items;
+  if constexpr (requires { Row::first_leg; }) out.first_leg = Row::first_leg;
   out.part = Row::part;
   out.number = [](const PointLook& look, int item) { return Row::number(look, item); };
   out.slopes = Row::slopes;

@@ -22,12 +22,11 @@ std::vector<ConstraintInfo> rows_where(const Keep& keep) {
 }  // namespace
 
 const LimitRow& limit_row(std::string_view name) {
+  for (const LimitRow& row : limit_rows)
+    if (row.is_constraint() && name == row.info.name) return row;
   std::string names;
-  for (const LimitRow& row : limit_rows) {
-    if (!row.is_constraint()) continue;
-    if (name == row.info.name) return row;
-    names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
-  }
+  for (const LimitRow& row : limit_rows)
+    if (row.is_constraint()) names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
   throw InvalidArgument("constraints", "\"" + std::string(name) + "\"", "one of " + names);
 }
 

@@ -2,7 +2,6 @@
 /// places where they are tested belong to whoever looks. Declared in limits/pose_row.hpp.
 
 #include "limits/pose_row.hpp"
-#include "ninedof/singularity/singularity.hpp"
 
 namespace ninedof {
 namespace {
@@ -89,8 +88,8 @@ FormHome::FormHome(const Geometry& g, const Configuration& home, const Vec3& giv
           given.isZero(0.0) ? in_body(platform, at_home.q, from_joint(platform, k, point)) : constant<PoseForm>(given);
       axis[platform][at_index(k)] = unit(along);
     }
-  const PerMechanism det = singularity_margins(g, home);
-  side = {det.n < 0.0 ? -1.0 : 1.0, det.b < 0.0 ? -1.0 : 1.0, det.c < 0.0 ? -1.0 : 1.0};
+  const PosedPoints points = posed_points(g, home);
+  for (int which = 0; which < 3; ++which) side[at_index(which)] = PointLook(points, points, given).side(which);
 }
 
 constinit const PoseRow singularity_free_row = pose_row_of<Determinants>();

@@ -15,8 +15,6 @@ namespace ninedof {
 struct SpreadRow {
   bool ratio;     ///< their quotient; else their difference
   bool each_leg;  ///< of every leg on its own
-
-  double of(double longest, double shortest) const { return ratio ? longest / shortest : longest - shortest; }
 };
 
 /// The margin that the optimizer works with, of a value v and a limit.

@@ -21,12 +21,6 @@ constexpr double sense_at(bool platform, int k) {
   return platform && k < 3 ? -1.0 : 1.0;
 }
 
-/// Leg k of a body as a vector from its joint, base frame.
-inline Vec3 leg_from_joint(const Points& at, bool platform, int k) {
-  const LegEnds ends = leg_ends(leg_at(platform, k));
-  return sense_at(platform, k) * (at[at_index(ends.to)] - at[at_index(ends.from)]);
-}
-
 /// Angle between a leg and an axis, 0 to pi; both in one frame, of any length.
 inline double cone_angle(const Vec3& leg, const Vec3& axis) {
   return std::atan2(leg.cross(axis).norm(), leg.dot(axis));

@@ -1,4 +1,4 @@
-"""The limits of a study over all poses of a machine, enclosed by the core, and the answers these give."""
+"""The limits of a study over all poses of a machine, as the core encloses and answers them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from ninedof import _core
 from ninedof.design.study import Study
-from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, Met
+from ninedof.proof.machine_record import LimitProof, Met
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.margins import margin_of
@@ -52,8 +52,13 @@ def proved_limits(
     posed = configurations[[0, 0]] if only_neutral else configurations
     arrays = (posed.position, posed.rotation, posed.internal_point)
     limits, lengths, met = _core.limits_over_poses(geometry, *arrays, shape, study.problem(), tolerance, how)
+    proofs = []
+    for name, kind, side, bound, value, answer, which, at, at_neutral, boxes in limits:
+        margin = float(margin_of(kind, side, bound, value[side == "max"]))
+        poses = tuple(met_at(one, only_neutral or at_neutral) for one in at)
+        proofs.append(LimitProof(name, kind, side, bound, answer, value, margin, which, poses, boxes))
     return ProvedLimits(
-        tuple(_proof(*row, tolerance, only_neutral) for row in limits),
+        tuple(proofs),
         tuple(lengths),
         [met_at(at, False) for at in met],
     )
@@ -63,30 +68,3 @@ def met_at(at: Any, neutral: bool) -> Met:
     """Return the pose of an extreme value; listed ones are counted from 1, and the neutral one alone is 0."""
     shift, tilt, yaw, listed = at
     return Met(shift, tilt, yaw, None if listed < 0 else 0 if neutral else listed + 1)
-
-
-def _proof(
-    name: str,
-    kind: str,
-    side: str,
-    bound: float,
-    value: tuple[float, float],
-    which: str,
-    at: list[Any],
-    at_neutral: bool,
-    boxes: int,
-    tolerance: float,
-    only_neutral: bool,
-) -> LimitProof:
-    low, high = value
-    if side == "max":
-        edge = bound * (1.0 + tolerance)
-        answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
-    else:
-        edge = bound * (1.0 - tolerance)
-        # A determinant of zero is a singularity.
-        proved = low > 0.0 if bound == 0.0 else low >= edge
-        answer = PROVED if proved else VIOLATED if high < edge or high <= 0.0 == bound else UNDECIDED
-    margin = float(margin_of(kind, side, bound, high if side == "max" else low))
-    poses = tuple(met_at(one, only_neutral or at_neutral) for one in at)
-    return LimitProof(name, kind, side, bound, answer, value, margin, which, poses, boxes)

@@ -91,7 +91,7 @@ int wrong_slopes(const PoseRow& row, const Case& one) {
   return out;
 }
 
-/// A box of positions and of s about a pose, and its poses.
+/// A box of positions, of s and of turns about z, and its poses.
 struct PoseBox {
   const Case& one;
   double half;
@@ -103,13 +103,16 @@ struct PoseBox {
     };
     out.p = {along(one.here.position, 0, 0), along(one.here.position, 1, 1), along(one.here.position, 2, 2)};
     out.s = {along(one.here.internal_point, 0, 3), along(one.here.internal_point, 1, 4),
-             along(one.here.internal_point, 2, 5)};
+             PoseForm(one.here.internal_point.z())};
+    const PoseForm yaw = PoseForm::coordinate(-half, half, 5), c = cos(yaw), s = sin(yaw);
+    for (FormVector& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
     return out;
   }
   Configuration pose(const Vec6& t) const {
     Configuration c = one.here;
     c.position += half * t.head<3>();
-    c.internal_point += half * t.tail<3>();
+    c.internal_point.head<2>() += half * t.segment<2>(3);
+    c.rotation = rotation_about_z(half * t[5]) * c.rotation;
     return c;
   }
 };
@@ -135,6 +138,7 @@ int wrong_forms(const PoseRow& row, const Case& one, double half, Random& random
   int out = 0;
   for (int item = 0; item < row.items; ++item) {
     const PoseForm u = row.form(look, item);
+    out += half < 1e-3 && !is_known(u);
     for (int n = 0; n < 1000 / row.items; ++n) {
       const Vec6 t = random.matrix<Vec6>().cwiseMax(-1.0).cwiseMin(1.0);
       const PosedPoints here = posed_points(one.g, box.pose(t));
@@ -159,6 +163,7 @@ int wrong_distances(const Case& one, double half, Random& random) {
     const LegPairForms legs = leg_pair_forms(look, pair);
     const PoseForm above = squared_distance_above(legs);
     for (const FormVector& direction : {fixed_direction(legs), turning_direction(legs)}) {
+      out += half < 1e-3 && !is_known(direction.x);
       const EndDistances ends = end_distances(legs, direction);
       for (int n = 0; n < 20; ++n) {
         const Vec6 t = random.matrix<Vec6>().cwiseMax(-1.0).cwiseMin(1.0);

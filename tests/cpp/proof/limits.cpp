@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "limits/table.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/machine.hpp"
 #include "support/support.hpp"
@@ -51,8 +52,9 @@ double worst(const LimitOverPoses& limit, const Limit& given, const Geometry& g,
       longest = longest.cwiseMax(pose.legs.length);
       shortest = shortest.cwiseMin(pose.legs.length);
     }
-    if (!row.spread->each_leg) return row.spread->of(longest.maxCoeff(), shortest.minCoeff());
-    for (int leg = 0; leg < 9; ++leg) take(row.spread->of(longest[leg], shortest[leg]));
+    if (given.name == "leg_ratio") return longest.maxCoeff() / shortest.minCoeff();
+    for (int leg = 0; leg < 9; ++leg)
+      take(given.name == "stroke" ? longest[leg] - shortest[leg] : longest[leg] / shortest[leg]);
     return out;
   }
   const auto radius = [](const Triple& a, const Triple& b) {
@@ -79,6 +81,21 @@ double worst(const LimitOverPoses& limit, const Limit& given, const Geometry& g,
     }
   }
   return out;
+}
+
+double widest(const Geometry& g) {
+  double r = 0.0;
+  for (const Triple* t : {&g.base_external(), &g.base_internal(), &g.platform_external(), &g.platform_internal()})
+    for (const Vec3& x : *t) r = std::max(r, x.head<2>().norm());
+  return r;
+}
+
+Configuration met(const PosedRobot& machine, const MetAt& at) {
+  Configuration c = machine.neutral;
+  c.position += at.shift;
+  if (machine.region.front().shifted) c.internal_point += at.shift;
+  if (at.tilt.norm() > 0.0) c.rotation = Eigen::AngleAxisd(at.tilt.norm(), at.tilt.normalized()).toRotationMatrix();
+  return c;
 }
 
 }  // namespace
@@ -117,6 +134,18 @@ TEST_SUITE("limits") {
           CAPTURE(one.name);
           CHECK(one.name == limit.label());
           CHECK(one.side == side);
+          const double unit = limit.of == Unit::zp ? zp : limit.name == "joint_height" ? widest(machine.geometry) : 1.0;
+          CHECK(one.limit == doctest::Approx(given * unit).epsilon(1e-14));
+          const PoseRow* row = limit_row(limit.name).pose;
+          CHECK(one.at.size() == (row != nullptr ? 1 : limit_row(limit.name).spread != nullptr ? 2 : 0));
+          if (row != nullptr) {
+            const PosedPoints there = one.at_neutral ? all[0] : posed_points(machine.geometry, met(machine, one.at[0]));
+            double here = std::numeric_limits<double>::quiet_NaN();
+            for (int item = 0; item < row->items; ++item)
+              if (row->part(item) == one.part) here = row->number({there, all[0], limit.axis}, item);
+            CHECK(here >= one.value.lo - 1e-9);
+            CHECK(here <= one.value.hi + 1e-9);
+          }
           const double value = worst(one, limit, machine.geometry, all), room = 1e-12 * std::abs(value);
           if (side == Side::high) CHECK(value <= one.value.hi + room);
           else CHECK(value >= one.value.lo - room);
@@ -129,6 +158,50 @@ TEST_SUITE("limits") {
           return contains(found.lengths[static_cast<std::size_t>(leg)], pose.legs.length[leg]);
         }));
     }
+  }
+
+  TEST_CASE("a leg that vanishes in a region: its ratio has no upper end, and is named") {
+    // The lower internal joints are in the way of O, which moves with the platform.
+    const Geometry g = Geometry::hexagonal(0.5, 3.0, 1.5, 0.2);
+    PosedRobot machine{g, neutral(4.0, 0.01), 1.0, {}, {}, {}};
+    machine.neutral.internal_point = g.base_internal()[1] + Vec3(0.0, 0.0, 0.01);
+    Region region;
+    region.size = {0.1, 0.1, 0.1};
+    machine.region.push_back(region);
+    const std::vector<Limit> stroke{{.name = "stroke_ratio", .high = 1.5}};
+    const LimitsOverPoses found = limits_over_poses(machine, stroke, {}, 1e-6, {});
+    const LimitOverPoses& one = found.limits.at(1);
+    CHECK(one.part == "r2");
+    CHECK(one.at.size() == 2);
+    CHECK(one.value.lo > 10.0);
+    CHECK(std::isinf(one.value.hi));
+    CHECK(one.answer == LimitOverPoses::Answer::violated);
+  }
+
+  TEST_CASE("without poses it is the neutral one; an exemption needs a common joint; bad limits are refused") {
+    const Geometry g = Geometry::hexagonal(0.0, 3.0, 1.5, 0.0);
+    const PosedRobot machine{g, neutral(4.0, 2.2), 1.0, {}, {}, {}};
+    const std::vector<Limit> apart{{.name = "leg_clearance", .low = 0.1}, {.name = "height", .high = 4.0}};
+    std::array<bool, 21> all;
+    all.fill(true);
+    const LimitsOverPoses found = limits_over_poses(machine, apart, all, 0.0, {});
+    REQUIRE(found.limits.size() == 3);
+    CHECK(found.limits[0].name == "no singularity");
+    CHECK(found.limits[0].answer == LimitOverPoses::Answer::proved);
+    CHECK(found.limits[1].answer == LimitOverPoses::Answer::proved);
+    CHECK(found.limits[1].value.lo > 0.1);
+    CHECK(found.limits[2].answer == LimitOverPoses::Answer::proved);  // exactly at its limit
+    CHECK(limits_over_poses(machine, apart, {}, 0.0, {}).limits[1].answer == LimitOverPoses::Answer::violated);
+    CHECK_THROWS_WITH_AS(limits_over_poses(machine, {{.name = "height", .low = 2.0, .high = 1.0}}, {}, 0.0, {}),
+                         doctest::Contains("height"), InvalidArgument);
+    PosedRobot posed = machine;
+    posed.poses.push_back(machine.neutral);
+    CHECK_THROWS_AS(pose_extremes(posed, {{.limit_name = "height"}}, {}), InvalidArgument);
+    CHECK_THROWS_AS(pose_extremes(posed, {{.limit_name = "leg_length", .item = 9}}, {}), InvalidArgument);
+    CHECK_THROWS_AS(pose_extremes(posed, {{.limit_name = "leg_clearance"}}, {}), InvalidArgument);
+    CHECK_THROWS_AS(pose_extremes(machine, {{.limit_name = "leg_length"}}, {}), InvalidArgument);
+    const Extreme distance = pose_extremes(posed, {{.limit_name = "leg_clearance", .greatest = false}}, {}).front();
+    CHECK(distance.low > 0.0);
   }
 
   TEST_CASE("pairs of legs are exempt that share a joint in every design") {

@@ -23,8 +23,8 @@ std::vector<std::string> limits_over_lengths();
 /// The items of a limit at poses: legs ("l1"), pairs of legs ("l1-q2") or determinants ("det N").
 std::vector<std::string> limit_parts(const std::string& name);
 
-/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, or determinants, positive
-/// on the side of the neutral pose.
+/// The numbers that a limit at poses is about, an item each: lengths, angles in radians, distances of legs, or
+/// determinants, positive on the side of the neutral pose.
 class LimitNumbers {
  public:
   /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction.

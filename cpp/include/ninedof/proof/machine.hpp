@@ -73,22 +73,25 @@ struct LimitOverPoses {
   std::string name;  ///< its label; "no singularity" for the three determinants, which have no limit but 0
   LimitKind kind = LimitKind::ratio;  ///< as in the table of limits, whatever a length is a fraction of
   Side side = Side::high;
-  double limit = 0.0;       ///< a length, radians or a ratio: what is a fraction of zp or a radius is multiplied by it
-  Interval value;           ///< holds the worst value; one end was met
-  std::string part;         ///< the leg, pair of legs or determinant that is worst
-  std::vector<MetAt> at;    ///< where it was met; of a stroke where the leg is longest and where shortest
+  double limit = 0.0;  ///< a length, radians or a ratio: what is a fraction of zp or a radius is multiplied by it
+  Interval value;  ///< holds the worst value; one end was met
+  enum class Answer { proved, violated, undecided } answer = Answer::undecided;
+  std::string part;  ///< the leg, pair of legs or determinant that is worst
+  std::vector<MetAt> at;  ///< where it was met; of a stroke where the leg is longest and where shortest
   bool at_neutral = false;  ///< the limit holds at the neutral pose alone
   long boxes = 0;
 };
 
 struct LimitsOverPoses {
   std::vector<LimitOverPoses> limits;  ///< "no singularity", then those given, in their order
-  std::array<Interval, 9> lengths;     ///< every leg is between lo and hi
-  std::vector<MetAt> met;              ///< every pose of the region or of the list where an extreme was met
+  std::array<Interval, 9> lengths;  ///< every leg is between lo and hi
+  std::vector<MetAt> met;  ///< every pose of the region where an extreme was met
 };
 
-/// Where the worst value of each limit is, and in what it is enclosed. Pairs of legs that are `exempt` may meet.
-/// `tolerance`: a limit that is passed by no more counts as kept, so that the search goes on until that is decided.
+/// Where the worst value of each limit is, and in what it is enclosed; over the neutral pose alone where the machine has
+/// no others. Pairs of legs that are `exempt` may meet if their joints coincide in this machine.
+/// `tolerance`: a limit that is passed by no more counts as kept; with one above 0 strokes are searched once more where
+/// they are undecided. `settings.seconds` are of each search. Throws InvalidArgument for a limit that is not valid.
 LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
                                   const std::array<bool, 21>& exempt, double tolerance, const ProofSettings& settings,
                                   const Control& control = {});

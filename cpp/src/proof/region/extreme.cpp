@@ -25,15 +25,26 @@ struct Open {
   bool operator<(const Open& other) const { return bound < other.bound; }
 };
 
+const PoseRow& row_of(const PoseQuantity& wanted) {
+  const PoseRow* row = limit_row(wanted.limit_name).pose;
+  if (row == nullptr)
+    throw InvalidArgument("limit_name", "\"" + wanted.limit_name + "\"", "a limit that has a value at every pose");
+  if (wanted.item < 0 || wanted.item >= row->items)
+    throw InvalidArgument("item", std::to_string(wanted.item), "0 to " + std::to_string(row->items - 1));
+  if (row->form == nullptr && wanted.greatest)
+    throw InvalidArgument("greatest", "true for " + wanted.limit_name, "false: only the least distance is enclosed");
+  return *row;
+}
+
 /// A number as a function to be maximized: u of its row, or less u, or less the distance of two legs.
 class Sought {
  public:
   Sought(const Domain& domain, const PoseQuantity& wanted)
       : domain_(domain),
-        row_(*limit_row(wanted.limit_name).pose),
+        row_(row_of(wanted)),
         item_(wanted.item),
         home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
-        sign_(wanted.greatest != row_.falls ? 1.0 : -1.0) {}
+        sign_(row_.form != nullptr && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
   /// At least every value at the poses of the domain in the box.
   double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
@@ -55,7 +66,7 @@ class Sought {
   /// The number, where the function is within `value`.
   Interval number(const Interval& value) const {
     const Interval u = sign_ > 0.0 ? value : -value;
-    return row_.form != nullptr ? row_.read(u) : u;
+    return row_.form != nullptr ? row_.read(u) : u;  // a distance is less what was sought
   }
 
  private:
@@ -148,6 +159,8 @@ std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<
                                    const ProofSettings& settings, const Control& control) {
   using namespace over_region;
   const Domain domain(machine);
+  if (domain.roots().empty()) throw InvalidArgument("machine", "no poses", "a region or listed poses");
+  for (const PoseQuantity& quantity : quantities) row_of(quantity);  // throws before threads begin
   const Clock::time_point start = Clock::now();
   const auto stopped = [&] {
     return control.stop.stop_requested() ||

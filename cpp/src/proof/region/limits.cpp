@@ -6,13 +6,15 @@
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/proof/machine.hpp"
 
 namespace ninedof {
 namespace {
 
-constexpr double narrow = 1e-7;   // width of lengths that decide on a stroke
-constexpr double twice = 1e-6;    // of a number with two limits
+// Widths of enclosures, relative.
+constexpr double narrow = 1e-7;    // of lengths that decide on a stroke
+constexpr double any_case = 1e-6;  // of a number with two limits
 
 /// Width of an enclosure, relative, unless a limit lies inside: then the search goes on.
 double width_of(const PoseRow& row) {
@@ -29,11 +31,21 @@ struct Asked {
   Extreme found = {};
 };
 
+/// Longest over shortest: a shortest length whose enclosure touches 0 leaves no upper end.
+Interval ratio_of(const Interval& longest, const Interval& shortest) {
+  return {std::max(detail::below(longest.lo / shortest.hi), 0.0),
+          shortest.lo > 0.0 ? detail::above(longest.hi / shortest.lo) : infinity};
+}
+
 class Statements {
  public:
   Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double tolerance,
              const ProofSettings& settings, const Control& control)
-      : machine_(machine), exempt_(exempt), tolerance_(tolerance), settings_(settings), control_(control) {
+      : machine_(machine), tolerance_(tolerance), settings_(settings), control_(control) {
+    // An exemption is no more than what this machine shows.
+    const std::array<bool, 21> share = pairs_sharing_a_joint(machine.geometry);
+    for (std::size_t k = 0; k < exempt_.size(); ++k) exempt_[k] = exempt[k] && share[k];
+    if (machine_.region.empty() && machine_.poses.empty()) machine_.poses.push_back(machine_.neutral);
     const Points at = points(machine.geometry, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});
     std::copy_n(at.begin(), joints_.size(), joints_.begin());
   }
@@ -42,10 +54,16 @@ class Statements {
     std::array<std::pair<std::size_t, std::size_t>, 9> ends;
     for (int leg = 0; leg < 9; ++leg) ends[at_index(leg)] = ends_of_leg(leg, false);
     add_pose_limit("no singularity", limit_row("singularity_free"), Side::low, 0.0, Vec3::Zero(), false);
-    for (const Limit& limit : limits) add(limit);
+    for (const Limit& limit : limits) {
+      limit.validate();
+      add(limit);
+    }
     search(false);
     answer();
-    if (std::ranges::any_of(strokes_, [this](const Stroke& s) { return undecided(out_.limits[s.limit]); })) {
+    const auto open = [this](const Stroke& s) {
+      return out_.limits[s.limit].answer == LimitOverPoses::Answer::undecided;
+    };
+    if (tolerance_ > 0.0 && !control_.stop.stop_requested() && std::ranges::any_of(strokes_, open)) {
       for (Asked& one : asked_)
         if (one.row == &leg_length_row) one.quantity.relative = narrow;
       search(true);
@@ -77,7 +95,7 @@ class Statements {
           old.axis != axis)
         continue;
       if (std::isnan(old.limit)) old.limit = limit;
-      else if (!std::isnan(limit)) old.relative = twice;  // narrow in any case
+      else if (!std::isnan(limit)) old.relative = any_case;  // narrow in any case
       return k;
     }
     asked_.push_back({{name, item, axis, greatest, width_of(row), limit}, &row, at_neutral});
@@ -104,10 +122,13 @@ class Statements {
   double edge(Side side, double limit) const {
     return limit * (side == Side::high ? 1.0 + tolerance_ : 1.0 - tolerance_);
   }
-  bool undecided(const LimitOverPoses& one) const {
-    return one.side == Side::high
-               ? one.value.hi > edge(one.side, one.limit) && one.value.lo <= edge(one.side, one.limit)
-               : one.value.lo < edge(one.side, one.limit) && one.value.hi >= edge(one.side, one.limit);
+  LimitOverPoses::Answer answer_of(const LimitOverPoses& one) const {
+    using enum LimitOverPoses::Answer;
+    const double end = edge(one.side, one.limit);
+    if (one.side == Side::high) return one.value.hi <= end ? proved : one.value.lo > end ? violated : undecided;
+    // A determinant of zero is a singularity.
+    if (one.limit == 0.0) return one.value.lo > 0.0 ? proved : one.value.hi <= 0.0 ? violated : undecided;
+    return one.value.lo >= end ? proved : one.value.hi < end ? violated : undecided;
   }
 
   void add(const Limit& limit) {
@@ -128,13 +149,11 @@ class Statements {
     for (int item = 0; item < row.pose->items; ++item) {
       if (row.pose == &leg_clearance_row && exempt_[at_index(item)]) continue;
       // All rows of lengths ask for the same numbers.
-      const bool length = row.info.kind == LimitKind::length && row.pose != &leg_clearance_row;
-      const std::string part = row.pose->part(item);
-      int leg = item;
-      while (length && part != leg_name(leg)) ++leg;
-      group.of.emplace_back(ask(length ? leg_length_row : *row.pose, length ? "leg_length" : row.info.name, leg,
-                                side == Side::high, at_neutral, edge(side, bound), axis),
-                            part);
+      const bool length = row.pose->first_leg >= 0;
+      const int of = length ? row.pose->first_leg + item : item;
+      const std::size_t asked = ask(length ? leg_length_row : *row.pose, length ? "leg_length" : row.info.name, of,
+                                    side == Side::high, at_neutral, edge(side, bound), axis);
+      group.of.emplace_back(asked, row.pose->part(item));
     }
     if (group.of.empty()) return;
     put(label, row, side, bound, at_neutral);
@@ -158,17 +177,19 @@ class Statements {
   void add_design_limit(const Limit& limit, const LimitRow& row, Side side) {
     const double given = side == Side::low ? limit.low : limit.high;
     // Which joint is farthest from z was decided in doubles.
-    const Interval near_one(1.0 - 0x1p-49, 1.0 + 0x1p-49);
+    const Interval nearly(1.0 - 0x1p-49, 1.0 + 0x1p-49);
     Interval value = side == Side::high ? Interval(-infinity) : Interval(infinity), unit(1.0);
     for (int item = 0; item < row.design->items(side); ++item) {
-      Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item)), item) * near_one;
+      Interval here = row.design->enclosure(touched(row.design->joints(joints_, side, item)), item);
+      if (row.design->picks_widest) here = here * nearly;
       unit = unit_of(limit.of, row.design->body(item));
       if (row.design->body(item) >= 0) here = here / unit;
       value = side == Side::high ? max(value, here) : min(value, here);
     }
     // What has the whole robot as its unit is shown as a length.
     const bool whole = row.design->body(0) < 0;
-    put(limit.label(), row, side, whole ? given * unit.hi : given, false).value = value;
+    const double bound = whole && limit.of != Unit::length ? given * (side == Side::high ? unit.lo : unit.hi) : given;
+    put(limit.label(), row, side, bound, false).value = value;
   }
   Interval unit_of(Unit of, int body) const {
     if (of == Unit::zp) return machine_.neutral.position.z();
@@ -189,7 +210,15 @@ class Statements {
       }
       if (wanted.empty()) continue;
       const std::vector<Extreme> found = pose_extremes(at_neutral ? alone : machine_, wanted, settings_, control_);
-      for (std::size_t k = 0; k < found.size(); ++k) of[k]->found = found[k];
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        Extreme& old = of[k]->found;
+        const Extreme& now = found[k];
+        const bool most = of[k]->quantity.greatest;
+        if (!lengths_alone || (most ? now.low > old.low : now.high < old.high)) old.at = now.at;
+        old = lengths_alone
+                  ? Extreme{std::max(old.low, now.low), std::min(old.high, now.high), old.at, old.boxes + now.boxes}
+                  : now;
+      }
     }
   }
 
@@ -214,6 +243,7 @@ class Statements {
       limit.at = {asked_[worst->first].found.at};
     }
     for (const Stroke& stroke : strokes_) answer(stroke);
+    for (LimitOverPoses& limit : out_.limits) limit.answer = answer_of(limit);
   }
   void answer(const Stroke& stroke) {
     LimitOverPoses& limit = out_.limits[stroke.limit];
@@ -224,6 +254,7 @@ class Statements {
     };
     std::vector<Leg> legs;
     limit.boxes = 0;
+    limit.part.clear();
     for (int k = 0; k < 9; ++k) {
       const auto& [first, second] = stroke.ends[at_index(k)];
       const Extreme &a = asked_[first].found, &b = asked_[second].found;
@@ -243,8 +274,8 @@ class Statements {
     }
     Interval value(-infinity);
     for (const Leg& leg : legs) {
-      const Interval one = stroke.row->ratio ? leg.longest / leg.shortest : leg.longest - leg.shortest;
-      if (one.lo > value.lo) {
+      const Interval one = stroke.row->ratio ? ratio_of(leg.longest, leg.shortest) : leg.longest - leg.shortest;
+      if (one.lo > value.lo || limit.part.empty()) {
         limit.part = leg.name;
         limit.at = {leg.longest_at, leg.shortest_at};
       }
@@ -253,8 +284,8 @@ class Statements {
     limit.value = value;
   }
 
-  const PosedRobot& machine_;
-  const std::array<bool, 21>& exempt_;
+  PosedRobot machine_;
+  std::array<bool, 21> exempt_{};
   double tolerance_;
   const ProofSettings& settings_;
   const Control& control_;
