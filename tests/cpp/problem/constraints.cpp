@@ -1,12 +1,11 @@
 /// limits.hpp and the constraints of the library's sources: margins against the same taken by hand from joints,
 /// legs and poses (hand.hpp), gradients of every row against differences, for every constraint there is.
 
-#include "ninedof/limits/limits.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "ninedof/limits/limits.hpp"
 #include "ninedof/optimize/evaluate.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
 #include "support/designs.hpp"
