@@ -65,7 +65,7 @@ struct Form {
 
   friend Form operator-(Form x) {
     x.c = -x.c;
-    for (double& a : x.a) a = -a;
+    for (double& slope : x.a) slope = -slope;
     return x;
   }
   friend Form operator+(const Form& x, const Form& y) {
@@ -102,7 +102,7 @@ struct Form {
   /// At least the sum of |a_k|.
   friend double spread(const Form& x) {
     double out = 0.0;
-    for (const double a : x.a) out += std::abs(a);
+    for (const double slope : x.a) out += std::abs(slope);
     return out * (1.0 + forms::grain);
   }
   /// How far values may be from c.
