@@ -28,8 +28,8 @@ PointRule rule_from(const py::dict& d) {
   return out;
 }
 
-/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the stack,
-/// then the listed poses.
+/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the
+/// stack, then the listed poses.
 PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
                       double characteristic_length, const py::object& region) {
   const ConfigurationStack all(position, rotation, internal_point);

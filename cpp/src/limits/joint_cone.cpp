@@ -55,8 +55,7 @@ struct JointCone {
   static void moves(const FormLook& look, int item, Moves& out) {
     const FormVector v = from_joint(platform, item, [&](int point) { return look.at(point); });
     out.add(v);
-    const Xyz<double> middle = centre(v);
-    out.add(axis(look, item), std::sqrt(dot(middle, middle)));
+    out.add(axis(look, item), centre(v).norm());
   }
 };
 

@@ -10,10 +10,6 @@
 namespace ninedof {
 namespace {
 
-Vec3 middle(const FormVector& v) {
-  return {v.x.c, v.y.c, v.z.c};
-}
-
 struct LegClearances {
   static constexpr int items = leg_pairs;
   static constexpr bool at_home = false;
@@ -48,7 +44,7 @@ struct LegClearances {
 LegPairForms leg_pair_forms(const FormLook& look, int pair) {
   const auto [a, b] = leg_pair(pair);
   const FormEnds one = look.ends(a), two = look.ends(b);
-  return {one, two, nearest(middle(one.from), middle(one.to), middle(two.from), middle(two.to))};
+  return {one, two, nearest(centre(one.from), centre(one.to), centre(two.from), centre(two.to))};
 }
 
 PoseForm squared_distance_above(const LegPairForms& legs) {
@@ -76,7 +72,7 @@ FormVector turning_direction(const LegPairForms& legs) {
   else if (first) m = across(to - one.from, u);
   else if (second) m = across(two.from - from, v);
   else m = to - from;
-  return unit(middle(m).dot(near.apart) > 0.0 ? -1.0 * m : m);  // `apart` is from the second to the first
+  return unit(centre(m).dot(near.apart) > 0.0 ? -1.0 * m : m);  // `apart` is from the second to the first
 }
 
 EndDistances end_distances(const LegPairForms& legs, const FormVector& direction) {

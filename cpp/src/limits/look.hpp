@@ -77,8 +77,8 @@ class PointLook {
   Vec3 axis_;
 };
 
-/// Derivatives by P points of the pose, and where the limit looks at home too, by a turn of the platform about base axes,
-/// by the same points at home and by a turn there, in this order.
+/// Derivatives by P points of the pose, and where the limit looks at home too, by a turn of the platform about base
+/// axes, by the same points at home and by a turn there, in this order.
 template <int P, bool at_home>
 class DualLook {
  public:
@@ -127,7 +127,11 @@ class DualLook {
  private:
   static Xyz<Number> constant(const Xyz<double>& v) { return {v.x, v.y, v.z}; }
   /// The first variable of a touched point.
-  int place(int point) const { return 3 * static_cast<int>(std::ranges::find(touched_, point) - touched_.begin()); }
+  int place(int point) const {
+    const auto found = std::ranges::find(touched_, point);
+    assert(found != touched_.end());
+    return 3 * static_cast<int>(found - touched_.begin());
+  }
   /// v changes by `by` times the three variables from `first` on.
   static void add(Xyz<Number>& v, const Mat3& by, int first) {
     for (Eigen::Index j = 0; j < 3; ++j) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Limits that have a value at one pose, as rows: what they limit, over every number type. One file defines one quantity,
-/// once; whoever looks at a limit takes it from here.
+/// Limits that have a value at one pose, as rows: what they limit, over every number type. One file defines one
+/// quantity, once; whoever looks at a limit takes it from here.
 
 #include <string>
 

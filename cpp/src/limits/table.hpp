@@ -1,6 +1,6 @@
 #pragma once
-/// The table of limits: constraints of designs, and criteria of workspaces. One row each: study files, messages, Python,
-/// the names of what limits a workspace, and every loop over limits are made from it.
+/// The table of limits: constraints of designs, and criteria of workspaces. One row each: study files, messages,
+/// Python, the names of what limits a workspace, and every loop over limits are made from it.
 
 #include <array>
 #include <string_view>

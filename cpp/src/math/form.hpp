@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers over a box as linear forms with an error: c + a_1 t_1 + ... + a_N t_N + d with |d| <= r, where the t_k go from
-/// -1 to 1 through the box: N = 6 for boxes of poses.
+/// Numbers over a box as linear forms with an error: c + a_1 t_1 + ... + a_N t_N + d with |d| <= r, where the t_k go
+/// from -1 to 1 through the box: N = 6 for boxes of poses.
 ///
 /// Each operation keeps what is linear in the box and adds the rest, which is of second order, to r (affine
 /// arithmetic). Bounds then err by the square of the size of the box, as those of mean-value forms do, at a fraction
@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "ninedof/math/interval.hpp"
-#include "ninedof/math/xyz.hpp"
 
 namespace ninedof {
 
@@ -165,11 +164,5 @@ struct Form {
 
 /// Over a box of poses, whose six coordinates are those of a region.
 using PoseForm = Form<6>;
-
-/// The middle of a vector of forms is a vector of doubles; a vector of doubles is one of forms.
-template <std::size_t N>
-Xyz<double> centre(const Xyz<Form<N>>& v) {
-  return {v.x.c, v.y.c, v.z.c};
-}
 
 }  // namespace ninedof

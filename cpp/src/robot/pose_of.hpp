@@ -57,6 +57,11 @@ using FormVector = Xyz<PoseForm>;
 using FormPose = PoseOf<PoseForm>;
 using FormEnds = Ends<PoseForm>;
 
+/// The middle of a vector of forms.
+inline Vec3 centre(const FormVector& v) {
+  return {v.x.c, v.y.c, v.z.c};
+}
+
 /// The columns of a rotation matrix of doubles, and of the rotation next to it: matrices may come from elsewhere, with
 /// fewer digits.
 std::array<FormVector, 3> rotation_columns(const Mat3& q);

@@ -1,6 +1,6 @@
 #pragma once
-/// Limits: what a design, a pose or all poses together have to keep. Their margins are positive where they are kept, and
-/// relative to the limit: 0.01 is one per cent to spare.
+/// Limits: what a design, a pose or all poses together have to keep. Their margins are positive where they are kept,
+/// and relative to the limit: 0.01 is one per cent to spare.
 
 #include <limits>
 #include <string>

@@ -88,10 +88,10 @@ struct LimitsOverPoses {
   std::vector<MetAt> met;  ///< every pose of the region where an extreme was met
 };
 
-/// Where the worst value of each limit is, and in what it is enclosed; over the neutral pose alone where the machine has
-/// no others. Pairs of legs that are `exempt` may meet if their joints coincide in this machine.
-/// `tolerance`: a limit that is passed by no more counts as kept; with one above 0 strokes are searched once more where
-/// they are undecided. `settings.seconds` are of each search. Throws InvalidArgument for a limit that is not valid.
+/// Where the worst value of each limit is, and in what it is enclosed; over the neutral pose alone where the machine
+/// has no others. Pairs of legs that are `exempt` may meet if their joints coincide in this machine. `tolerance`: a
+/// limit that is passed by no more counts as kept; with one above 0 strokes are searched once more where they are
+/// undecided. `settings.seconds` are of each search. Throws InvalidArgument for a limit that is not valid.
 LimitsOverPoses limits_over_poses(const PosedRobot& machine, const std::vector<Limit>& limits,
                                   const std::array<bool, 21>& exempt, double tolerance, const ProofSettings& settings,
                                   const Control& control = {});

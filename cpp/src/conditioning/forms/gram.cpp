@@ -48,7 +48,7 @@ Symmetric3 parallel(const Symmetric3& h, const Symmetric3& f) {
 
 }  // namespace
 
-Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
+LegProducts leg_products(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
   const auto direction = [&](int k) {
     const FormEnds e = ends_of(g, pose, k);
@@ -56,18 +56,24 @@ Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose&
     moves.add(out);
     return out;
   };
-  Symmetric6 out;
-  Symmetric3 upper_legs, lower_legs;
+  LegProducts out;
   for (int i = 0; i < 3; ++i) {
     const FormVector e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
     const FormVector m = inverse_lc * cross(u, e);
     const std::array<const PoseForm*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
     for (std::size_t j = 0; j < 6; ++j)
-      for (std::size_t k = 0; k <= j; ++k) out[entry(j, k)] = out[entry(j, k)] + *row[j] * *row[k];
-    add_square(upper_legs, direction(i + 3));
-    add_square(lower_legs, direction(i + 6));
+      for (std::size_t k = 0; k <= j; ++k) out.external[entry(j, k)] = out.external[entry(j, k)] + *row[j] * *row[k];
+    add_square(out.upper, direction(i + 3));
+    add_square(out.lower, direction(i + 6));
   }
-  const Symmetric3 p = parallel(upper_legs, lower_legs);
+  return out;
+}
+
+Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
+  const double inverse_lc = 1.0 / characteristic_length;
+  const LegProducts legs = leg_products(g, characteristic_length, pose, moves);
+  Symmetric6 out = legs.external;
+  const Symmetric3 p = parallel(legs.upper, legs.lower);
   const FormVector y = inverse_lc * (pose.s - pose.p);
   // Columns of K: e_k x y for turns, e_k for shifts.
   const PoseForm zero = 0.0;

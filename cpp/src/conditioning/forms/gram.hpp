@@ -15,6 +15,17 @@ constexpr std::size_t entry(std::size_t i, std::size_t j) {
   return i >= j ? i * (i + 1) / 2 + j : entry(j, i);
 }
 
+/// A symmetric 3 x 3 matrix: its entries as above.
+using Symmetric3 = std::array<PoseForm, 6>;
+
+/// What both forms of M^T M begin with: A^T A of the external legs, H = C^T C of the upper, F = B^T B of the lower
+/// ones.
+struct LegProducts {
+  Symmetric6 external;
+  Symmetric3 upper, lower;
+};
+LegProducts leg_products(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves);
+
 /// M^T M = A^T A + K^T ((C^T C)^-1 + (B^T B)^-1)^-1 K, with K = [-y x / l_c, 1], y = s - p. The middle matrix is
 /// H - H (H + F)^-1 H with H = C^T C and F = B^T B: neither needs to be regular. `moves` is of the directions of the
 /// legs.
@@ -22,9 +33,6 @@ Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose&
 
 /// The matrix at the middle of the box.
 Mat6 middle_of(const Symmetric6& g);
-
-/// A symmetric 3 x 3 matrix: its entries as above.
-using Symmetric3 = std::array<PoseForm, 6>;
 
 /// M^T M between bounds without an inverse: for a number w of three components,
 ///     x^T M^T M x = min over w of x^T above x + 2 w^T across x + w^T sum w,

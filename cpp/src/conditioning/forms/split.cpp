@@ -27,12 +27,6 @@ Mat3 middle_of(const Symmetric3& s) {
     for (std::size_t j = 0; j < 3; ++j) out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = of(s, i, j).c;
   return out;
 }
-void add_projector(Symmetric3& s, const FormVector& v) {
-  const std::array<const PoseForm*, 3> x{&v.x, &v.y, &v.z};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j <= i; ++j) s[entry(i, j)] = s[entry(i, j)] + *x[i] * *x[j];
-}
-
 /// At most the length of what the vector may be away from its middle.
 double wandering(const FormVector& v) {
   double sum = 0.0;
@@ -70,23 +64,10 @@ FormVector direction_of(const FormVector& v) {
 
 SplitGram split_gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
-  const auto direction = [&](int k) {
-    const FormEnds e = ends_of(g, pose, k);
-    const FormVector out = direction_of(e.to - e.from);
-    moves.add(out);
-    return out;
-  };
+  const LegProducts legs = leg_products(g, characteristic_length, pose, moves);
+  const Symmetric3 &h = legs.upper, &f = legs.lower;
   SplitGram out;
-  Symmetric3 h, f;
-  for (int i = 0; i < 3; ++i) {
-    const FormVector e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
-    const FormVector m = inverse_lc * cross(u, e);
-    const std::array<const PoseForm*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
-    for (std::size_t j = 0; j < 6; ++j)
-      for (std::size_t k = 0; k <= j; ++k) out.external[entry(j, k)] = out.external[entry(j, k)] + *row[j] * *row[k];
-    add_projector(h, direction(i + 3));
-    add_projector(f, direction(i + 6));
-  }
+  out.external = legs.external;
   for (std::size_t n = 0; n < out.sum.size(); ++n) out.sum[n] = h[n] + f[n];
   // Any share gives bounds. A little on the diagonal: where H + F is nearly singular the best one is of no use.
   const Mat3 middle = middle_of(out.sum);

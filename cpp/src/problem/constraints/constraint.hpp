@@ -97,8 +97,8 @@ std::unique_ptr<Constraint> make_pose_limit(const Limit& limit, const LimitRow& 
 std::unique_ptr<Constraint> make_design_limit(const Limit& limit, const LimitRow& row);
 std::unique_ptr<Constraint> make_spread(const Limit& limit, const LimitRow& row, int poses, Purpose purpose);
 
-/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone), where `exempt` pairs of
-/// legs may meet. Valid limits only.
+/// The constraint of a limit in a problem of `poses` displaced poses (0: the neutral one alone), where `exempt` pairs
+/// of legs may meet. Valid limits only.
 std::unique_ptr<Constraint> make_constraint(const Limit& limit, int poses, Purpose purpose,
                                             const std::array<bool, leg_pairs>& exempt);
 

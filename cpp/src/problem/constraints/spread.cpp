@@ -1,5 +1,6 @@
 /// leg_ratio: longest over shortest leg, of all legs at all poses where the limit holds. stroke: longest less shortest
-/// length of each leg over those poses; stroke_ratio: longest over shortest. Declared in problem/constraints/constraint.hpp.
+/// length of each leg over those poses; stroke_ratio: longest over shortest. Declared in
+/// problem/constraints/constraint.hpp.
 ///
 /// With phi the logarithm of a length, or its quotient by the limit, the limit is  phi(longest) - phi(shortest) <=
 /// room. Which legs those are changes from design to design. For a few legs every ordered pair is a margin. For many

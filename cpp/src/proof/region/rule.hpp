@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/form.hpp"
+#include "ninedof/math/xyz.hpp"
 #include "ninedof/proof/point_rule.hpp"
 
 namespace ninedof::over_region {

@@ -116,8 +116,8 @@ class Search {
     }
   }
 
-  /// Where the best end is a joint, looks for a better one beside it: a crease of the criterion that leads into the joint
-  /// may have its lowest point so near that the coarse descents pass it.
+  /// Where the best end is a joint, looks for a better one beside it: a crease of the criterion that leads into the
+  /// joint may have its lowest point so near that the coarse descents pass it.
   void search_before_joint() {
     if (minima_.found.empty()) return;
     const LocalMinimum best = *std::ranges::min_element(minima_.found, {}, &LocalMinimum::value);
