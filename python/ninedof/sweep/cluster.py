@@ -53,6 +53,8 @@ def dask_executor(address: str) -> Iterator[Executor]:
             client = _within(left, lambda: client_type(address, timeout=left, set_as_default=False))
         except Exception as error:  # of any kind: what listens there may send anything
             reason = (isinstance(error, OSError) and error.strerror) or str(error) or type(error).__name__
+            if reason.lower().startswith("timed out"):  # the client's own clock was the first of two: it says at length
+                reason = "timed out"
             raise ValueError(
                 f"address: got {address}, where no scheduler answers ({reason}), expected that of a Dask scheduler"
             ) from None

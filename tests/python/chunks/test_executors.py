@@ -334,6 +334,19 @@ def test_a_missing_scheduler_is_reported_in_one_line(tmp_path, capsys, monkeypat
     assert not out.exists()
 
 
+def test_a_time_out_reads_the_same_whichever_clock_ends_it(monkeypatch):
+    distributed = pytest.importorskip("distributed", reason="dask[distributed] is not installed: the extra `cluster`")
+
+    class Late(distributed.Client):
+        def __init__(self, *args, **kwargs):
+            raise OSError("Timed out trying to connect to ws://127.0.0.1:1 after 0.2 s")
+
+    monkeypatch.setattr(distributed, "Client", Late)
+    monkeypatch.setattr(schedulers, "_require_answer", lambda *_: None)
+    with pytest.raises(ValueError, match=r"no scheduler answers \(timed out\)"), schedulers.dask_executor("ws://h:1"):
+        pass
+
+
 def _answer(server, words):
     """Take one connection, send what another program sends, or close it at once."""
     line, _ = server.accept()
