@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
 _Out = _Floats | None
+_Nearest = tuple[float, float, _Floats, int, _Floats]
 _Triple = tuple[float, float, float]
 _MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
@@ -164,7 +165,10 @@ def distance_to_singularity(
 # Motions are (9, 3); distance, code of the mechanism, direction (3,), pose.
 def nearest_singularity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, motions: _Floats, most: float, directions: int, threads: int, /
-) -> tuple[float, float, _Floats, int]: ...
+) -> _Nearest: ...
+def nearest_singularities(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, internal_held: bool, /
+) -> tuple[_Nearest, _Nearest, _Nearest]: ...
 
 # (n, 18): forces and what is unbalanced; (9, k); (n, 36); (n, 81)
 def leg_forces(g: Geometry, p: _Floats, q: _Floats, s: _Floats, load: _Floats, threads: int, /) -> _Floats: ...
@@ -374,3 +378,37 @@ def certified_workspace(
     progress: _Progress | None,
 ) -> dict[str, Any]: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...
+
+class PlatformMotion:
+    def __init__(
+        self,
+        internal: str,
+        linear_speed: float,
+        angular_speed: float,
+        given: tuple[Sequence[float], Sequence[float]] | None,
+    ) -> None: ...
+
+class SheetQuestion:
+    def __init__(
+        self,
+        geometry: Geometry,
+        position: _Floats,
+        rotation: _Floats,
+        internal_point: _Floats,
+        limits: Sequence[tuple[str, Sequence[float]]],
+        exempt: Sequence[bool],
+        motion: PlatformMotion,
+        loads: Sequence[Sequence[float]],
+        weight: tuple[float, Sequence[float], Sequence[float]] | None,
+        errors: tuple[Sequence[float] | _Floats, Sequence[float] | _Floats] | None,
+        leg_stiffness: Sequence[float] | _Floats | None,
+        characteristic_length: float | None,
+    ) -> None: ...
+
+def sheet_numbers(question: SheetQuestion, p: _Floats, q: _Floats, s: _Floats, /) -> list[tuple[str, _Floats]]: ...
+def sheet_over_region(
+    question: SheetQuestion, region: dict[str, Any], samples: int, placing: tuple[Any, ...] | None, /
+) -> tuple[_Floats, int, float, float]: ...
+def leg_lengths_over(
+    g: Geometry, p: _Floats, q: _Floats, s: _Floats, region: dict[str, Any], samples: int, /
+) -> tuple[_Floats, _Floats]: ...

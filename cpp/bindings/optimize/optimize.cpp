@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "ninedof/optimize/region_placement.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
+#include "support/placing.hpp"
 #include "support/region.hpp"
 
 namespace ninedof::python {
@@ -95,7 +95,7 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
   const RegionWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region(problem, r, variables, {samples, seed, threads}, control);
+    return search_region(problem, r, variables, {samples, seed, threads, 1e-5}, control);
   });
   py::list limits, index, longest, shortest;
   for (const RegionWorst::Index& end : found.index) index.append(py::make_tuple(end.logarithm, numbers(end.at)));
@@ -112,19 +112,6 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; size 0 for a range of logarithms.
-PlacementGoal goal_from(const Problem& problem, double log_index, const py::sequence& ranges) {
-  PlacementGoal goal{log_index, {}};
-  for (const py::handle& range : ranges) {
-    const auto [limit, low, high, size] =
-        range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
-    LegRange r{limit, Vec9::Map(low.data()), Vec9::Map(high.data()), size > 0.0 ? size : problem.unit(), !(size > 0.0)};
-    for (Vec9* end : {&r.low, &r.high}) *end = end->unaryExpr([&r](double length) { return r.measured(length); });
-    goal.ranges.push_back(std::move(r));
-  }
-  return goal;
-}
-
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
 py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
                            double log_index, const py::sequence& ranges,
@@ -132,8 +119,7 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
   const PlacementGoal goal = goal_from(problem, log_index, ranges);
-  std::vector<Vec3> shifts;
-  for (const auto& shift : known) shifts.push_back(Vec3::Map(shift.data()));
+  const std::vector<Vec3> shifts = shifts_from(known);
   const py::ssize_t count = py::len(at);
   const Array given = array_of_shape("at", at, {count, 6});
   std::vector<Vec6> poses;
@@ -188,7 +174,7 @@ py::dict worst_with_placing(const Problem& problem, const py::dict& region, cons
     places.push_back({Vec6::Map(at.data()), Vec3::Map(shift.data())});
   }
   const PlacedWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region_placed(problem, r, variables, goal, places, {samples, seed, threads}, control);
+    return search_region_placed(problem, r, variables, goal, places, {samples, seed, threads, 1e-5}, control);
   });
   py::list ends;
   for (const PlacedEnd& end : found.ends) {

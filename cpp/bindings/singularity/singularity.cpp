@@ -1,5 +1,7 @@
 #include "ninedof/singularity/singularity.hpp"
 
+#include <cmath>
+
 #include "support/arrays.hpp"
 #include "support/module.hpp"
 #include "support/without_gil.hpp"
@@ -22,6 +24,21 @@ double* write(const Vec3& x, double* to) {
 /// As a number, for an array of numbers; Python has the words in the same order.
 double code(Mechanism mechanism) {
   return static_cast<double>(mechanism);
+}
+
+std::vector<Configuration> listed(const ConfigurationStack& c) {
+  std::vector<Configuration> out;
+  for (long i = 0; i < c.count(); ++i) out.push_back(c[i]);
+  return out;
+}
+
+/// Distance, mechanism, direction, pose, and the motion (omega, dp, ds) that leads there, zero where none was found.
+py::tuple row_of(const NearestSingularity& found, const Motions& motions) {
+  Array direction(3), motion(9);
+  write(found.direction, direction.mutable_data());
+  Eigen::Map<Vec9>(motion.mutable_data()) =
+      std::isfinite(found.distance) ? Vec9(found.distance * (motions * found.direction)) : Vec9(Vec9::Zero());
+  return py::make_tuple(found.distance, code(found.mechanism), direction, found.pose, motion);
 }
 
 }  // namespace
@@ -70,21 +87,28 @@ void bind_singularity(py::module_& m) {
   });
   m.def("nearest_singularity", [](const Geometry& g, const Array& p, const Array& q, const Array& s,
                                   const Array& motions, double most, int directions, int threads) {
-    const ConfigurationStack c(p, q, s);
     if (motions.size() != 27) throw InvalidArgument("motions", std::to_string(motions.size()) + " numbers", "27");
-    std::vector<Configuration> poses;
-    for (long i = 0; i < c.count(); ++i) poses.push_back(c[i]);
+    const std::vector<Configuration> poses = listed(ConfigurationStack(p, q, s));
     const Motions ways = Eigen::Map<const Eigen::Matrix<double, 9, 3, Eigen::RowMajor>>(motions.data());
-    const NearestSingularity found = interruptible(
-        py::none(),
-        [&](const Control& control) {
-          return nearest_singularity(g, poses, ways, most, directions, threads, control.stop);
-        },
-        [](NearestSingularity&) { return false; });
-    Array direction(3);
-    write(found.direction, direction.mutable_data());
-    return py::make_tuple(found.distance, code(found.mechanism), direction, found.pose);
+    return row_of(interruptible(
+                      py::none(),
+                      [&](const Control& control) {
+                        return nearest_singularity(g, poses, ways, most, directions, threads, control.stop);
+                      },
+                      [](NearestSingularity&) { return false; }),
+                  ways);
   });
+  m.def("nearest_singularities",
+        [](const Geometry& g, const Array& p, const Array& q, const Array& s, bool internal_held) {
+          const std::vector<Configuration> poses = listed(ConfigurationStack(p, q, s));
+          const SingularMotions ways = singular_motions(internal_held);
+          const NearestSingularities found = interruptible(
+              py::none(),
+              [&](const Control& control) { return nearest_singularities(g, poses, internal_held, 0, control.stop); },
+              [](NearestSingularities&) { return false; });
+          return py::make_tuple(row_of(found.shift, ways.shift), row_of(found.turn, ways.turn),
+                                row_of(found.internal, ways.internal));
+        });
 }
 
 }  // namespace ninedof::python

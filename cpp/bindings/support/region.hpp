@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/problem/region.hpp"
+#include "ninedof/domains/region.hpp"
 
 namespace ninedof::python {
 

@@ -1,12 +1,13 @@
 #include "ninedof/optimize/region_placement.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "math/numbers.hpp"
+#include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "optimize/minimax/placed_pose.hpp"
-#include "optimize/region_sample.hpp"
 #include "problem/full_variables.hpp"
 
 namespace ninedof {
@@ -168,25 +169,43 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
   return out;
 }
 
+std::function<PlacedEnd(const Vec6& at)> placer(const Problem& problem, const Region& region,
+                                                const Eigen::VectorXd& variables, const PlacementGoal& goal,
+                                                const std::vector<Vec3>& known) {
+  struct Placer {
+    Region region;
+    PlacementGoal goal;
+    std::vector<Placed> none, others;
+    Placing plain, placing;
+    Placer(const Problem& problem, const Region& in, const Eigen::VectorXd& variables, const PlacementGoal& to,
+           const std::vector<Vec3>& known)
+        : region(in),
+          goal(to),
+          others(known.size()),
+          plain(problem, region, variables, goal, none),
+          placing(problem, region, variables, goal, others) {
+      for (std::size_t k = 0; k < known.size(); ++k) others[k].shift = known[k];
+    }
+  };
+  return [all = std::make_shared<Placer>(problem, region, variables, goal, known)](const Vec6& at) {
+    Placed placed{all->region.nearest(at), Vec3::Zero()};
+    const double excess = all->plain.anew(placed, infinity, -infinity);
+    if (excess > no_longer_held) all->placing.anew(placed, excess, no_longer_held);
+    return all->placing.end(placed);
+  };
+}
+
 std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
                                        const PlacementGoal& goal, const std::vector<Vec3>& known,
                                        const std::vector<Vec6>& at, int threads, const Control& control) {
   problem.validate();
   region.validate();
   require_full("variables", problem, variables);
-  std::vector<Placed> others, none;
-  for (const Vec3& shift : known) others.push_back({Vec6::Zero(), shift});
-  const auto count = static_cast<long>(at.size());
   std::vector<PlacedEnd> out(at.size());
-  parallel_for((count + poses_a_task - 1) / poses_a_task, 1, threads, [&](long task, long) {
+  parallel_for(static_cast<long>(at.size()), poses_a_task, threads, [&](long first, long last) {
     if (control.stop.stop_requested()) return;
-    Placing plain(problem, region, variables, goal, none), placing(problem, region, variables, goal, others);
-    for (long k = task * poses_a_task; k < std::min(count, (task + 1) * poses_a_task); ++k) {
-      Placed placed{region.nearest(at[at_index(k)]), Vec3::Zero()};
-      const double excess = plain.anew(placed, infinity, -infinity);
-      if (excess > no_longer_held) placing.anew(placed, excess, no_longer_held);
-      out[at_index(k)] = placing.end(placed);
-    }
+    const auto place = placer(problem, region, variables, goal, known);
+    for (long k = first; k < last; ++k) out[at_index(k)] = place(at[at_index(k)]);
   });
   if (control.stop.stop_requested()) throw Stopped{};
   return out;

@@ -9,6 +9,7 @@
 #include "math/stop_at_times.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
+#include "ninedof/robot/legs.hpp"
 #include "ninedof/singularity/singularity.hpp"
 
 namespace ninedof {
@@ -141,6 +142,28 @@ NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Conf
   });
   for (const Way& one : listed) nearest = std::min(nearest, one, nearer);
   return nearest;
+}
+
+SingularMotions singular_motions(bool internal_held) {
+  SingularMotions out{Motions::Zero(), Motions::Zero(), Motions::Zero()};
+  out.turn.topRows<3>().setIdentity();
+  out.shift.middleRows<3>(3).setIdentity();
+  out.internal.bottomRows<3>().setIdentity();
+  if (!internal_held) out.shift += out.internal;
+  return out;
+}
+
+NearestSingularities nearest_singularities(const Geometry& g, const std::vector<Configuration>& poses,
+                                           bool internal_held, int threads, const std::stop_token& stop) {
+  constexpr double farthest = 4.0;  // in the longest leg
+  double longest = 0.0;
+  for (const Configuration& c : poses) longest = std::max(longest, leg_lengths(g, c).maxCoeff());
+  const auto nearest = [&](const Motions& motions, double most) {
+    return nearest_singularity(g, poses, motions, most, 1000, threads, stop);
+  };
+  const SingularMotions motions = singular_motions(internal_held);
+  return {nearest(motions.shift, farthest * longest), nearest(motions.turn, std::numbers::pi),
+          nearest(motions.internal, farthest * longest)};
 }
 
 }  // namespace ninedof

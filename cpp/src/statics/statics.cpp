@@ -95,4 +95,19 @@ Mat6 stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffn
   return platform.transpose().lazyProduct(platform);
 }
 
+LeastStiffness least_stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness) {
+  require_stiffness(leg_stiffness);
+  const Mat9 x = leg_stiffness.cwiseSqrt().asDiagonal() * rate_matrix(g, c);
+  if (!x.allFinite()) return {not_a_number, not_a_number};
+  // A factor of each Schur complement: the square of its least singular value is the least eigenvalue, without the
+  // digits that a difference of products would lose.
+  const Mat96 platform = eliminate(x.rightCols<3>(), Mat96(x.leftCols<6>()));
+  const Mat93 turn = platform.leftCols<3>(), shift = platform.rightCols<3>();
+  const auto least = [](const Mat93& part, const Mat93& other) {
+    const double sigma = jacobi_right_svd(eliminate(other, part)).sigma[2];
+    return sigma * sigma;
+  };
+  return {least(shift, turn), least(turn, shift)};
+}
+
 }  // namespace ninedof

@@ -37,15 +37,19 @@ def limit_numbers(name: str, g: Geometry, c: Configuration, home: Configuration,
     return _core.limit_numbers(name, axis, g, *at_home, c.position, c.rotation, c.internal_point)
 
 
-def apart(g: Geometry, study: Study | None = None) -> list[int]:
-    """Return the indices of the pairs of legs that are to keep a distance.
+def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
+    """Return which pairs of legs need not keep a distance: they share a joint.
 
-    Others share a joint: where a study limits the distance, in every design of it, as joints that coincide in this one
-    alone collide; else in this robot.
+    Where a study limits the distance, in every design of it, as joints that coincide in this one alone collide; else in
+    this robot.
     """
     limited = study is not None and "leg_clearance" in study.constraints
-    exempt = study.problem().exempt_pairs() if study is not None and limited else _core.pairs_sharing_a_joint(g)
-    return [k for k, meet in enumerate(exempt) if not meet]
+    return study.problem().exempt_pairs() if study is not None and limited else _core.pairs_sharing_a_joint(g)
+
+
+def apart(g: Geometry, study: Study | None = None) -> list[int]:
+    """Return the indices of the pairs of legs that are to keep a distance: those that are not exempt."""
+    return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
 
 
 def clearances(g: Geometry, c: Configuration, pairs: Sequence[int]) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ninedof import _core
 from ninedof.design.pose import Pose
@@ -32,13 +33,8 @@ class Placing:
     def __call__(self, at: Floats) -> tuple[Configuration, tuple[Pose, ...]]:
         """Return the configurations and poses at given coordinates, shape (n, 6)."""
         region: Region = self.study.objective.region  # type: ignore[assignment]
-        plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
-        x = [self.variables[name] for name in plain.names]
-        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
-        ranges = [("", low, high, 0.0)] if self.leg_ranges else []
-        near, shift = _core.place_in_region(
-            plain, region.for_core(), x, math.log(self.objective), ranges, self._known(), at, 0
-        )
+        plain, x, log_index, ranges, known = self.for_core()
+        near, shift = _core.place_in_region(plain, region.for_core(), x, log_index, ranges, known, at, 0)
         there = configurations_at(region, self.neutral, near)[1]
         zp = float(self.neutral.position[2])
         size = 1.0 if region.unit == "zp" else zp
@@ -48,6 +44,13 @@ class Placing:
             for row, s in zip(rows.tolist(), (size * shift).tolist(), strict=True)
         )
         return Configuration(there.position, there.rotation, self.neutral.internal_point + zp * shift), poses
+
+    def for_core(self) -> tuple[Any, list[float], float, list[Any], list[tuple[float, ...]]]:
+        """Return the problem without poses, the design, the logarithm of the index, the ranges, and known places."""
+        plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
+        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
+        ranges = [("", low, high, 0.0)] if self.leg_ranges else []
+        return plain, [self.variables[name] for name in plain.names], math.log(self.objective), ranges, self._known()
 
     def _known(self) -> list[tuple[float, ...]]:
         """Return the shifts of O at the poses that ruled, in zp."""

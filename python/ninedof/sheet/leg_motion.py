@@ -1,20 +1,16 @@
-"""Speeds and accelerations of the legs: for a motion of the platform in any direction, and for a given twist."""
+"""The motion of the platform behind the speeds and accelerations of the legs, and how O moves in it."""
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.kinematics.acceleration import inverse_acceleration
-from ninedof.kinematics.velocity import internal_velocity, inverse_velocity
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import IDLE
 from ninedof.support.arguments import choice, finite, shown
-from ninedof.support.arrays import Floats, as_floats
+from ninedof.support.arrays import as_floats
 
 FASTEST = 1e100  # speeds: their squares must be numbers
 INTERNAL = ("least", "held", "shifted", "carried")
@@ -69,92 +65,6 @@ def shown_internal(c: Configuration) -> str:
         if np.abs(places - places[0]).max() <= size:
             return rule
     return "least"
-
-
-def leg_speeds(g: Geometry, c: Configuration, motion: Motion) -> Floats:
-    """Return the largest rate of each leg over the directions of velocity and angular velocity, shape (n, 9)."""
-    omega, pdot = np.eye(6)[:, :3], np.eye(6)[:, 3:]
-    each = c[:, None]
-    rates = _rates(g, each, motion.internal, omega, pdot)
-    turning, shifting = np.linalg.norm(rates[:, :3], axis=1), np.linalg.norm(rates[:, 3:], axis=1)
-    return np.asarray(motion.linear_speed * shifting + motion.angular_speed * turning)
-
-
-def leg_accelerations(g: Geometry, c: Configuration, motion: Motion) -> Floats:
-    """Return a bound of each leg's acceleration while the platform's speed and angular velocity are constant, (n, 9).
-
-    The acceleration is a quadratic form of the twist. Over all directions it is at most V^2 |H_vv| + W^2 |H_ww| +
-    2 V W |H_wv| with 2-norms of its blocks, and that is reached where one of the speeds V and W is 0.
-    """
-    v, w = motion.linear_speed, motion.angular_speed
-    used = [k for k, speed in enumerate([w] * 3 + [v] * 3) if speed > 0.0]
-    out = np.zeros((len(c), 9))
-    if not used:
-        return out
-    pairs = list(combinations(used, 2))
-    unit = np.eye(6)
-    twists = np.array([*unit[used], *(unit[i] + unit[j] for i, j in pairs)])
-    found = _accelerations(g, c[:, None], motion.internal, twists, np.zeros(6))  # pose, twist, leg
-    form = np.zeros((len(c), 9, 6, 6))
-    for k, i in enumerate(used):
-        form[:, :, i, i] = found[:, k]
-    for k, (i, j) in enumerate(pairs, start=len(used)):
-        form[:, :, i, j] = form[:, :, j, i] = 0.5 * (found[:, k] - form[:, :, i, i] - form[:, :, j, j])
-    known = np.isfinite(form).all(axis=(2, 3))
-    form[~known] = 0.0
-    if w > 0.0:
-        out += w**2 * np.abs(np.linalg.eigvalsh(form[:, :, :3, :3])).max(axis=-1)
-    if v > 0.0:
-        out += v**2 * np.abs(np.linalg.eigvalsh(form[:, :, 3:, 3:])).max(axis=-1)
-    if v > 0.0 and w > 0.0:
-        out += 2.0 * v * w * np.linalg.svd(form[:, :, :3, 3:], compute_uv=False)[..., 0]
-    return np.where(known, out, np.inf)
-
-
-def twist_rates(g: Geometry, c: Configuration, motion: Motion) -> Floats:
-    """Return the rate of each leg for the given twist, shape (n, 9)."""
-    twist = np.asarray(motion.twist)
-    return _rates(g, c, motion.internal, twist[:3], twist[3:])
-
-
-def twist_accelerations(g: Geometry, c: Configuration, motion: Motion) -> Floats:
-    """Return the acceleration of each leg for the given twist and its rate, shape (n, 9)."""
-    return _accelerations(g, c, motion.internal, np.asarray(motion.twist), np.asarray(motion.twist_rate))
-
-
-def _rates(g: Geometry, c: Configuration, internal: str, omega: Floats, pdot: Floats) -> Floats:
-    sdot = None if internal == "least" else _velocity_of_o(g, c, internal, omega, pdot)
-    return inverse_velocity(g, c, omega, pdot, sdot)
-
-
-def _accelerations(g: Geometry, c: Configuration, internal: str, twist: Floats, rate: Floats) -> Floats:
-    omega, pdot, alpha, pddot = twist[..., :3], twist[..., 3:], rate[:3], rate[3:]
-    sdot = _velocity_of_o(g, c, internal, omega, pdot)
-    arm = c.internal_point - c.position
-    sddot = np.zeros(3)
-    if internal == "shifted":
-        sddot = pddot
-    elif internal == "carried":
-        sddot = pddot + np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
-    found = inverse_acceleration(g, c, omega, pdot, sdot, alpha, pddot, sddot)
-    if internal != "least":
-        return found
-    # Column k of S: accelerations of the internal legs per unit of sddot along k. The least squares leave what S cannot
-    # reach; a leg of length 0 has no acceleration and drops out as NaN.
-    still = np.zeros(3)
-    per_unit = [inverse_velocity(g, c, still, still, axis)[..., 3:] for axis in np.eye(3)]
-    s = np.nan_to_num(np.stack(per_unit, axis=-1))
-    internal_legs = found[..., 3:, None]
-    left = internal_legs - s @ (np.linalg.pinv(s) @ np.nan_to_num(internal_legs))
-    return np.concatenate([found[..., :3], left[..., 0]], axis=-1)
-
-
-def _velocity_of_o(g: Geometry, c: Configuration, internal: str, omega: Floats, pdot: Floats) -> Floats:
-    if internal == "least":
-        return internal_velocity(g, c, omega, pdot)
-    if internal == "held":
-        return np.zeros(3)
-    return pdot if internal == "shifted" else pdot + np.cross(omega, c.internal_point - c.position)
 
 
 def _six(name: str, value: ArrayLike) -> tuple[float, ...]:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ninedof.design.limit_numbers import CONES, PARTS, limit_numbers
+from ninedof.design.limit_numbers import CONES, PARTS
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.idle import idle_legs
 from ninedof.robot.leg_names import LEGS
-from ninedof.sheet.leg_motion import Motion, leg_accelerations, leg_speeds, twist_accelerations, twist_rates
-from ninedof.sheet.weight import Weight, wrenches
-from ninedof.statics.statics import leg_forces
 from ninedof.support.arrays import Floats
 
 
@@ -38,7 +36,7 @@ class LegRow:
     speed: float
     """Largest rate over the directions of the motion and the poses."""
     acceleration: float
-    """Bound of its acceleration over the same while the platform's velocities are constant: `leg_accelerations`."""
+    """Bound of its acceleration over the same while the platform's velocities are constant."""
     base_cone: float | None
     """Largest angle at its base joint from its direction at the neutral pose, base frame, rad; None without one."""
     platform_cone: float | None
@@ -80,19 +78,17 @@ class LegRow:
         return row | {"idle": self.idle, "forces": [{"min": low, "max": high} for low, high in self.forces]}
 
 
-def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats, weight: Weight | None) -> tuple[LegRow, ...]:
-    """Return the nine rows over a stack of poses, the neutral one first; loads (k, 6)."""
+def leg_rows(g: Geometry, c: Configuration, found: Mapping[str, Floats]) -> tuple[LegRow, ...]:
+    """Return the nine rows over a stack of poses, the neutral one first, from the numbers of a sheet there."""
     lengths = leg_lengths(g, c)
     low, high = lengths.min(axis=0), lengths.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):  # a leg of length 0
         ratio = high / low
     idle = idle_legs(lengths)
-    speed, acceleration = (of(g, c, motion).max(axis=0) for of in (leg_speeds, leg_accelerations))
-    base, platform = (
-        dict(zip(PARTS[name], limit_numbers(name, g, c, c[0]).max(axis=0).tolist(), strict=True)) for name in CONES
-    )
-    forces = forces_of(g, c, loads, weight)
-    given = [of(g, c, motion) for of in (twist_rates, twist_accelerations)] if motion.twist is not None else []
+    speed, acceleration = (found[name].max(axis=0) for name in ("speed", "acceleration"))
+    base, platform = (dict(zip(PARTS[name], found[name].max(axis=0).tolist(), strict=True)) for name in CONES)
+    forces = found.get("force", np.empty((len(c), 0))).reshape(len(c), -1, 9)
+    given = [name for name in ("twist_speed", "twist_acceleration") if name in found]
     return tuple(
         LegRow(
             name=LEGS[k],
@@ -106,16 +102,11 @@ def leg_rows(g: Geometry, c: Configuration, motion: Motion, loads: Floats, weigh
             acceleration=float(acceleration[k]),
             base_cone=base.get(LEGS[k]),
             platform_cone=platform.get(LEGS[k]),
-            forces=tuple(_ends(f[:, k]) for f in forces),
-            **{name: _ends(x[:, k]) for name, x in zip(("twist_speed", "twist_acceleration"), given, strict=False)},
+            forces=tuple(_ends(f) for f in forces[:, :, k].T),
+            **{name: _ends(found[name][:, k]) for name in given},
         )
         for k in range(9)
     )
-
-
-def forces_of(g: Geometry, c: Configuration, loads: Floats, weight: Weight | None) -> list[Floats]:
-    """Return the leg forces for each load with the weight, each of shape (n, 9)."""
-    return [leg_forces(g, c, load[:, :3], load[:, 3:]).forces for load in wrenches(c, loads, weight)]
 
 
 def _ends(values: Floats) -> tuple[float, float]:

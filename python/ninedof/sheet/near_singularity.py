@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from ninedof.kinematics.kinematics import leg_lengths
+from ninedof import _core
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.nearest_singularity import nearest_along
-from ninedof.support.arrays import Floats
+from ninedof.singularity.singularity import mechanisms_of
 
 MOTIONS = ("shift", "turn", "internal")
-DIRECTIONS = 1000  # looked along from every pose
-FARTHEST = 4.0  # shifts looked at, in the longest leg
 
 
 class NearSingularity(NamedTuple):
@@ -39,28 +37,18 @@ class NearSingularity(NamedTuple):
 
 def near_singularities(g: Geometry, c: Configuration, internal: str) -> dict[str, NearSingularity]:
     """Return the nearest singularity of a stack of poses, `nearest_singularity`, for each of MOTIONS."""
-    longest = FARTHEST * float(leg_lengths(g, c).max())
+    found = _core.nearest_singularities(g, c.position, c.rotation, c.internal_point, internal == "held")
     out = {}
-    for motion in MOTIONS:
-        found = nearest_along(g, c, _motions(motion, internal), np.pi if motion == "turn" else longest, DIRECTIONS)
-        there = found.configuration
-        out[motion] = NearSingularity(
-            motion,
-            found.distance,
-            str(found.mechanism),
-            found.pose,
-            tuple(found.direction.tolist()),
+    for name, (distance, code, direction, pose, motion) in zip(MOTIONS, found, strict=True):
+        there = c[pose].moved(motion) if math.isfinite(distance) else c[pose]
+        out[name] = NearSingularity(
+            name,
+            distance,
+            str(mechanisms_of(np.array([code]), ())),
+            pose,
+            tuple(direction.tolist()),
             tuple(there.position.tolist()),
             tuple(tuple(row) for row in there.rotation.tolist()),
             tuple(there.internal_point.tolist()),
         )
-    return out
-
-
-def _motions(motion: str, internal: str) -> Floats:
-    """Return the tangents (omega, dp, ds) of motions along three axes, shape (9, 3)."""
-    rows = {"turn": [0], "internal": [6], "shift": [3] if internal == "held" else [3, 6]}[motion]
-    out = np.zeros((9, 3))
-    for row in rows:
-        out[row : row + 3] = np.eye(3)
     return out

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import apart, least_clearance
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
@@ -24,13 +23,12 @@ from ninedof.sheet.leg_motion import Motion, shown_internal
 from ninedof.sheet.legs import LegRow, leg_rows
 from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
-from ninedof.sheet.over_region import PLACED, SAMPLES, Asked, RegionLook, look_over, look_over_placed
+from ninedof.sheet.numbers import SAMPLES, Asked, RegionLook, look_over, numbers_at
 from ninedof.sheet.pose_words import turn_deg
-from ninedof.sheet.softest import softest
 from ninedof.sheet.weight import Weight
 from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
-from ninedof.statics.accuracy import MOST_SAMPLES, error_bounds
+from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.support.arguments import shown, whole
 from ninedof.support.arrays import Floats, as_floats
 from ninedof.support.html import html_table
@@ -303,7 +301,6 @@ def sheet(
     given = own_length if characteristic_length is None else characteristic_length
     given = length_argument(given)
     length = float(length_of(g, c[0], given)) if isinstance(given, str) else given
-    kind_without_value = isinstance(given, str) and not np.isfinite(length)
     weight = Weight.checked(mass, centre, gravity)
     wrenches = _loads(np.zeros((1, 6)) if loads is None and weight is not None else loads)
     rule = shown_internal(c) if internal is None else internal
@@ -314,18 +311,17 @@ def sheet(
     count = whole("samples", samples, 1, MOST_SAMPLES)
     study: Study | None = getattr(design, "solved", None)
     variables, look = getattr(design, "variables", None), None
+    question = asked.question(g, c[0], study)
     region = design.study.objective.region if poses is None and study is not None else None
     report = getattr(design, "region", None)
     kept = None if region is None or places_o(region) or report is None else report.leg_ranges
     if study is not None and region is not None and (places_o(region) or kept is not None):
-        if kept is None:
-            look, worst, shifts = look_over(design.study, g, c[0], asked, count)
-        else:
-            place = Placing(design.study, c[0], variables or {}, design.objective, kept)
-            look, worst, shifts = look_over_placed(design.study, g, c[0], asked, place, min(count, PLACED))
+        place = None if kept is None else Placing(design.study, c[0], variables or {}, design.objective, kept)
+        look, worst, shifts = look_over(design.study, c[0], question, count, place)
         c = _joined(c, worst)
         study = replace(study, objective=replace(study.objective, poses=(*study.objective.poses, *shifts)))
-    kappa = np.full(len(c), np.inf) if kind_without_value else np.asarray(condition_number(g, c, length))
+    found = numbers_at(question, c)
+    kappa = found["condition_number"][:, 0] if "condition_number" in found else np.full(len(c), np.inf)
     determinants = _determinants(g, c)
     return Sheet(
         geometry=g,
@@ -335,8 +331,7 @@ def sheet(
         loads=wrenches,
         weight=weight,
         legs=tuple(
-            replace(leg, permitted=band)
-            for leg, band in zip(leg_rows(g, c, motion, wrenches, weight), kept or (None,) * 9, strict=True)
+            replace(leg, permitted=band) for leg, band in zip(leg_rows(g, c, found), kept or (None,) * 9, strict=True)
         ),
         condition_number=_worst(kappa),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
@@ -344,8 +339,8 @@ def sheet(
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
         singularities=near_singularities(g, c, motion.internal),
-        accuracy=None if not bounded else _accuracy(g, c, *errors),
-        stiffness=None if leg_stiffness is None else Stiffness(*(_least(x) for x in softest(g, c, leg_stiffness))),
+        accuracy=None if not bounded else Accuracy(*map(_worst, found["error"].T)),
+        stiffness=None if leg_stiffness is None else Stiffness(*map(_least, found["stiffness"].T)),
         limits=limit_rows(study, variables) if study is not None and isinstance(variables, Mapping) else (),
         region=look,
         unit=getattr(study or design, "unit", "") if unit is None else unit_argument(unit),
@@ -398,11 +393,6 @@ def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:
         changes = bool(np.any(values * np.sign(values[0]) <= 0.0))
         found[name] = Determinant(*_least(np.abs(values)), changes)
     return found
-
-
-def _accuracy(g: Geometry, c: Configuration, legs: ArrayLike, joints: ArrayLike) -> Accuracy:
-    found = error_bounds(g, c, legs, joints)
-    return Accuracy(_worst(found.position), _worst(found.rotation), _worst(found.internal_point))
 
 
 def _joined(c: Configuration, more: Configuration) -> Configuration:

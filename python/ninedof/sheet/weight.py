@@ -1,4 +1,4 @@
-"""Loads on the platform: those given, and the weight of the platform."""
+"""The weight of the platform."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import Vector, finite, shown, vector
 from ninedof.support.arrays import Floats, as_floats
 
@@ -43,10 +42,3 @@ class Weight(NamedTuple):
         arm = rotation @ np.asarray(self.centre)
         force = np.broadcast_to(self.mass * np.asarray(self.gravity), arm.shape)
         return np.concatenate([np.cross(arm, force), force], axis=-1)
-
-
-def wrenches(c: Configuration, loads: Floats, weight: Weight | None) -> Floats:
-    """Return each load with the weight at each pose, shape (k, n, 6), for loads (k, 6)."""
-    own = np.zeros((len(c), 6)) if weight is None else weight.wrench(c.rotation)
-    found: Floats = loads[:, None] + own
-    return found

@@ -86,7 +86,7 @@ def nearest_singularity(
 
     """
     first = PARTS[choice("part", part, PARTS)]
-    operands(geometry, configuration)
+    arrays = operands(geometry, configuration)
     if len(configuration.shape) > 1 or configuration.shape == (0,):
         raise ValueError(f"configuration: got shape {configuration.shape}, expected a single one or a stack (n,)")
     count = whole("directions", directions, 0, 10**6)
@@ -94,15 +94,9 @@ def nearest_singularity(
     reach = 2.0 * size if most is None else finite("most", most, 0.0, FARTHEST * size)
     motions = np.zeros((9, 3))
     motions[first : first + 3] = np.eye(3)
-    return nearest_along(geometry, configuration, motions, reach, count, thread_argument(threads))
-
-
-def nearest_along(
-    geometry: Geometry, configuration: Configuration, motions: Floats, most: float, directions: int, threads: int = 0
-) -> NearestSingularity:
-    """Return the nearest singularity over the motions `motions @ x` for unit vectors x; `motions` has shape (9, 3)."""
-    arrays = operands(geometry, configuration)
-    distance, code, direction, pose = _core.nearest_singularity(*arrays, motions, most, directions, threads)
+    distance, code, direction, pose, motion = _core.nearest_singularity(
+        *arrays, motions, reach, count, thread_argument(threads)
+    )
     here = configuration[pose] if configuration.shape else configuration
-    there = here.moved(distance * (motions @ direction)) if math.isfinite(distance) else here
+    there = here.moved(motion) if math.isfinite(distance) else here
     return NearestSingularity(distance, mechanisms_of(np.array([code]), ()), direction, pose, there)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.limit_numbers import CONES, apart, clearances, limit_numbers
 from ninedof.design.region import Region
@@ -15,7 +16,6 @@ from ninedof.design.region_stack import configurations_at, samples
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.sheet.region_search import Numbers, Poses, extreme_poses
 from ninedof.support.arrays import Floats
 from ninedof.workspace.study_criteria import EASE
 
@@ -70,18 +70,9 @@ def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[F
 
     Eased by `EASE` of themselves.
     """
-    poses = Poses.of(region, home)
-    extremes, _ = extreme_poses(poses, *poses.place(samples(region, COUNT)), [_ends_of_legs(g)])
-    lengths = leg_lengths(g, configurations_at(region, home, extremes)[1])
-    return lengths.min(axis=0) * (1.0 - EASE), lengths.max(axis=0) * (1.0 + EASE)
-
-
-def _ends_of_legs(g: Geometry) -> Numbers:
-    def ends(c: Configuration) -> Floats:
-        lengths = leg_lengths(g, c)
-        return np.concatenate([lengths, -lengths], axis=1)
-
-    return ends
+    at_home = (home.position[None], home.rotation[None], home.internal_point[None])
+    shortest, longest = _core.leg_lengths_over(g, *at_home, region.for_core(), 2 * COUNT)
+    return shortest * (1.0 - EASE), longest * (1.0 + EASE)
 
 
 def box_about(region: Region, home: Configuration) -> tuple[Floats, Floats]:

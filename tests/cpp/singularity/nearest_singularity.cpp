@@ -55,4 +55,22 @@ TEST_SUITE("nearest_singularity") {
     CHECK(refuses("poses", [&] { nearest_singularity(g, {}, motions_of(3), 1.0); }));
     CHECK(refuses("most", [&] { nearest_singularity(g, {neutral(4.0, 2.0)}, motions_of(3), -1.0); }));
   }
+
+  TEST_CASE("three ways of moving: each as its own search, O held or with the platform in a shift") {
+    Random random(433);
+    const auto [g, c] = random_robot(random);
+    for (const bool held : {true, false}) {
+      const NearestSingularities found = nearest_singularities(g, {c, plus(c, 0.1 * random.matrix<Vec9>())}, held);
+      const SingularMotions motions = singular_motions(held);
+      CHECK(motions.turn == motions_of(0));
+      CHECK(motions.shift == (held ? motions_of(3) : Motions(motions_of(3) + motions_of(6))));
+      CHECK(found.turn.distance <= nearest_singularity(g, {c}, motions.turn, pi).distance * (1.0 + 1e-9));
+      for (int k = 0; k < cases(300); ++k) {
+        CHECK(distance_to_singularity(g, c, motions.shift * random.unit(), 40.0).distance >=
+              found.shift.distance * (1.0 - 1e-9));
+        CHECK(distance_to_singularity(g, c, motions.internal * random.unit(), 40.0).distance >=
+              found.internal.distance * (1.0 - 1e-9));
+      }
+    }
+  }
 }

@@ -5,6 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
 #include "support/oracle.hpp"
 #include "support/singular.hpp"
 #include "support/support.hpp"
@@ -166,5 +169,43 @@ TEST_SUITE("statics") {
     CHECK(f[8] == 0.0);
     CHECK(f.allFinite());
     CHECK(self_stress(g, c).row(8).norm() == doctest::Approx(1.0).epsilon(1e-14));
+  }
+
+  TEST_CASE("the least stiffness: of Schur complements by inverses, and no direction is softer") {
+    Random random(409);
+    for (int n = 0; n < cases(40); ++n) {
+      const auto [g, c] = random_robot(random);
+      const Vec9 k = Vec9::NullaryExpr([&] { return random.uniform(0.5, 3.0); });
+      const LeastStiffness found = least_stiffness(g, c, k);
+      const Eigen::Matrix<double, 6, 6> compliance = stiffness(g, c, k).inverse();
+      // The platform free to turn: the inverse of the block of the compliance.
+      for (int way = 0; way < 500; ++way) {
+        const Vec3 d = random.unit();
+        const double shift = d.dot(compliance.bottomRightCorner<3, 3>().inverse() * d);
+        const double turn = d.dot(compliance.topLeftCorner<3, 3>().inverse() * d);
+        CHECK(shift >= found.shift * (1.0 - 1e-8));
+        CHECK(turn >= found.turn * (1.0 - 1e-8));
+      }
+      const Eigen::EigenSolver<Mat3> shifts(Mat3(compliance.bottomRightCorner<3, 3>()));
+      const Eigen::EigenSolver<Mat3> turns(Mat3(compliance.topLeftCorner<3, 3>()));
+      CHECK(relative_error(found.shift, 1.0 / shifts.eigenvalues().real().maxCoeff()) < 1e-8);
+      CHECK(relative_error(found.turn, 1.0 / turns.eigenvalues().real().maxCoeff()) < 1e-8);
+    }
+    auto [g, c] = random_robot(random);
+    CHECK(refuses("leg_stiffness", [&] { least_stiffness(g, c, -Vec9::Ones()); }));
+    c.internal_point.z() = not_a_number;
+    CHECK(std::isnan(least_stiffness(g, c, Vec9::Ones()).shift));
+  }
+
+  TEST_CASE("the weight acts at the centre of mass") {
+    Random random(410);
+    const Mat3 q = random.rotation();
+    const Weight weight{3.0, random.matrix<Vec3>(), random.matrix<Vec3>()};
+    const Load load = weight.at(q);
+    const Vec3 arm = q * weight.centre;
+    CHECK((load.force - 3.0 * weight.gravity).norm() < 1e-14);
+    CHECK(std::abs(load.moment.dot(arm)) < 1e-13);
+    const Vec3 turn = random.unit();  // the power of the moment is that of the force at the moved centre
+    CHECK(load.moment.dot(turn) == doctest::Approx(load.force.dot(turn.cross(arm))));
   }
 }

@@ -20,6 +20,8 @@ CPP_ROOMS = (
     "statics",
     "batch",
     "limits",
+    "domains",
+    "sheet",
     "redundancy",
     "problem",
     "proof",
@@ -84,6 +86,7 @@ CORE_USERS = {
     "statics",
     "redundancy",
     "design",
+    "sheet",
 } | {
     "proof",
     "optimize",

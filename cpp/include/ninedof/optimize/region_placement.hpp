@@ -2,6 +2,7 @@
 /// A design over a region of poses with O placed anew at every pose.
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,13 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
                                  const PlacementGoal& goal, const std::vector<Placed>& known,
                                  const RegionSettings& settings, const Control& control = {});
 
-/// The best place of O at given poses of a region, by their coordinates: where the worst of the index and of all limits
-/// is least. From O shifted and held, and from the shifts `known` where both leave something passed.
+/// Places O at one pose of a region after another, by their coordinates: where the worst of the index and of all limits
+/// is least. From O shifted and held, and from the shifts `known` where both leave something passed. For one thread.
+std::function<PlacedEnd(const Vec6& at)> placer(const Problem& problem, const Region& region,
+                                                const Eigen::VectorXd& variables, const PlacementGoal& goal,
+                                                const std::vector<Vec3>& known);
+
+/// The same at given poses.
 std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
                                        const PlacementGoal& goal, const std::vector<Vec3>& known,
                                        const std::vector<Vec6>& at, int threads = 0, const Control& control = {});

@@ -2,21 +2,13 @@
 /// Where in a region of poses a design is worst.
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "ninedof/math/control.hpp"
+#include "ninedof/domains/region_extremes.hpp"
 #include "ninedof/problem/problem.hpp"
-#include "ninedof/problem/region.hpp"
 
 namespace ninedof {
-
-struct RegionSettings {
-  long samples = 100'000;
-  std::uint64_t seed = 0;
-  int threads = 0;  ///< 0: one per processor
-};
 
 /// The worst values of one design over a region, each with the coordinates of the pose where it was met (see Region).
 struct RegionWorst {
@@ -38,8 +30,8 @@ struct RegionWorst {
   long poses = 0;  ///< looked at
 };
 
-/// Evaluates a low-discrepancy sample of the region, a good part of it on the boundary, and descends from the worst
-/// samples of every margin that is small, of the index and of every leg. `problem` has no poses of its own.
+/// region_extremes of every margin (descents from those that are small), of the index and of the length of every leg.
+/// `problem` has no poses of its own.
 ///
 /// Throws InvalidArgument for a region or variables that do not fit, Stopped on a stop.
 RegionWorst search_region(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,

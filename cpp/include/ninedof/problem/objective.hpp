@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ninedof/problem/pose.hpp"
+#include "ninedof/domains/pose.hpp"
 
 namespace ninedof {
 

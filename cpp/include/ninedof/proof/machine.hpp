@@ -12,7 +12,7 @@
 #include "ninedof/limits/limits.hpp"
 #include "ninedof/math/control.hpp"
 #include "ninedof/math/interval.hpp"
-#include "ninedof/problem/region.hpp"
+#include "ninedof/domains/region.hpp"
 #include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"

@@ -109,4 +109,21 @@ NearestSingularity nearest_singularity(const Geometry& g, const std::vector<Conf
                                        const Motions& motions, double most, int directions = 1000, int threads = 0,
                                        const std::stop_token& stop = {});
 
+/// The nearest singularity for each way of moving, the rest at rest.
+struct NearestSingularities {
+  NearestSingularity shift;     ///< of the platform, with O or without: length
+  NearestSingularity turn;      ///< of the platform about its origin: radians
+  NearestSingularity internal;  ///< of O: length
+};
+
+/// Up to four times the longest leg, and half a turn. `internal_held`: whether O stays where it is in a shift.
+NearestSingularities nearest_singularities(const Geometry& g, const std::vector<Configuration>& poses,
+                                           bool internal_held, int threads = 0, const std::stop_token& stop = {});
+
+/// The motions of those: a turn, a shift, or a motion of O along three axes.
+struct SingularMotions {
+  Motions shift, turn, internal;
+};
+SingularMotions singular_motions(bool internal_held);
+
 }  // namespace ninedof

@@ -18,6 +18,17 @@ struct Load {
   Vec3 force_at_o = Vec3::Zero();
 };
 
+/// The platform with what it carries.
+struct Weight {
+  double mass = 0.0;
+  Vec3 centre = Vec3::Zero();   ///< of mass, platform frame
+  Vec3 gravity = Vec3::Zero();  ///< force per mass, base axes
+
+  Load at(const Mat3& rotation) const {
+    return {(rotation * centre).cross(mass * gravity), mass * gravity, Vec3::Zero()};
+  }
+};
+
 struct LegForces {
   Vec9 forces;      ///< l1 l2 l3 q1 q2 q3 r1 r2 r3, positive if the leg pushes
   Load unbalanced;  ///< the part that no leg forces balance; exactly zero unless the configuration is singular
@@ -44,6 +55,12 @@ SelfStress self_stress(const Geometry& g, const Configuration& c);
 /// singular configuration it is finite and singular. Throws InvalidArgument for a stiffness that is negative or
 /// infinite.
 Mat6 stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness);
+
+/// The least stiffness over directions: of a shift, the platform free to turn, and of a turn, free to shift.
+struct LeastStiffness {
+  double shift, turn;
+};
+LeastStiffness least_stiffness(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness);
 
 /// H^T diag(k) H, 9x9: the same for displacements (rotation, p, s) of platform and O.
 Mat9 stiffness_with_o(const Geometry& g, const Configuration& c, const Vec9& leg_stiffness);

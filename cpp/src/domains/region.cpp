@@ -1,4 +1,4 @@
-#include "ninedof/problem/region.hpp"
+#include "ninedof/domains/region.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,13 @@ Pose Region::pose(const Vec6& at) const {
   else if (turn.isZero(0.0)) out.rotation = about_z;
   else out.rotation = log_rotation(exp_rotation(turn) * exp_rotation(about_z));
   return out;
+}
+
+Configuration Region::configuration(const Vec6& at, const Configuration& neutral) const {
+  const Pose p = pose(at);
+  const double unit = p.in_zp ? neutral.position[2] : 1.0;
+  return {neutral.position + unit * p.position, exp_rotation(p.rotation) * neutral.rotation,
+          neutral.internal_point + unit * p.internal};
 }
 
 void Region::validate() const {

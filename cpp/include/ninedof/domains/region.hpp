@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "ninedof/problem/pose.hpp"
+#include "ninedof/domains/pose.hpp"
+#include "ninedof/robot/configuration.hpp"
 
 namespace ninedof {
 
@@ -28,6 +29,8 @@ struct Region {
   /// The nearest coordinates in the region.
   Vec6 nearest(Vec6 at) const;
   Pose pose(const Vec6& at) const;
+  /// That pose of a design.
+  Configuration configuration(const Vec6& at, const Configuration& neutral) const;
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;

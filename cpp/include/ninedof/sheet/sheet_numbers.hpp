@@ -1,0 +1,60 @@
+#pragma once
+/// The numbers of a pose that a workshop and an engineer need: lengths, speeds and forces of the legs, angles at their
+/// joints, distances, determinants, accuracy and stiffness.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ninedof/kinematics/leg_motion.hpp"
+#include "ninedof/limits/numbers.hpp"
+#include "ninedof/statics/accuracy.hpp"
+#include "ninedof/statics/statics.hpp"
+
+namespace ninedof {
+
+/// A machine, and what its sheet is asked for.
+struct SheetQuestion {
+  Geometry geometry;
+  Configuration neutral;
+  /// Limits at poses whose numbers are asked for, with the axis of cones: see LimitNumbers.
+  std::vector<std::pair<std::string, Vec3>> limits;
+  std::array<bool, 21> exempt{};  ///< pairs of legs that may meet
+  std::optional<PlatformMotion> motion;
+  std::vector<Load> loads;  ///< the weight is added to each
+  std::optional<Weight> weight;
+  std::optional<Tolerances> errors;
+  std::optional<Vec9> leg_stiffness;
+  std::optional<double> characteristic_length;  ///< none: no condition number
+};
+
+/// Which end of a number is the worst over poses.
+enum class WorstEnd { least, greatest, both };
+
+/// Numbers that are computed together.
+struct SheetGroup {
+  std::string name;
+  int size;
+  WorstEnd worst;
+};
+
+class SheetNumbers {
+ public:
+  explicit SheetNumbers(const SheetQuestion& question);
+
+  /// Each limit; "speed" and "acceleration" (9) of the motion; "twist_speed" and "twist_acceleration" (9) of its given
+  /// one; "force" (9 a load); "error" (position, rotation, internal point); "stiffness" (LeastStiffness);
+  /// "condition_number". Those that were not asked for are left out.
+  const std::vector<SheetGroup>& groups() const { return groups_; }
+  /// `out` has room for the numbers of the group. Pairs of legs that may meet have an infinite distance.
+  void evaluate(std::size_t group, const Configuration& c, double* out) const;
+
+ private:
+  SheetQuestion question_;
+  std::vector<LimitNumbers> limits_;
+  std::vector<SheetGroup> groups_;
+};
+
+}  // namespace ninedof

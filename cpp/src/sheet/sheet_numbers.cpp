@@ -1,0 +1,80 @@
+#include "ninedof/sheet/sheet_numbers.hpp"
+
+#include <algorithm>
+
+#include "limits/table.hpp"
+#include "math/numbers.hpp"
+#include "ninedof/conditioning/conditioning.hpp"
+#include "ninedof/robot/legs.hpp"
+
+namespace ninedof {
+namespace {
+
+/// An angle is worst where it is greatest; a distance, and a determinant on the side of home, where it is least.
+WorstEnd worst_end(const std::string& limit) {
+  switch (limit_row(limit).info.sides) {
+    case LimitSides::only_high: return WorstEnd::greatest;
+    case LimitSides::only_low: return WorstEnd::least;
+    case LimitSides::both: break;
+  }
+  return WorstEnd::both;
+}
+
+}  // namespace
+
+SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
+  for (const auto& [name, axis] : question_.limits) {
+    limits_.emplace_back(name, question_.geometry, question_.neutral, axis);
+    groups_.push_back({name, limits_.back().items(), worst_end(name)});
+  }
+  using enum WorstEnd;
+  if (question_.motion) {
+    groups_.push_back({"speed", 9, greatest});
+    groups_.push_back({"acceleration", 9, greatest});
+  }
+  if (question_.motion && question_.motion->given) {
+    groups_.push_back({"twist_speed", 9, both});
+    groups_.push_back({"twist_acceleration", 9, both});
+  }
+  if (!question_.loads.empty()) groups_.push_back({"force", static_cast<int>(9 * question_.loads.size()), both});
+  if (question_.errors) groups_.push_back({"error", 3, greatest});
+  if (question_.leg_stiffness) groups_.push_back({"stiffness", 2, least});
+  if (question_.characteristic_length) groups_.push_back({"condition_number", 1, greatest});
+}
+
+void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* out) const {
+  const SheetQuestion& q = question_;
+  const Geometry& g = q.geometry;
+  const std::string& name = groups_[group].name;
+  const auto nine = [&out](const Vec9& numbers) { Eigen::Map<Vec9>{out} = numbers; };
+  if (group < limits_.size()) {
+    limits_[group].at(c, out);
+    for (std::size_t pair = 0; groups_[group].size == 21 && pair < 21; ++pair)
+      if (q.exempt[pair]) out[pair] = infinity;
+  } else if (name == "speed") {
+    nine(largest_leg_rates(g, c, *q.motion));
+  } else if (name == "acceleration") {
+    nine(largest_leg_accelerations(g, c, *q.motion));
+  } else if (name == "twist_speed") {
+    nine(leg_rates(g, c, q.motion->internal, q.motion->given->twist));
+  } else if (name == "twist_acceleration") {
+    nine(leg_accelerations(g, c, q.motion->internal, *q.motion->given));
+  } else if (name == "force") {
+    const Load own = q.weight ? q.weight->at(c.rotation) : Load{};
+    for (const Load& load : q.loads) {
+      nine(leg_forces(g, c, {load.moment + own.moment, load.force + own.force, load.force_at_o}).forces);
+      out += 9;
+    }
+  } else if (name == "error") {
+    const ErrorBounds bounds = error_bounds(g, c, *q.errors);
+    std::ranges::copy(std::array{bounds.position, bounds.rotation, bounds.internal_point}, out);
+  } else if (name == "stiffness") {
+    const LeastStiffness least = least_stiffness(g, c, *q.leg_stiffness);
+    out[0] = least.shift;
+    out[1] = least.turn;
+  } else {
+    *out = condition_number(g, c, *q.characteristic_length);
+  }
+}
+
+}  // namespace ninedof
