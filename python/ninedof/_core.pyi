@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 _Floats = NDArray[float64]
 _Out = _Floats | None
 _Triple = tuple[float, float, float]
+_Range = tuple[str, Sequence[float], Sequence[float], float]
 _MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
 
@@ -295,12 +296,16 @@ def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
 def search_region(
     problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
+def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
+def common_range(
+    problem: Problem, zp: float, lengths: _Floats, least: _Floats, most: _Floats, /
+) -> list[tuple[float, float]]: ...
 def search_region_placed(
     problem: Problem,
     region: dict[str, Any],
     variables: Sequence[float],
     log_index: float,
-    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    ranges: Sequence[_Range],
     known: Sequence[tuple[Sequence[float], Sequence[float]]],
     samples: int,
     seed: int,
@@ -312,7 +317,7 @@ def place_in_region(
     region: dict[str, Any],
     variables: Sequence[float],
     log_index: float,
-    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    ranges: Sequence[_Range],
     known: Sequence[Sequence[float]],
     at: _Floats,
     threads: int,

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "ninedof/optimize/region_placement.hpp"
@@ -112,26 +113,54 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; size 0 for a range of logarithms.
-PlacementGoal goal_from(const Problem& problem, double log_index, const py::sequence& ranges) {
-  PlacementGoal goal{log_index, {}};
-  for (const py::handle& range : ranges) {
-    const auto [limit, low, high, size] =
-        range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
-    LegRange r{limit, Vec9::Map(low.data()), Vec9::Map(high.data()), size > 0.0 ? size : problem.unit(), !(size > 0.0)};
-    for (Vec9* end : {&r.low, &r.high}) *end = end->unaryExpr([&r](double length) { return r.measured(length); });
-    goal.ranges.push_back(std::move(r));
+/// Lengths of the nine legs in a range: (limit, low, high, size); size 0 for a range of logarithms.
+using RangeEntry = std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>;
+
+std::vector<LegRange> ranges_from(const Problem& problem, const std::vector<RangeEntry>& entries) {
+  std::vector<LegRange> out;
+  for (const auto& [limit, low, high, size] : entries) {
+    LegRange range;
+    range.limit = limit;
+    range.logarithm = !(size > 0.0);
+    range.size = range.logarithm ? problem.unit() : size;
+    const auto measured = [&](double length) { return range.measured(length); };
+    range.low = Vec9::Map(low.data()).unaryExpr(measured);
+    range.high = Vec9::Map(high.data()).unaryExpr(measured);
+    out.push_back(std::move(range));
   }
-  return goal;
+  return out;
+}
+
+/// The ranges of a design about leg lengths at some poses.
+std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Array& lengths) {
+  std::vector<RangeEntry> out;
+  for (const LegRange& range : leg_ranges(problem, zp, lengths_from(lengths))) {
+    std::array<double, 9> low{}, high{};
+    std::ranges::transform(range.low, low.begin(), [&](double measure) { return range.length(measure); });
+    std::ranges::transform(range.high, high.begin(), [&](double measure) { return range.length(measure); });
+    out.emplace_back(range.limit, low, high, range.logarithm ? 0.0 : range.size);
+  }
+  return out;
+}
+
+/// (low, high) of each leg in all ranges and limits; nothing without ranges.
+std::vector<std::pair<double, double>> range_of_all(const Problem& problem, double zp, const Array& lengths,
+                                                    const Array& low, const Array& high) {
+  const std::vector<LegRange> ranges = leg_ranges(problem, zp, lengths_from(lengths));
+  if (ranges.empty()) return {};
+  const LegLimits all = common_range(ranges, {Vec9::Map(rows("low", low, 1, 9)), Vec9::Map(rows("high", high, 1, 9))});
+  std::vector<std::pair<double, double>> out;
+  for (Eigen::Index leg = 0; leg < 9; ++leg) out.emplace_back(all.low[leg], all.high[leg]);
+  return out;
 }
 
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
 py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                           double log_index, const py::sequence& ranges,
+                           double log_index, const std::vector<RangeEntry>& ranges,
                            const std::vector<std::array<double, 3>>& known, const py::object& at, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(problem, log_index, ranges);
+  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   std::vector<Vec3> shifts;
   for (const auto& shift : known) shifts.push_back(Vec3::Map(shift.data()));
   const py::ssize_t count = py::len(at);
@@ -177,11 +206,11 @@ py::tuple rows_at_places(const Problem& problem, const py::dict& region, const s
 /// limit).
 /// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
 py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                            double log_index, const py::sequence& ranges, const py::sequence& known, long samples,
-                            std::uint64_t seed, int threads) {
+                            double log_index, const std::vector<RangeEntry>& ranges, const py::sequence& known,
+                            long samples, std::uint64_t seed, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(problem, log_index, ranges);
+  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   std::vector<Placed> places;
   for (const py::handle& place : known) {
     const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
@@ -251,6 +280,8 @@ void bind_optimize(py::module_& m) {
   m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
+  m.def("leg_ranges", &ranges_about);
+  m.def("common_range", &range_of_all);
   m.def("search_region_placed", &worst_with_placing);
   m.def("placed_rows", &rows_at_places);
   m.def("optimize_placed", &placed_optima);
