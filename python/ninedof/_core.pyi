@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 _Floats = NDArray[float64]
 _Out = _Floats | None
 _Triple = tuple[float, float, float]
+_LimitBreak = tuple[str, float, float, float, float]
 _Range = tuple[str, Sequence[float], Sequence[float], float]
 _MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
@@ -93,6 +94,30 @@ def best_internal_map(
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...
+
+# The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without loads, "tracked"
+# the number of poses. The trajectory is `time`, `position` and `rotation`.
+def follow(
+    g: Geometry,
+    home_p: _Floats,
+    home_q: _Floats,
+    home_s: _Floats,
+    time: _Floats,
+    position: _Floats,
+    rotation: _Floats,
+    rule: str | float,
+    limits: tuple[_Floats, _Floats],
+    characteristic_length: float,
+    loads: _Floats,
+    /,
+) -> dict[str, Any]: ...
+def leg_margins(leg_lengths: _Floats, low: _Floats, high: _Floats, /) -> _Floats: ...
+def stretches(
+    limit: str, time: _Floats, values: _Floats, margin: _Floats, tolerance: float, /
+) -> list[_LimitBreak]: ...
+def limit_breaks(
+    time: _Floats, leg_lengths: _Floats, low: _Floats, high: _Floats, determinants: _Floats, /
+) -> list[_LimitBreak]: ...
 def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...
@@ -237,6 +262,7 @@ class Problem:
 
 limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: tuple[str, ...]
+margin_tolerance: float
 
 def limit_numbers(
     name: str,

@@ -21,6 +21,7 @@ CPP_ROOMS = (
     "batch",
     "limits",
     "redundancy",
+    "motion",
     "problem",
     "proof",
     "optimize",
@@ -83,6 +84,7 @@ CORE_USERS = {
     "singularity",
     "statics",
     "redundancy",
+    "motion",
     "design",
 } | {
     "proof",
