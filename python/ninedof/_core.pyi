@@ -207,7 +207,6 @@ def error_samples(
     q: _Floats,
     s: _Floats,
     tolerances: _Floats,
-    first: int,
     count: int,
     seed: int,
     threads: int,
