@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ninedof/math/control.hpp"
 #include "ninedof/math/error.hpp"
 
 namespace ninedof {
@@ -29,7 +30,8 @@ Weights weights(std::span<const double> at, std::size_t j) {
 
 }  // namespace
 
-PathDerivatives path_derivatives(std::span<const double> time, std::span<const Configuration> path) {
+PathDerivatives path_derivatives(std::span<const double> time, std::span<const Configuration> path,
+                                 const std::stop_token& stop) {
   const std::size_t n = time.size(), size = std::min(most_samples, n);
   if (n < 3) throw InvalidArgument("time", std::to_string(n) + " numbers", "three or more");
   if (path.size() != n)
@@ -37,6 +39,7 @@ PathDerivatives path_derivatives(std::span<const double> time, std::span<const C
   PathDerivatives out;
   std::vector<double> at(size);
   for (std::size_t k = 0; k < n; ++k) {
+    if (stop.stop_requested()) throw Stopped{};
     const std::size_t begin = std::min(k - std::min(k, size / 2), n - size);
     const double unit = std::max(time[k] - time[begin], time[begin + size - 1] - time[k]);
     for (std::size_t j = 0; j < size; ++j) at[j] = (time[begin + j] - time[k]) / unit;

@@ -79,7 +79,7 @@ Followed follow(const Geometry& g, const Trajectory& trajectory, const Configura
   std::vector<Configuration> path;
   for (const PlatformPose& pose : trajectory.poses)
     path.push_back({pose.position, pose.rotation, out.internal_point[path.size()]});
-  out.derivatives = path_derivatives(trajectory.time, path);
+  out.derivatives = path_derivatives(trajectory.time, path, control.stop);
   fill(g, path, settings, out, control);
   track_back(g, path, out, control);
   out.breaks = limit_breaks(trajectory.time, out.leg_lengths, settings.limits, out.singularity_margins);

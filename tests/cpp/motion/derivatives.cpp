@@ -5,6 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <stop_token>
+
+#include "ninedof/math/control.hpp"
 #include "support/motion.hpp"
 
 using namespace ninedof;
@@ -122,9 +125,12 @@ TEST_SUITE("derivatives") {
     }
   }
 
-  TEST_CASE("two samples and other numbers of times are refused") {
+  TEST_CASE("two samples and other numbers of times are refused, and a stop ends the call") {
     const std::vector<Configuration> path(3);
     CHECK(refuses("time", [&] { path_derivatives(std::vector{0.0, 1.0}, std::span(path).first(2)); }));
+    std::stop_source source;
+    source.request_stop();
+    CHECK_THROWS_AS(path_derivatives(std::vector{0.0, 1.0, 2.0}, path, source.get_token()), Stopped);
     CHECK(refuses("path", [&] { path_derivatives(std::vector{0.0, 1.0, 2.0, 3.0}, path); }));
   }
 }

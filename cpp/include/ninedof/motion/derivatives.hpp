@@ -2,6 +2,7 @@
 /// Velocity and acceleration of configurations over time.
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "ninedof/kinematics/acceleration.hpp"
@@ -20,7 +21,8 @@ struct PathDerivatives {
 /// smoothed: an error e of one becomes about e / step^2 in the acceleration.
 ///
 /// `time`: increasing, at least three, one for each configuration. With fewer than five all are used. Throws
-/// InvalidArgument for other numbers of them.
-PathDerivatives path_derivatives(std::span<const double> time, std::span<const Configuration> path);
+/// InvalidArgument for other numbers of them, Stopped on a stop.
+PathDerivatives path_derivatives(std::span<const double> time, std::span<const Configuration> path,
+                                 const std::stop_token& stop = {});
 
 }  // namespace ninedof

@@ -21,7 +21,7 @@ struct FollowSettings {
 /// One entry for each pose, legs in the order of leg_lengths, base frame.
 struct Followed {
   std::vector<Vec3> internal_point;
-  std::vector<Vec9> leg_lengths, leg_rates, leg_accelerations;
+  std::vector<Vec9> leg_lengths, leg_rates, leg_accelerations;  ///< length, length/time, length/time^2
   PathDerivatives derivatives;  ///< of the platform and O
   std::vector<double> condition_number;  ///< infinite where singular
   std::vector<PerMechanism> singularity_margins;
