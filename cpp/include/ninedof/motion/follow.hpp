@@ -29,8 +29,8 @@ struct Followed {
   std::vector<LimitBreak> breaks;
   /// How many poses from the first on `track` returns from the leg lengths, to 1e-9 and each step with its proof.
   std::size_t tracked = 0;
-  double tracking_error =
-      0.0;  ///< largest difference of a pose that it reached: of Q, and of p and O over the longest leg
+  /// Largest difference of a pose that it reached: of Q, and of p and O over the longest leg.
+  double tracking_error = 0.0;
 };
 
 /// Places O by the rule and differentiates; the rates of the legs follow in closed form. As a check the lengths are
