@@ -14,6 +14,7 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_position(m);
   ninedof::python::bind_limits(m);
   ninedof::python::bind_redundancy(m);
+  ninedof::python::bind_motion(m);
   ninedof::python::bind_workspace(m);
   ninedof::python::bind_certified_workspace(m);
   ninedof::python::bind_acceleration(m);

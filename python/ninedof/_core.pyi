@@ -14,6 +14,8 @@ _Floats = NDArray[float64]
 _Out = _Floats | None
 _Nearest = tuple[float, float, _Floats, int, _Floats]
 _Triple = tuple[float, float, float]
+_LimitBreak = tuple[str, float, float, float, float]
+_Range = tuple[str, Sequence[float], Sequence[float], float]
 _MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
 
@@ -93,6 +95,30 @@ def best_internal_map(
     progress: _Progress | None,
     /,
 ) -> dict[str, Any]: ...
+
+# The fields of `Followed` that are computed; "singularity_margins" (3, n), "leg_forces" (0, 9) without loads, "tracked"
+# the number of poses. The trajectory is `time`, `position` and `rotation`.
+def follow(
+    g: Geometry,
+    home_p: _Floats,
+    home_q: _Floats,
+    home_s: _Floats,
+    time: _Floats,
+    position: _Floats,
+    rotation: _Floats,
+    rule: str | float,
+    limits: tuple[_Floats, _Floats],
+    characteristic_length: float,
+    loads: _Floats,
+    /,
+) -> dict[str, Any]: ...
+def leg_margins(leg_lengths: _Floats, low: _Floats, high: _Floats, /) -> _Floats: ...
+def stretches(
+    limit: str, time: _Floats, values: _Floats, margin: _Floats, tolerance: float, /
+) -> list[_LimitBreak]: ...
+def limit_breaks(
+    time: _Floats, leg_lengths: _Floats, low: _Floats, high: _Floats, determinants: _Floats, /
+) -> list[_LimitBreak]: ...
 def inverse_velocity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, velocity: _Floats, threads: int, /
 ) -> _Floats: ...
@@ -185,7 +211,6 @@ def error_samples(
     q: _Floats,
     s: _Floats,
     tolerances: _Floats,
-    first: int,
     count: int,
     seed: int,
     threads: int,
@@ -240,6 +265,7 @@ class Problem:
 
 limit_parts: dict[str, tuple[str, ...]]
 limits_over_lengths: tuple[str, ...]
+margin_tolerance: float
 
 def limit_numbers(
     name: str,
@@ -299,12 +325,16 @@ def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
 def search_region(
     problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
+def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
+def common_range(
+    problem: Problem, zp: float, lengths: _Floats, least: _Floats, most: _Floats, /
+) -> list[tuple[float, float]]: ...
 def search_region_placed(
     problem: Problem,
     region: dict[str, Any],
     variables: Sequence[float],
     log_index: float,
-    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    ranges: Sequence[_Range],
     known: Sequence[tuple[Sequence[float], Sequence[float]]],
     samples: int,
     seed: int,
@@ -316,7 +346,7 @@ def place_in_region(
     region: dict[str, Any],
     variables: Sequence[float],
     log_index: float,
-    ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+    ranges: Sequence[_Range],
     known: Sequence[Sequence[float]],
     at: _Floats,
     threads: int,

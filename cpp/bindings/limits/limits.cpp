@@ -1,3 +1,5 @@
+#include "ninedof/limits/limits.hpp"
+
 #include <pybind11/stl.h>
 
 #include "ninedof/limits/numbers.hpp"
@@ -12,6 +14,7 @@ void bind_limits(py::module_& m) {
   for (const std::string& name : limits_of_poses()) parts[py::str(name)] = py::tuple(py::cast(limit_parts(name)));
   m.attr("limit_parts") = parts;
   m.attr("limits_over_lengths") = py::tuple(py::cast(limits_over_lengths()));
+  m.attr("margin_tolerance") = margin_tolerance;
   m.def("limit_numbers", [](const std::string& name, const std::vector<double>& axis, const Geometry& g,
                             const Array& home_p, const Array& home_q, const Array& home_s, const Array& p,
                             const Array& q, const Array& s) {

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "ninedof/optimize/trace.hpp"
@@ -112,13 +113,36 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
+/// The ranges of a design about leg lengths at some poses.
+std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Array& lengths) {
+  std::vector<RangeEntry> out;
+  for (const LegRange& range : leg_ranges(problem, zp, lengths_from(lengths))) {
+    std::array<double, 9> low{}, high{};
+    std::ranges::transform(range.low, low.begin(), [&](double measure) { return range.length(measure); });
+    std::ranges::transform(range.high, high.begin(), [&](double measure) { return range.length(measure); });
+    out.emplace_back(range.limit, low, high, range.logarithm ? 0.0 : range.size);
+  }
+  return out;
+}
+
+/// (low, high) of each leg in all ranges and limits; nothing without ranges.
+std::vector<std::pair<double, double>> range_of_all(const Problem& problem, double zp, const Array& lengths,
+                                                    const Array& low, const Array& high) {
+  const std::vector<LegRange> ranges = leg_ranges(problem, zp, lengths_from(lengths));
+  if (ranges.empty()) return {};
+  const LegLimits all = common_range(ranges, {Vec9::Map(rows("low", low, 1, 9)), Vec9::Map(rows("high", high, 1, 9))});
+  std::vector<std::pair<double, double>> out;
+  for (Eigen::Index leg = 0; leg < 9; ++leg) out.emplace_back(all.low[leg], all.high[leg]);
+  return out;
+}
+
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
 py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                           double log_index, const py::sequence& ranges,
+                           double log_index, const std::vector<RangeEntry>& ranges,
                            const std::vector<std::array<double, 3>>& known, const py::object& at, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(problem, log_index, ranges);
+  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   const std::vector<Vec3> shifts = shifts_from(known);
   const py::ssize_t count = py::len(at);
   const Array given = array_of_shape("at", at, {count, 6});
@@ -163,11 +187,11 @@ py::tuple rows_at_places(const Problem& problem, const py::dict& region, const s
 /// limit).
 /// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
 py::dict worst_with_placing(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                            double log_index, const py::sequence& ranges, const py::sequence& known, long samples,
-                            std::uint64_t seed, int threads) {
+                            double log_index, const std::vector<RangeEntry>& ranges, const py::sequence& known,
+                            long samples, std::uint64_t seed, int threads) {
   const Region r = region_from(region);
   const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const PlacementGoal goal = goal_from(problem, log_index, ranges);
+  const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
   std::vector<Placed> places;
   for (const py::handle& place : known) {
     const auto [at, shift] = place.cast<std::tuple<std::array<double, 6>, std::array<double, 3>>>();
@@ -237,6 +261,8 @@ void bind_optimize(py::module_& m) {
   m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
+  m.def("leg_ranges", &ranges_about);
+  m.def("common_range", &range_of_all);
   m.def("search_region_placed", &worst_with_placing);
   m.def("placed_rows", &rows_at_places);
   m.def("optimize_placed", &placed_optima);

@@ -11,6 +11,7 @@
 #include "support/interruptible.hpp"
 #include "support/map_audit.hpp"
 #include "support/module.hpp"
+#include "support/poses.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -37,15 +38,6 @@ InternalPointProblem internal_problem_from(const py::dict& d) {
 MapSettings map_settings_from(const py::dict& d) {
   return {d["seed_every"].cast<std::size_t>(), d["audit_every"].cast<std::size_t>(),
           d["audit_seed"].cast<std::uint64_t>(), d["threads"].cast<int>()};
-}
-
-/// n poses as (n, 3) and (n, 3, 3), which Python has checked.
-std::vector<PlatformPose> poses_from(const Array& position, const Array& rotation) {
-  std::vector<PlatformPose> poses(static_cast<std::size_t>(position.size() / 3));
-  for (std::size_t k = 0; k < poses.size(); ++k)
-    poses[k] = {Eigen::Map<const Vec3>(position.data() + 3 * k),
-                Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data() + 9 * k)};
-  return poses;
 }
 
 /// n starts as (n, 3), which Python has checked; no rows mean the default.

@@ -68,7 +68,7 @@ std::function<PlacedAt()> placing_from(const Problem& problem, const Region& reg
   };
 }
 
-using PlacingEntry = std::tuple<Problem, std::vector<double>, double, py::list, std::vector<Three>>;
+using PlacingEntry = std::tuple<Problem, std::vector<double>, double, std::vector<RangeEntry>, std::vector<Three>>;
 
 /// Coordinates of the worst poses, shape (n, 6), how many were looked at, and the mean condition number with its error.
 py::tuple over_region(const SheetQuestion& question, const py::dict& region, long samples,
@@ -77,7 +77,8 @@ py::tuple over_region(const SheetQuestion& question, const py::dict& region, lon
   std::function<PlacedAt()> placing;
   if (placed) {
     const auto& [problem, x, log_index, ranges, known] = *placed;
-    placing = placing_from(problem, r, x, goal_from(problem, log_index, ranges), shifts_from(known), question.neutral);
+    const PlacementGoal goal{log_index, ranges_from(problem, ranges)};
+    placing = placing_from(problem, r, x, goal, shifts_from(known), question.neutral);
   }
   const SheetRegion found = interruptible(py::none(), [&](const Control& control) {
     return sheet_over_region(question, r, {.samples = samples}, placing, control);

@@ -43,12 +43,12 @@ void bind_accuracy(py::module_& m) {
           });
         });
   m.def("error_samples", [](const Geometry& g, const Array& p, const Array& q, const Array& s, const Array& tolerances,
-                            long first, long count, std::uint64_t seed, int threads) {
+                            long count, std::uint64_t seed, int threads) {
     const Configuration c = ConfigurationStack(p, q, s)[0];
     require_tolerances(tolerances, 1);
     const Tolerances t = tolerances_at(tolerances.data());
     return for_each_row(count, 9, threads, py::none(), [&](long i, double* out) {
-      Eigen::Map<Vec9>{out} = error_sample(g, c, t, seed, static_cast<std::uint64_t>(first + i));
+      Eigen::Map<Vec9>{out} = error_sample(g, c, t, seed, static_cast<std::uint64_t>(i));
     });
   });
 }

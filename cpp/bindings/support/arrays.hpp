@@ -97,6 +97,15 @@ inline const double* rows(const std::string& name, const Array& a, long count, l
   return a.data();
 }
 
+/// Lengths of the nine legs at n poses, shape (n, 9).
+inline std::vector<Vec9> lengths_from(const Array& lengths) {
+  const long count = static_cast<long>(lengths.size() / 9);
+  const double* row = rows("leg_lengths", lengths, count, 9);
+  std::vector<Vec9> out;
+  for (long k = 0; k < count; ++k, row += 9) out.push_back(Vec9::Map(row));
+  return out;
+}
+
 /// n configurations as three arrays (n, 3), (n, 3, 3), (n, 3). Python has checked and broadcast them.
 class ConfigurationStack {
  public:

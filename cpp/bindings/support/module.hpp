@@ -13,6 +13,7 @@ void bind_position(py::module_& m);
 void bind_limits(py::module_& m);
 void bind_sheet(py::module_& m);
 void bind_redundancy(py::module_& m);
+void bind_motion(py::module_& m);
 void bind_workspace(py::module_& m);
 void bind_certified_workspace(py::module_& m);
 void bind_acceleration(py::module_& m);

@@ -14,17 +14,22 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; size 0 for a range of logarithms.
-inline PlacementGoal goal_from(const Problem& problem, double log_index, const py::sequence& ranges) {
-  PlacementGoal goal{log_index, {}};
-  for (const py::handle& range : ranges) {
-    const auto [limit, low, high, size] =
-        range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
-    LegRange r{limit, Vec9::Map(low.data()), Vec9::Map(high.data()), size > 0.0 ? size : problem.unit(), !(size > 0.0)};
-    for (Vec9* end : {&r.low, &r.high}) *end = end->unaryExpr([&r](double length) { return r.measured(length); });
-    goal.ranges.push_back(std::move(r));
+/// Lengths of the nine legs in a range: (limit, low, high, size); size 0 for a range of logarithms.
+using RangeEntry = std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>;
+
+inline std::vector<LegRange> ranges_from(const Problem& problem, const std::vector<RangeEntry>& entries) {
+  std::vector<LegRange> out;
+  for (const auto& [limit, low, high, size] : entries) {
+    LegRange range;
+    range.limit = limit;
+    range.logarithm = !(size > 0.0);
+    range.size = range.logarithm ? problem.unit() : size;
+    const auto measured = [&](double length) { return range.measured(length); };
+    range.low = Vec9::Map(low.data()).unaryExpr(measured);
+    range.high = Vec9::Map(high.data()).unaryExpr(measured);
+    out.push_back(std::move(range));
   }
-  return goal;
+  return out;
 }
 
 /// Shifts of s in zp.

@@ -33,17 +33,10 @@ class PlacedProgram {
         coordinates_(problem, size_limits(problem).front()),
         shifts_(start.shifts),
         variables_(start.variables) {
-    for (const Limit& limit : problem.limits) {
-      const bool each_leg = limit.name == "stroke" || limit.name == "stroke_ratio";
-      if (!(each_leg || limit.name == "leg_ratio") || !(limit.high < infinity) || limit.at == LimitAt::neutral)
-        continue;
-      const bool parts = limit.name == "stroke";
-      limits_.push_back(limit);
-      goal_.ranges.push_back(
-          {limit.label(), Vec9::Zero(), Vec9::Zero(), problem.unit(), !parts, parts && limit.of == Unit::zp});
+    goal_.ranges = leg_ranges(problem);
+    for (const LegRange& range : goal_.ranges) {
       first_.push_back(groups_);
-      each_.push_back(each_leg);
-      groups_ += each_leg ? 9 : 1;
+      groups_ += groups_of(range);
     }
     pose_ = std::make_unique<PlacedPose>(problem, variables_, goal_);
   }
@@ -94,38 +87,31 @@ class PlacedProgram {
       low = low.cwiseMin(pose_->lengths());
       high = high.cwiseMax(pose_->lengths());
     }
-    for (std::size_t r = 0; r < limits_.size(); ++r) {
-      const LegRange& range = goal_.ranges[r];
-      Vec9 least = low, most = high;
-      if (!each_[r]) {
-        least.setConstant(low.minCoeff());
-        most.setConstant(high.maxCoeff());
-      }
-      for (Eigen::Index leg = 0; leg < (each_[r] ? 9 : 1); ++leg) {
-        y[n + first_[r] + leg] = 0.5 * (range.measured(least[leg]) + range.measured(most[leg]) - room(r));
-      }
+    for (std::size_t r = 0; r < goal_.ranges.size(); ++r) {
+      LegRange& range = goal_.ranges[r];
+      range.surround(low, high);
+      y.segment(n + first_[r], groups_of(range)) = range.low.head(groups_of(range));
     }
     y[n + groups_] = index;
   }
 
-  double room(std::size_t r) const { return goal_.ranges[r].logarithm ? std::log(limits_[r].high) : 1.0; }
+  /// How many ends a range has among the variables: all legs may have one.
+  static Eigen::Index groups_of(const LegRange& range) { return range.each_leg ? 9 : 1; }
 
   void set_sizes() {
     pose_->set_design(variables_);
-    for (std::size_t r = 0; r < limits_.size(); ++r)
-      if (limits_[r].name == "stroke")
-        goal_.ranges[r].size = limits_[r].high * (goal_.ranges[r].in_zp ? pose_->zp() : 1.0);
+    for (LegRange& range : goal_.ranges) range.set_zp(pose_->zp());
   }
 
   void set(const Eigen::VectorXd& y) {
     const Eigen::Index n = coordinates_.size();
     variables_ = coordinates_.variables(y.head(n));
     set_sizes();
-    for (std::size_t r = 0; r < limits_.size(); ++r)
-      for (Eigen::Index leg = 0; leg < 9; ++leg) {
-        goal_.ranges[r].low[leg] = y[n + first_[r] + (each_[r] ? leg : 0)];
-        goal_.ranges[r].high[leg] = goal_.ranges[r].low[leg] + room(r);
-      }
+    for (std::size_t r = 0; r < goal_.ranges.size(); ++r) {
+      LegRange& range = goal_.ranges[r];
+      for (Eigen::Index leg = 0; leg < 9; ++leg) range.low[leg] = y[n + first_[r] + (range.each_leg ? leg : 0)];
+      range.high = range.low + Vec9::Constant(range.width());
+    }
     goal_.log_index = y[n + groups_];
   }
 
@@ -155,9 +141,10 @@ class PlacedProgram {
         auto g = out.c_gradient.row(c);
         for (Eigen::Index v = 0; v < n; ++v)
           g[v] = slopes[v] * some.by_variables(k, coordinates_.variable(static_cast<int>(v)));
-        for (std::size_t r = 0; r < limits_.size(); ++r)
+        for (std::size_t r = 0; r < goal_.ranges.size(); ++r)
           for (Eigen::Index leg = 0; leg < 9; ++leg)
-            g[n + first_[r] + (each_[r] ? leg : 0)] += some.by_ranges(k, 9 * static_cast<Eigen::Index>(r) + leg);
+            g[n + first_[r] + (goal_.ranges[r].each_leg ? leg : 0)] +=
+                some.by_ranges(k, 9 * static_cast<Eigen::Index>(r) + leg);
         g[n + groups_] = some.by_index[k];
       }
     out.c[c] = -coordinates_.order_margin(y.head(n));
@@ -181,9 +168,7 @@ class PlacedProgram {
   std::vector<Vec3> shifts_;
   Eigen::VectorXd variables_;
   PlacementGoal goal_;
-  std::vector<Limit> limits_;  // of each range
-  std::vector<Eigen::Index> first_;
-  std::vector<bool> each_;
+  std::vector<Eigen::Index> first_;  // end of each range among the variables
   Eigen::Index groups_ = 0;
   std::unique_ptr<PlacedPose> pose_;
   PlacedDesign best_;

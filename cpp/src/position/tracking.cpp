@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "math/numbers.hpp"
+#include "ninedof/math/control.hpp"
 #include "ninedof/robot/legs.hpp"
 #include "position/length_unit.hpp"
 #include "position/path_bounds.hpp"
@@ -306,12 +307,14 @@ Tracked track(const Geometry& g, const Vec9& leg_lengths, const Configuration& s
   return Tracker(g)(leg_lengths, start);
 }
 
-std::vector<Tracked> track(const Geometry& g, std::span<const Vec9> leg_lengths, const Configuration& start) {
+std::vector<Tracked> track(const Geometry& g, std::span<const Vec9> leg_lengths, const Configuration& start,
+                           const std::stop_token& stop) {
   const Tracker step(g);
   std::vector<Tracked> out;
   out.reserve(leg_lengths.size());
   Configuration at = start;
   for (const Vec9& lengths : leg_lengths) {
+    if (stop.stop_requested()) throw Stopped{};
     const bool stopped = !out.empty() && out.back().status != TrackStatus::tracked;
     out.push_back(stopped ? Tracked::not_tried() : step(lengths, at));
     at = out.back().configuration;

@@ -1,6 +1,8 @@
 #include "ninedof/redundancy/redundancy_path.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 
 #include "math/numbers.hpp"
@@ -12,6 +14,9 @@ namespace ninedof {
 namespace {
 
 constexpr std::size_t most_choices = 8;  // local minima a pose may be in
+constexpr std::array<std::size_t, 3> round_counts{3, 5, 9};  // of a closed path
+constexpr double meeting = 1e-6;     // distance of the two ends of a round, in parts of the largest coordinate of O
+constexpr double same_pose = 1e-12;  // difference of the first and the last pose of a closed path
 
 /// A pose of the path with its local minima; none where it allows no point.
 struct PathPose {
@@ -143,13 +148,10 @@ void minimize_segment(std::span<const PathPose> path_poses, double coupling, con
   }
 }
 
-}  // namespace
-
-std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const PlatformPose> poses,
-                                              const InternalPointProblem& problem, double smoothness,
-                                              const std::optional<Vec3>& start, const Control& control) {
-  validate(problem);
-  require_positive("smoothness", smoothness);
+/// The path with both ends free.
+std::vector<InternalPoint> open_path(const Geometry& g, std::span<const PlatformPose> poses,
+                                     const InternalPointProblem& problem, double smoothness,
+                                     const std::optional<Vec3>& start, const Control& control) {
   std::vector<InternalPoint> out(poses.size());
   std::vector<PathPose> path_poses;
   ChamberTracker chamber(start);
@@ -180,6 +182,55 @@ std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const
     k = std::max(end, k + 1);
   }
   return out;
+}
+
+/// A closed path: the middle one of several rounds. The effect of the free ends fades from round to round, faster for a
+/// small smoothness. Rounds are added until the ends of the middle one meet.
+std::vector<InternalPoint> closed_path(const Geometry& g, std::span<const PlatformPose> poses,
+                                       const InternalPointProblem& problem, double smoothness,
+                                       const std::optional<Vec3>& start, const Control& control) {
+  const std::size_t count = poses.size() - 1;
+  std::vector<InternalPoint> out;
+  for (const std::size_t rounds : round_counts) {
+    std::vector<PlatformPose> around;
+    for (std::size_t round = 0; round < rounds; ++round) around.insert(around.end(), poses.begin(), poses.end() - 1);
+    // open_path scales the moves of O by (poses - 1) poses; for one round this is to be count^2.
+    const auto one = static_cast<double>(count), all = static_cast<double>(around.size());
+    const double weight = smoothness * (one / (all - 1.0)) * (one / all);
+    const std::vector<InternalPoint> found = open_path(g, around, problem, weight, start, control);
+    const auto begin = found.begin() + static_cast<std::ptrdiff_t>(rounds / 2 * count);
+    const Vec3 gap = begin[static_cast<std::ptrdiff_t>(count)].s - begin->s;
+    out.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    out.push_back(out.front());
+    double largest = 0.0;
+    for (const InternalPoint& point : found)
+      if (!point.s.hasNaN()) largest = std::max(largest, point.s.cwiseAbs().maxCoeff());
+    if (!(gap.cwiseAbs().array() > meeting * largest).any()) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_closed(std::span<const PlatformPose> poses) {
+  if (poses.size() < 4) return false;
+  double largest = 0.0;
+  for (const PlatformPose& pose : poses)
+    for (const double x : pose.position) largest = std::max(largest, std::abs(x));  // NaN does not count
+  const PlatformPose &first = poses.front(), &last = poses.back();
+  const auto moved = [&](const PlatformPose& pose) {
+    return pose.position != first.position || pose.rotation != first.rotation;
+  };
+  return ((last.position - first.position).cwiseAbs().array() <= same_pose * largest).all() &&
+         ((last.rotation - first.rotation).cwiseAbs().array() <= same_pose).all() && std::ranges::any_of(poses, moved);
+}
+
+std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const PlatformPose> poses,
+                                              const InternalPointProblem& problem, double smoothness,
+                                              const std::optional<Vec3>& start, const Control& control) {
+  validate(problem);
+  require_positive("smoothness", smoothness);
+  return (is_closed(poses) ? closed_path : open_path)(g, poses, problem, smoothness, start, control);
 }
 
 }  // namespace ninedof

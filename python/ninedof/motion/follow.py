@@ -7,25 +7,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
-from ninedof.conditioning.conditioning import condition_number
-from ninedof.kinematics.acceleration import inverse_acceleration
-from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.kinematics.velocity import inverse_velocity
-from ninedof.motion.derivatives import angular_derivatives, derivatives, stencils
 from ninedof.motion.followed import Followed
-from ninedof.motion.internal_point import internal_points, rule_argument
 from ninedof.motion.trajectory import Trajectory, trajectory_argument
-from ninedof.position.tracking import TrackStatus, track
+from ninedof.redundancy.rules import RULES
 from ninedof.redundancy.search_arguments import leg_limits
-from ninedof.robot.configuration import Configuration, single
+from ninedof.robot.configuration import Configuration, operands_with, single
 from ninedof.robot.geometry import Geometry
-from ninedof.singularity.singularity import singularity_margins
-from ninedof.statics.statics import leg_forces
+from ninedof.singularity.singularity import SingularityMargins
+from ninedof.support.arguments import choice, finite
 from ninedof.support.arrays import Floats, as_number
 from ninedof.support.units import unit_argument
-
-SAME = 1e-9  # difference of a pose tracked back
 
 
 def follow(
@@ -93,63 +86,47 @@ def follow(
 
     """
     trajectory_argument(trajectory)
-    single(geometry, home, "home")
+    home_arrays = single(geometry, home, "home")
     rule, bounds = rule_argument(internal_point), leg_limits(limits)
-    for low, high in zip(*bounds, strict=True):
-        if not 0.0 <= low <= high:
-            raise ValueError(f"limits: got {low:g} to {high:g}, expected 0 <= low <= high")
     length = characteristic_length
     lc = (
         float(length_of(geometry, home, length))
         if isinstance(length, str)
         else as_number("characteristic_length", length)
     )
-    s = internal_points(geometry, trajectory, home, rule, lc, bounds)
-    c = Configuration(trajectory.position, trajectory.rotation, s)
-    at = stencils(trajectory.time)
-    moving = [angular_derivatives(at, c.rotation), derivatives(at, c.position), derivatives(at, s)]
-    velocity, acceleration = ([pair[k] for pair in moving] for k in (0, 1))
-    lengths = leg_lengths(geometry, c)
-    returned, error = _tracked_back(geometry, c, lengths)
+    time, p, q = trajectory.time, trajectory.position, trajectory.rotation
+    loads = _loads(geometry, Configuration(p, q, p), force, moment)
+    found = _core.follow(*home_arrays, time, p, q, rule, bounds, lc, loads)
+    tracked, margins, forces = found.pop("tracked"), found.pop("singularity_margins"), found.pop("leg_forces")
     return Followed(
         geometry=geometry,
         trajectory=trajectory,
-        configurations=c,
+        configurations=Configuration(p, q, found.pop("internal_point")),
         internal_point=rule,
-        leg_lengths=lengths,
-        leg_rates=inverse_velocity(geometry, c, *velocity),
-        leg_accelerations=inverse_acceleration(geometry, c, *velocity, *acceleration),
-        velocity=np.concatenate(velocity, axis=1),
-        acceleration=np.concatenate(acceleration, axis=1),
         characteristic_length=lc,
-        condition_number=condition_number(geometry, c, lc),
-        singularity_margins=singularity_margins(geometry, c),
+        singularity_margins=SingularityMargins(*margins),
         limits=bounds,
-        leg_forces=_forces(geometry, c, force, moment),
-        tracked=returned == len(trajectory),
-        tracked_until=float(trajectory.time[returned - 1]),
-        tracking_error=error,
+        leg_forces=forces if len(loads) else None,
+        tracked=tracked == len(trajectory),
+        tracked_until=float(time[tracked - 1]),
         unit=unit_argument(unit),
+        **found,
     )
 
 
-def _forces(geometry: Geometry, c: Configuration, force: Any, moment: Any) -> Floats | None:
+def rule_argument(rule: Any) -> str | float:
+    """Return a rule for O: one of RULES or a fraction."""
+    return choice("internal_point", rule, RULES) if isinstance(rule, str) else finite("internal_point", rule)
+
+
+def _loads(geometry: Geometry, poses: Configuration, force: Any, moment: Any) -> Floats:
+    """Return moment and force at each pose, shape (n, 6); no rows without a load."""
     if force is None and moment is None:
-        return None
-    zero = np.zeros(3)
-    return leg_forces(geometry, c, zero if moment is None else moment, zero if force is None else force).forces
-
-
-def _tracked_back(geometry: Geometry, c: Configuration, lengths: Floats) -> tuple[int, float]:
-    """Return how many poses from the first on `track` returns, and the largest difference of a pose it reached."""
-    found = track(geometry, lengths[1:], c[0])
-    unit = float(lengths.max())
-    differences = (
-        np.abs(found.position - c.position[1:]).max(axis=1) / unit,
-        np.abs(found.rotation - c.rotation[1:]).max(axis=(1, 2)),
-        np.abs(found.internal_point - c.internal_point[1:]).max(axis=1) / unit,
-    )
-    error = np.max(differences, axis=0)
-    wrong = np.flatnonzero((found.status != TrackStatus.TRACKED) | ~(error <= SAME))
-    reached = error[~np.isnan(error)]
-    return int(wrong[0]) + 1 if len(wrong) else len(lengths), float(reached.max(initial=0.0))
+        return np.empty((0, 6))
+    moment, force = (np.zeros(3) if value is None else value for value in (moment, force))
+    shape, _, load = operands_with(geometry, poses, moment=(moment, 3), force=(force, 3))
+    if shape != poses.shape:
+        raise ValueError(
+            f"force, moment: got stacks of shape {shape}, expected one load for each of {len(poses)} poses"
+        )
+    return np.concatenate(load, axis=1)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.motion.trajectory import Trajectory
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
@@ -17,7 +18,7 @@ from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
-from ninedof.support.margins import TOLERANCE, margin_of
+from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
 
@@ -89,31 +90,14 @@ class Followed(Saved):
     @property
     def leg_margins(self) -> Floats:
         """What each leg leaves of its nearer limit, in parts of it, shape (n, 9); infinite without limits."""
-        found: Floats = np.minimum(*self._margins)
-        return found
-
-    @property
-    def _margins(self) -> tuple[Floats, Floats]:
-        """Those of the least and of the greatest lengths."""
-        sides = zip(("min", "max"), self.limits, strict=True)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            every = [margin_of("length", side, limit, self.leg_lengths) for side, limit in sides]
-        low, high = (
-            np.where((limit > 0.0) & np.isfinite(limit), margin, np.inf)
-            for limit, margin in zip(self.limits, every, strict=True)
-        )
-        return low, high
+        return _core.leg_margins(self.leg_lengths, *self.limits)
 
     @cached_property
     def breaks(self) -> tuple[LimitBreak, ...]:
         """Stretches of time in which a leg passes its limit (by more than 1e-6 of it), and singularities passed."""
-        found: list[LimitBreak] = []
-        for k, leg in enumerate(LEGS):
-            for side, margins in zip(("low", "high"), self._margins, strict=True):
-                found += stretches(f"{leg} {side}", self.time, self.leg_lengths[:, k], margins[:, k])
-        for name, word in DETERMINANTS.items():
-            found += _crossings(word, self.time, getattr(self.singularity_margins, name))
-        return tuple(sorted(found, key=lambda broken: (broken.begin, broken.limit)))
+        determinants = np.stack(self.singularity_margins)
+        entries = _core.limit_breaks(self.time, self.leg_lengths, *self.limits, determinants)
+        return tuple(LimitBreak(*entry) for entry in entries)
 
     @property
     def idle_legs(self) -> tuple[str, ...]:
@@ -204,28 +188,4 @@ def stretches(
     name: str, time: Floats, values: Floats, margin: Floats, tolerance: float = TOLERANCE
 ) -> list[LimitBreak]:
     """Return the stretches of a margin that is negative beyond the tolerance."""
-    outside = np.concatenate([[False], margin < -tolerance, [False]])
-    found = []
-    for first, after in np.flatnonzero(np.diff(outside)).reshape(-1, 2).tolist():
-        worst = first + int(np.argmin(margin[first:after]))
-        begin = time[first] if first == 0 else _zero(time, margin, first - 1)
-        end = time[-1] if after == len(time) else _zero(time, margin, after - 1)
-        found.append(LimitBreak(name, float(begin), float(end), float(values[worst]), float(time[worst])))
-    return found
-
-
-def _crossings(name: str, time: Floats, determinant: Floats) -> list[LimitBreak]:
-    """Return the changes of sign; a pose with a determinant of 0 is one too."""
-    found = []
-    for k in np.flatnonzero(determinant == 0.0).tolist():
-        found.append(LimitBreak(name, float(time[k]), float(time[k]), 0.0, float(time[k])))
-    for k in np.flatnonzero(determinant[1:] * determinant[:-1] < 0.0).tolist():
-        at = _zero(time, determinant, k)
-        found.append(LimitBreak(name, at, at, 0.0, at))
-    return found
-
-
-def _zero(time: Floats, values: Floats, k: int) -> float:
-    """Return where the line between samples k and k + 1 is zero."""
-    share = min(1.0, max(0.0, values[k] / (values[k] - values[k + 1])))
-    return float(time[k] + share * (time[k + 1] - time[k]))
+    return [LimitBreak(*entry) for entry in _core.stretches(name, time, values, margin, tolerance)]

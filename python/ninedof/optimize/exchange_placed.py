@@ -21,7 +21,6 @@ from ninedof.design.pose import Pose
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.exchange import DENSE, MOST_ROUNDS, NEAR, QUICK, SAME, At, Solve, first_poses, optimize_region
-from ninedof.optimize.leg_ranges import Range, common_range, leg_ranges
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import PASSED, RegionReport, posed
 from ninedof.optimize.result import Candidate, Result, Status
@@ -121,13 +120,15 @@ class _Program:
         ]
         return sorted(ends, key=lambda d: d.log_objective)
 
-    def ranges(self, ruling: Sequence[Place], design: Design) -> tuple[Range, ...]:
-        return leg_ranges(self.study, self._lengths(ruling, design), design.x[self.height])
+    def common_range(self, ruling: Sequence[Place], design: Design) -> tuple[tuple[float, float], ...]:
+        """Return the least and greatest length of each leg that all limits allow; nothing if none compares poses."""
+        zp = design.x[self.height]
+        return tuple(_core.common_range(self.plain, zp, self._lengths(ruling, design), *leg_limits_of(self.study, zp)))
 
     def look(self, ruling: Sequence[Place], design: Design, samples: int, seed: int, passed: float) -> Look:
         """Search the region for where a design is worst although O is placed."""
         known = self.placed(ruling, design)
-        ranges = self.ranges(ruling, design)
+        ranges = _core.leg_ranges(self.plain, design.x[self.height], self._lengths(ruling, design))
         region = self.region.for_core()
         found = self.pieces.plain(
             lambda: _core.search_region_placed(
@@ -330,7 +331,6 @@ def _finished(program: _Program, state: _State) -> Result:
         reached=state.reached,
     )
     worst_at = program.pose(*look.objective_at, zp=design.x[program.height])
-    zp = design.x[program.height]
     report = RegionReport(
         tuple(program.pose(at) for at, _ in ruling),
         state.rounds,
@@ -339,7 +339,7 @@ def _finished(program: _Program, state: _State) -> Result:
         worst_at,
         look.margin,
         look.limit,
-        leg_ranges=common_range(program.ranges(state.imposed, design), *leg_limits_of(program.study, zp)),
+        leg_ranges=program.common_range(state.imposed, design),
     )
     abandoned = max(program.study.starts - state.tried, 0)
     return replace(

@@ -38,9 +38,6 @@ class InternalPointStatus(StrEnum):
     """The pose has NaN."""
 
 
-ROUNDS = (3, 5, 9)  # of a closed path
-MEETING = 1e-6  # distance of the two ends of a round, over the largest coordinate of O
-
 STATUSES = np.array([InternalPointStatus(word) for word in _core.internal_point_statuses], dtype=object)
 
 
@@ -210,43 +207,7 @@ def best_internal_path(
         first = as_floats("start", start, (3,))
         if first.ndim != 1:
             raise ValueError(f"start: got shape {first.shape}, expected shape (3,)")
-    if _is_closed(p, q):
-        return InternalPoint(**point_fields(shape, p, q, _closed_path(geometry, p, q, first, problem, weight)))
     return InternalPoint(**point_fields(shape, p, q, _core.best_internal_path(geometry, p, q, first, problem, weight)))
-
-
-def _is_closed(p: Floats, q: Floats) -> bool:
-    """Return whether the last pose is the first and another lies between them."""
-    if len(p) < 4:
-        return False
-    near = 1e-12 * float(np.nanmax(np.abs(p), initial=0.0))
-    meets = (np.abs(p[-1] - p[0]) <= near).all() and (np.abs(q[-1] - q[0]) <= 1e-12).all()
-    return bool(meets and ((p != p[0]).any() or (q != q[0]).any()))
-
-
-def _closed_path(
-    geometry: Geometry, p: Floats, q: Floats, first: Floats, problem: dict[str, Any], smoothness: float
-) -> dict[str, Any]:
-    """Return the columns of a closed path: the middle one of several rounds.
-
-    The core leaves both ends free. Their effect fades from round to round, faster for a small smoothness. Rounds are
-    added until the ends of the middle one meet.
-    """
-    count = len(p) - 1
-    for rounds in ROUNDS:
-        poses = rounds * count
-        # The core scales the moves of O by (poses - 1) poses; for one round this is to be count^2.
-        weight = smoothness * (count / (poses - 1)) * (count / poses)
-        around_p, around_q = (np.concatenate([rows[:-1]] * rounds) for rows in (p, q))
-        found = _core.best_internal_path(geometry, around_p, around_q, first, problem, weight)
-        begin = rounds // 2 * count
-        s = found["internal_point"]
-        gap = np.abs(s[begin + count] - s[begin])
-        if not (gap > MEETING * float(np.nanmax(np.abs(s), initial=0.0))).any():
-            break
-    pick = np.r_[begin : begin + count, begin]
-    columns = ("internal_point", "value", "status", "active")
-    return found | {name: np.ascontiguousarray(found[name][pick]) for name in columns}
 
 
 def point_fields(shape: tuple[int, ...], p: Floats, q: Floats, found: dict[str, Any]) -> dict[str, Any]:

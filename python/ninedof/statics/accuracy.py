@@ -14,7 +14,6 @@ from ninedof.support.arguments import whole
 from ninedof.support.arrays import Floats, one_or_each, thread_argument
 from ninedof.support.short import short_repr
 
-CHUNK = 20_000  # samples per call of the core, some hundredths of a second: Ctrl-C is checked between chunks
 MOST_SAMPLES = 10_000_000  # 720 MB of errors
 
 
@@ -169,11 +168,7 @@ def error_samples(
     shape, flat, tolerances = _with_tolerances(geometry, configuration, leg_errors, joint_errors)
     if shape:
         raise ValueError(f"leg_errors, joint_errors: got a stack of shape {shape}, expected those of one robot")
-    out = np.empty((count, 9))
-    for first in range(0, count, CHUNK):  # Ctrl-C is checked between chunks
-        size = min(CHUNK, count - first)
-        out[first : first + size] = _core.error_samples(*flat, tolerances, first, size, key, workers)
-    return out
+    return _core.error_samples(*flat, tolerances, count, key, workers)
 
 
 def _with_tolerances(

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-TOLERANCE = 1e-6
+from ninedof import _core
+
+TOLERANCE: float = _core.margin_tolerance
 """A limit that is passed by no more is kept, as for `certify`: between the poses that were looked at, a design of the
 optimizer passes its limits by up to 1e-7."""
 MOST = 1e4  # per cent: from here on the number itself says little

@@ -91,6 +91,28 @@ TEST_SUITE("redundancy") {
     CHECK(refuses("smoothness", [&] { best_internal_path(published, one, problem, 0.0); }));
   }
 
+  TEST_CASE("a closed path ends where it begins, and does not depend on where that is") {
+    // A third of a turn further on the robot is the same, and so is its size, the unit of the smoothness.
+    const auto loop = [](int first) {
+      std::vector<ninedof::PlatformPose> poses;
+      for (int k = 0; k <= 12; ++k) {
+        const double angle = 2.0 * pi * ((first + k) % 12) / 12.0;
+        poses.push_back({Vec3(0.6 * std::cos(angle), 0.6 * std::sin(angle), 4.0), Mat3::Identity()});
+      }
+      return poses;
+    };
+    const auto path = best_internal_path(published, loop(0), {}, 0.1),
+               later = best_internal_path(published, loop(4), {}, 0.1);
+    CHECK((path.front().s == path.back().s && path.front().value == path.back().value));
+    for (std::size_t k = 0; k < 12; ++k) CHECK((later[k].s - path[(k + 4) % 12].s).norm() < 1e-5);
+    std::vector<ninedof::PlatformPose> poses = loop(0);
+    CHECK(is_closed(poses));
+    poses.back().position.x() += 1e-11;
+    CHECK_FALSE(is_closed(poses));
+    CHECK_FALSE(is_closed(std::vector<ninedof::PlatformPose>(12, poses.front())));
+    CHECK_FALSE(is_closed(std::vector{poses[0], poses[1], poses[0]}));
+  }
+
   TEST_CASE("a stop ends a path during the searches and during the descent") {
     const std::vector<ninedof::PlatformPose> poses(40, {{0.4, -0.2, 3.9}, Mat3::Identity()});
     for (const long last : {3L, 40L}) {

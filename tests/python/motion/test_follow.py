@@ -7,8 +7,6 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.motion.derivatives import angular_derivatives, derivatives, stencils
-from ninedof.motion.internal_point import cubic_spline
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors, to_quaternions, vectors_between
 
 HOME = nd.Configuration.neutral(3.9828, 2.4432)
@@ -44,22 +42,12 @@ def test_rates_are_those_of_the_lengths(published, rule, seed):
     assert found.tracked_until == time[-1]
 
 
-def test_derivatives_are_exact_for_polynomials():
-    time = uneven(12, 0)
-    powers = time[:, None] ** np.arange(5)
-    coefficients = np.random.default_rng(1).normal(size=(5, 3))
-    at = stencils(time)
-    first, second = derivatives(at, powers @ coefficients)
-    k = np.arange(5)
-    assert first == pytest.approx((k[1:] * powers[:, :-1]) @ coefficients[1:], abs=1e-10)
-    assert second == pytest.approx((k[2:] * k[1:-1] * powers[:, :-2]) @ coefficients[2:], abs=1e-8)
-
-
-def test_angular_derivatives_at_a_constant_spin():
+def test_angular_velocity_of_a_constant_spin(published):
     time, spin = np.linspace(0.0, 20.0, 2001), np.array([0.3, -0.5, 0.8])
-    omega, alpha = angular_derivatives(stencils(time), Rotation.from_rotvec(np.outer(time, spin)).as_matrix())
-    assert omega == pytest.approx(np.tile(spin, (2001, 1)), abs=1e-10)
-    assert np.abs(alpha).max() < 1e-8
+    turning = Rotation.from_rotvec(np.outer(time, spin))
+    found = nd.follow(published, nd.Trajectory(time, np.tile(HOME.position, (2001, 1)), turning), HOME)
+    assert found.velocity[:, :3] == pytest.approx(np.tile(spin, (2001, 1)), abs=1e-10)
+    assert np.abs(found.acceleration[:, :3]).max() < 1e-8
 
 
 def test_rotations_agree_with_scipy():
@@ -73,17 +61,6 @@ def test_rotations_agree_with_scipy():
     assert from_euler(*a.T) == pytest.approx(Rotation.from_euler("ZYX", a).as_matrix(), abs=1e-14)
     between = vectors_between(q[:-1], q[1:])
     assert between == pytest.approx((r[1:] * r[:-1].inv()).as_rotvec(), abs=1e-12)
-
-
-@pytest.mark.parametrize("periodic", [False, True])
-def test_cubic_splines_agree_with_scipy(periodic):
-    x = uneven(20, 4)
-    y = np.stack([np.sin(np.pi * x), np.cos(np.pi * x) + 0.3 * np.sin(2 * np.pi * x)], axis=1)
-    if periodic:
-        y[-1] = y[0]
-    at = np.linspace(0.0, x[-1], 333)
-    oracle = CubicSpline(x, y, bc_type="periodic" if periodic else "not-a-knot")(at)
-    assert cubic_spline(x, y, at, periodic) == pytest.approx(oracle, abs=1e-12)
 
 
 def test_the_best_path_on_a_circle_closes(published):
@@ -186,9 +163,8 @@ def test_bad_arguments(published):
         nd.follow(published, line, HOME, "best", limits=(0.0, 3.0))
 
 
-def test_the_best_o_is_interpolated_between_the_poses_searched(published, monkeypatch):
-    monkeypatch.setattr("ninedof.motion.internal_point.MOST_SEARCHED", 31)
-    circle = nd.Trajectory.circle(HOME, 0.8, points=91)
+def test_the_best_o_is_interpolated_between_the_poses_searched(published):
+    circle = nd.Trajectory.circle(HOME, 0.8, points=601)  # every third is searched, 201
     found = nd.follow(published, circle, HOME, "best")
     searched = nd.best_internal_path(published, circle.position[::3])
     assert found.condition_number[::3] == pytest.approx(searched.value, rel=1e-9)

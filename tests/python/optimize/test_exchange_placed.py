@@ -14,7 +14,6 @@ from sizes import LONG, size
 import ninedof as nd
 from ninedof import _core
 from ninedof.optimize import exchange_placed
-from ninedof.optimize.leg_ranges import common_range, leg_ranges
 from ninedof.runs.folder import load, write_run
 
 TURNS = nd.Study(
@@ -140,7 +139,7 @@ def placed(known, samples=1, threads=1):
     """Search the region for a design within ranges of lengths."""
     plain = nd.Study(variables=SIDES | {"theta_z": 0.0}).problem()
     lengths = np.asarray(nd.leg_lengths(G, nd.Configuration.neutral(2.0, 1.0))).reshape(1, 9)
-    ranges = leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}), lengths, 2.0)
+    ranges = _core.leg_ranges(nd.Study(constraints={"stroke_ratio": (None, 1.3)}).problem(), 2.0, lengths)
     x = [SIDES.get(name, 0.0) for name in plain.names]
     found = _core.search_region_placed(plain, REGION.for_core(), x, LEVEL, ranges, known, samples, 3, threads)
     return found, ranges
@@ -182,11 +181,12 @@ def test_o_is_placed_where_the_worst_is_least():
 def test_ranges_of_lengths_divide_what_a_limit_leaves():
     lengths = np.array([[1.0] * 9, [1.2] * 9])
     both = nd.Study(constraints={"stroke": {"max": 0.4}, "stroke_ratio": (None, 1.5), "leg_ratio": (None, 3.0)})
-    found = {name: (low[0], high[0]) for name, low, high, _ in leg_ranges(both, lengths, 1.0)}
+    found = {name: (low[0], high[0]) for name, low, high, _ in _core.leg_ranges(both.problem(), 1.0, lengths)}
     assert found["stroke"] == pytest.approx((0.9, 1.3))
     assert found["stroke_ratio"][1] / found["stroke_ratio"][0] == pytest.approx(1.5)
     assert np.prod(found["leg_ratio"]) == pytest.approx(1.2)
-    low, high = common_range(leg_ranges(both, lengths, 1.0), np.zeros(9), np.full(9, np.inf))[0]
+    open_ended = np.zeros(9), np.full(9, np.inf)
+    low, high = _core.common_range(both.problem(), 1.0, lengths, *open_ended)[0]
     assert low == pytest.approx(max(a for a, _ in found.values()))
     assert high == pytest.approx(min(b for _, b in found.values()))
-    assert common_range((), np.zeros(9), np.full(9, np.inf)) == ()
+    assert _core.common_range(nd.Study().problem(), 1.0, lengths, *open_ended) == []

@@ -46,6 +46,7 @@ LONG = {
     "Configuration": "for_ever(lambda: nd.Configuration.neutral(3.9, np.linspace(2.0, 3.0, 3_000_000)))",
     "nearest_singularity": "nd.nearest_singularity(g, many[:100_000])",
     "moved": "for_ever(lambda: many.moved(np.zeros(9)))",
+    "follow": "nd.follow(g, nd.Trajectory.circle(many[0], 0.5, points=3_000_000), many[0])",
     "trace": "for_ever(lambda: nd.trace(study, dict(zip(study.variables, study.problem().starts(1, 0)[0]))))",
 }
 

@@ -23,6 +23,7 @@ CPP_ROOMS = (
     "domains",
     "sheet",
     "redundancy",
+    "motion",
     "problem",
     "proof",
     "optimize",
@@ -85,6 +86,7 @@ CORE_USERS = {
     "singularity",
     "statics",
     "redundancy",
+    "motion",
     "design",
     "sheet",
 } | {

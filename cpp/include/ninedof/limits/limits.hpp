@@ -10,6 +10,10 @@
 
 namespace ninedof {
 
+/// A limit that is passed by no more than this part of it counts as kept: between the poses that were looked at, a
+/// design of the optimizer passes its limits by up to 1e-7.
+inline constexpr double margin_tolerance = 1e-6;
+
 /// What the limits of a constraint measure.
 enum class LimitKind {
   ratio,

@@ -1,27 +1,14 @@
 #pragma once
 /// A design over a region of poses with O placed anew at every pose.
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "ninedof/optimize/leg_range.hpp"
 #include "ninedof/optimize/region_search.hpp"
 
 namespace ninedof {
-
-/// The range in which a limit that compares poses lets each leg be at every pose: of its length in parts of `size`, or
-/// of the logarithm of that.
-struct LegRange {
-  std::string limit;
-  Vec9 low, high;
-  double size = 1.0;
-  bool logarithm = true;
-  bool in_zp = false;  ///< whether the size is proportional to zp
-
-  /// A length as the range measures it.
-  double measured(double length) const { return logarithm ? std::log(length / size) : length / size; }
-};
 
 /// What the placing of O has to reach at every pose.
 struct PlacementGoal {

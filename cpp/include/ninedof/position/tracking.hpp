@@ -2,6 +2,7 @@
 /// Direct position analysis for control: follows the assembly mode of a known configuration (docs/theory/position.md).
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "ninedof/math/types.hpp"
@@ -63,7 +64,9 @@ class Tracker {
 };
 
 /// One step, or a sequence in which each step starts from the one before. Steps after the first failure are not tried.
+/// The sequence throws Stopped on a stop.
 Tracked track(const Geometry& g, const Vec9& leg_lengths, const Configuration& start);
-std::vector<Tracked> track(const Geometry& g, std::span<const Vec9> leg_lengths, const Configuration& start);
+std::vector<Tracked> track(const Geometry& g, std::span<const Vec9> leg_lengths, const Configuration& start,
+                           const std::stop_token& stop = {});
 
 }  // namespace ninedof

@@ -15,6 +15,10 @@ struct PlatformPose {
   Mat3 rotation;
 };
 
+/// Whether the last pose is the first (to 1e-12, lengths in parts of the largest coordinate) and another lies between
+/// them; of four poses at least.
+bool is_closed(std::span<const PlatformPose> poses);
+
 /// Minimises
 ///
 ///     mean of f(s_k) + smoothness (n - 1) sum |s_(k+1) - s_k|^2 / size^2
@@ -25,10 +29,11 @@ struct PlatformPose {
 ///
 /// Dynamic programming selects one local minimum at each pose for the whole path. Newton's method on the whole path,
 /// first with a smoothed criterion, then moves all points together. O stays in one chamber, that of `start` at the
-/// first pose. Poses that allow no point divide the path: on their two sides O is placed independently.
+/// first pose. Poses that allow no point divide the path: on their two sides O is placed independently. On a closed
+/// path both ends have the same O and value, and the sum has the move from the last pose but one to the first.
 ///
-/// Reports the poses searched. Throws InvalidArgument as best_internal_point does, and unless the smoothness is finite
-/// and positive; Stopped on a stop.
+/// Reports the poses searched, for a closed path anew in each of its attempts. Throws InvalidArgument as
+/// best_internal_point does, and unless the smoothness is finite and positive; Stopped on a stop.
 std::vector<InternalPoint> best_internal_path(const Geometry& g, std::span<const PlatformPose> poses,
                                               const InternalPointProblem& problem, double smoothness,
                                               const std::optional<Vec3>& start = {}, const Control& control = {});

@@ -1,0 +1,111 @@
+#include "support/motion.hpp"
+
+#include <pybind11/stl.h>
+
+#include "ninedof/motion/follow.hpp"
+#include "support/module.hpp"
+#include "support/poses.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// A word of RULES, or the fraction of "between".
+TrajectoryRule trajectory_rule_from(const py::object& rule) {
+  using enum TrajectoryRule::Kind;
+  if (!py::isinstance<py::str>(rule)) return {between, rule.cast<double>()};
+  const auto word = rule.cast<std::string>();
+  for (const auto& [name, kind] :
+       {std::pair("carried", carried), std::pair("shifted", shifted), std::pair("held", held), std::pair("best", best)})
+    if (word == name) return {kind};
+  throw InvalidArgument("internal_point", "\"" + word + "\"",
+                        "\"carried\", \"shifted\", \"held\", \"best\" or a fraction");
+}
+
+LegLimits limits_from(const Array& low, const Array& high) {
+  return {Eigen::Map<const Vec9>(rows("low", low, 1, 9)), Eigen::Map<const Vec9>(rows("high", high, 1, 9))};
+}
+
+std::span<const double> span_of(const Array& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+/// One row of `columns` numbers for each entry.
+template <class T>
+Array table(const std::vector<T>& entries, py::ssize_t columns) {
+  Array out({static_cast<py::ssize_t>(entries.size()), columns});
+  double* to = out.mutable_data();
+  for (const T& entry : entries) to = write(entry, to);
+  return out;
+}
+
+/// det N, det B, det C as three rows, shape (3, n).
+Array rows_from(const std::vector<PerMechanism>& determinants) {
+  Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(determinants.size()));
+  for (Eigen::Index k = 0; k < out.cols(); ++k) {
+    const PerMechanism& d = determinants[static_cast<std::size_t>(k)];
+    out.col(k) << d.n, d.b, d.c;
+  }
+  return array_from(out);
+}
+
+/// (limit, begin, end, worst, at)
+py::list tuples_of(const std::vector<LimitBreak>& breaks) {
+  py::list out;
+  for (const LimitBreak& b : breaks) out.append(py::make_tuple(b.limit, b.begin, b.end, b.worst, b.at));
+  return out;
+}
+
+/// Loads: moment and force for each pose, shape (n, 6); no rows for none.
+py::dict followed(const Geometry& g, const Array& home_p, const Array& home_q, const Array& home_s, const Array& time,
+                  const Array& position, const Array& rotation, const py::object& rule,
+                  const std::pair<Array, Array>& limits, double characteristic_length, const Array& loads) {
+  const Trajectory trajectory{{time.data(), time.data() + time.size()}, poses_from(position, rotation)};
+  const Configuration home = ConfigurationStack(home_p, home_q, home_s)[0];
+  FollowSettings settings{
+      trajectory_rule_from(rule), limits_from(limits.first, limits.second), characteristic_length, {}};
+  for (const double* row = loads.data(); row != loads.data() + loads.size(); row += 6)
+    settings.loads.push_back({Eigen::Map<const Vec3>(row), Eigen::Map<const Vec3>(row + 3)});
+  const Followed found =
+      interruptible(py::none(), [&](const Control& control) { return follow(g, trajectory, home, settings, control); });
+  py::dict out;
+  out["internal_point"] = table(found.internal_point, 3);
+  out["leg_lengths"] = table(found.leg_lengths, 9);
+  out["leg_rates"] = table(found.leg_rates, 9);
+  out["leg_accelerations"] = table(found.leg_accelerations, 9);
+  out["velocity"] = table(found.derivatives.velocity, 9);
+  out["acceleration"] = table(found.derivatives.acceleration, 9);
+  out["condition_number"] = array_from(Eigen::VectorXd::Map(found.condition_number.data(), time.size()));
+  out["singularity_margins"] = rows_from(found.singularity_margins);
+  out["leg_forces"] = table(found.leg_forces, 9);
+  out["tracked"] = found.tracked;
+  out["tracking_error"] = found.tracking_error;
+  return out;
+}
+
+}  // namespace
+
+void bind_motion(py::module_& m) {
+  m.def("follow", &followed);
+  m.def("leg_margins", [](const Array& lengths, const Array& low, const Array& high) {
+    const LegLimits limits = limits_from(low, high);
+    std::vector<Vec9> out;
+    for (const Vec9& row : lengths_from(lengths)) {
+      const LegMargins margins = leg_margins(row, limits);
+      out.push_back(margins.low.cwiseMin(margins.high));
+    }
+    return table(out, 9);
+  });
+  m.def("stretches",
+        [](const std::string& limit, const Array& time, const Array& values, const Array& margin, double tolerance) {
+          return tuples_of(stretches(limit, span_of(time), span_of(values), span_of(margin), tolerance));
+        });
+  m.def("limit_breaks",
+        [](const Array& time, const Array& lengths, const Array& low, const Array& high, const Array& determinants) {
+          std::vector<PerMechanism> margins;
+          for (py::ssize_t k = 0; k < determinants.shape(1); ++k)
+            margins.push_back({determinants.at(0, k), determinants.at(1, k), determinants.at(2, k)});
+          return tuples_of(limit_breaks(span_of(time), lengths_from(lengths), limits_from(low, high), margins));
+        });
+}
+
+}  // namespace ninedof::python
