@@ -6,6 +6,7 @@
 
 #include "ninedof/optimize/region_placement.hpp"
 #include "ninedof/optimize/trace.hpp"
+#include "optimize/placement_goal.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
@@ -112,19 +113,6 @@ py::dict worst_of_region(const Problem& problem, const py::dict& region, const s
   return out;
 }
 
-/// `ranges`: (limit, low, high, size) of the lengths of the nine legs; size 0 for a range of logarithms.
-PlacementGoal goal_from(const Problem& problem, double log_index, const py::sequence& ranges) {
-  PlacementGoal goal{log_index, {}};
-  for (const py::handle& range : ranges) {
-    const auto [limit, low, high, size] =
-        range.cast<std::tuple<std::string, std::array<double, 9>, std::array<double, 9>, double>>();
-    LegRange r{limit, Vec9::Map(low.data()), Vec9::Map(high.data()), size > 0.0 ? size : problem.unit(), !(size > 0.0)};
-    for (Vec9* end : {&r.low, &r.high}) *end = end->unaryExpr([&r](double length) { return r.measured(length); });
-    goal.ranges.push_back(std::move(r));
-  }
-  return goal;
-}
-
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
 py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
                            double log_index, const py::sequence& ranges,
@@ -147,30 +135,6 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
     Vec3::Map(moved.mutable_data(static_cast<py::ssize_t>(k), 0)) = found[k].placed.shift;
   }
   return py::make_tuple(near, moved);
-}
-
-/// Rows with O at given places, shape (n, r), the derivatives with respect to its shift in zp, shape (n, r, 3), and how
-/// many rows are of the index. `at`: coordinates in the region, shape (n, 6); `shift`: shape (n, 3).
-py::tuple rows_at_places(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                         const py::object& at, const py::object& shift, int threads) {
-  const Region r = region_from(region);
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const py::ssize_t count = py::len(at);
-  const Array poses = array_of_shape("at", at, {count, 6}), shifts = array_of_shape("shift", shift, {count, 3});
-  std::vector<Placed> places;
-  for (py::ssize_t k = 0; k < count; ++k)
-    places.push_back({r.nearest(Vec6::Map(poses.data(k, 0))), Vec3::Map(shifts.data(k, 0))});
-  const std::vector<PlacedRows> found = interruptible(
-      py::none(), [&](const Control& control) { return placed_rows(problem, r, variables, places, threads, control); });
-  const py::ssize_t rows = found.empty() ? 0 : found.front().value.size();
-  Array value({count, rows}), by_shift({count, rows, py::ssize_t{3}});
-  for (py::ssize_t k = 0; k < count; ++k) {
-    const PlacedRows& one = found[static_cast<std::size_t>(k)];
-    Eigen::VectorXd::Map(value.mutable_data(k, 0), rows) = one.value;
-    for (py::ssize_t row = 0; row < rows; ++row)
-      Vec3::Map(by_shift.mutable_data(k, row, 0)) = one.by_shift.row(row).transpose();
-  }
-  return py::make_tuple(value, by_shift, found.empty() ? 0 : found.front().of_index);
 }
 
 /// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
@@ -252,7 +216,6 @@ void bind_optimize(py::module_& m) {
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
   m.def("search_region_placed", &worst_with_placing);
-  m.def("placed_rows", &rows_at_places);
   m.def("optimize_placed", &placed_optima);
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {

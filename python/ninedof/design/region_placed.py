@@ -32,12 +32,9 @@ class Placing:
     def __call__(self, at: Floats) -> tuple[Configuration, tuple[Pose, ...]]:
         """Return the configurations and poses at given coordinates, shape (n, 6)."""
         region: Region = self.study.objective.region  # type: ignore[assignment]
-        plain = replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
-        x = [self.variables[name] for name in plain.names]
-        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
-        ranges = [("", low, high, 0.0)] if self.leg_ranges else []
+        plain = self.plain()
         near, shift = _core.place_in_region(
-            plain, region.for_core(), x, math.log(self.objective), ranges, self._known(), at, 0
+            plain, region.for_core(), self.values(plain), *self.goal(), self.known(), at, 0
         )
         there = configurations_at(region, self.neutral, near)[1]
         zp = float(self.neutral.position[2])
@@ -49,7 +46,20 @@ class Placing:
         )
         return Configuration(there.position, there.rotation, self.neutral.internal_point + zp * shift), poses
 
-    def _known(self) -> list[tuple[float, ...]]:
+    def plain(self) -> _core.Problem:
+        """Return the problem of the study without poses of its own."""
+        return replace(self.study, objective=replace(self.study.objective, poses=(), region=None)).problem()
+
+    def values(self, plain: _core.Problem) -> list[float]:
+        """Return the variables of the design for a problem."""
+        return [self.variables[name] for name in plain.names]
+
+    def goal(self) -> tuple[float, list[tuple[str, list[float], list[float], float]]]:
+        """Return the logarithm of the index, and the ranges of the legs as the core takes them."""
+        low, high = ([r[k] for r in self.leg_ranges] for k in range(2))
+        return math.log(self.objective), [("", low, high, 0.0)] if self.leg_ranges else []
+
+    def known(self) -> list[tuple[float, ...]]:
         """Return the shifts of O at the poses that ruled, in zp."""
         names = [name.removesuffix(".s_x") for name in self.variables if name.endswith(".s_x")]
         return [tuple(self.variables[f"{name}.s_{axis}"] for axis in "xyz") for name in names]
