@@ -49,15 +49,14 @@ MinimaxFit::MinimaxFit(const RuleRows& rows, const std::vector<Powers>& powers, 
   }
   unknowns_ = Eigen::VectorXd::Zero(3 * count + rows.middle_count());
   std::vector<Vec6> poses;
-  Eigen::MatrixXd shifts(static_cast<Eigen::Index>(best.size()), 3);
-  for (const Placed& place : best) {
-    shifts.row(static_cast<Eigen::Index>(poses.size())) = place.shift.transpose();
-    poses.push_back(place.at);
-  }
+  for (const Placed& place : best) poses.push_back(place.at);
   take(poses);
-  const Eigen::MatrixXd fitted =
-      metric().topLeftCorner(count, count).ldlt().solve(terms_.transpose() * shifts / static_cast<double>(best.size()));
-  unknowns_.head(3 * count) = fitted.reshaped();
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(count, 3);
+  for (std::size_t n = 0; n < best.size(); ++n)
+    wanted += terms_.col(static_cast<Eigen::Index>(n)) * best[n].shift.transpose() / static_cast<double>(best.size());
+  const auto nearest = metric().topLeftCorner(count, count).ldlt();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    unknowns_.segment(i * count, count) = nearest.solve(Eigen::VectorXd(wanted.col(i)));
   unknowns_.tail(rows.middle_count()) = rows.middles(placed(poses));
   move_to(unknowns_);
 }
@@ -112,41 +111,44 @@ void MinimaxFit::lower(double smoothing) {
   }
 }
 
-Eigen::RowVectorXd MinimaxFit::terms_at(const Vec6& at) const {
+Eigen::VectorXd MinimaxFit::terms_at(const Vec6& at) const {
   const Vec6 x = rule_coordinates(rows_, at).cwiseQuotient(scale_);
-  Eigen::RowVectorXd out = Eigen::RowVectorXd::Ones(static_cast<Eigen::Index>(powers_.size()));
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(powers_.size()));
   for (std::size_t m = 0; m < powers_.size(); ++m)
     for (std::size_t k = 0; k < 6; ++k)
       for (int n = 0; n < powers_[m][k]; ++n) out[static_cast<Eigen::Index>(m)] *= x[static_cast<Eigen::Index>(k)];
   return out;
 }
 
+Vec3 MinimaxFit::shift_by(const Eigen::VectorXd& terms) const {
+  const Eigen::Index count = terms.size();
+  return {terms.dot(unknowns_.head(count)), terms.dot(unknowns_.segment(count, count)),
+          terms.dot(unknowns_.segment(2 * count, count))};
+}
+
+std::vector<Placed> MinimaxFit::placed(const std::vector<Vec6>& poses) const {
+  std::vector<Placed> out;
+  for (const Vec6& given : poses) {
+    const Vec6 at = rows_.region().nearest(given);
+    out.push_back({at, shift_by(terms_at(at))});
+  }
+  return out;
+}
+
 void MinimaxFit::take(const std::vector<Vec6>& poses) {
   const std::vector<Placed> more = placed(poses);
+  auto n = static_cast<Eigen::Index>(places_.size());
   places_.insert(places_.end(), more.begin(), more.end());
-  terms_.conservativeResize(static_cast<Eigen::Index>(places_.size()), static_cast<Eigen::Index>(powers_.size()));
-  for (std::size_t k = places_.size() - more.size(); k < places_.size(); ++k)
-    terms_.row(static_cast<Eigen::Index>(k)) = terms_at(places_[k].at);
+  terms_.conservativeResize(static_cast<Eigen::Index>(powers_.size()), static_cast<Eigen::Index>(places_.size()));
+  for (const Placed& place : more) terms_.col(n++) = terms_at(place.at);
 }
 
 /// Sets the unknowns, and O and the rows at all places.
 void MinimaxFit::move_to(const Eigen::VectorXd& unknowns) {
   unknowns_ = unknowns;
-  const Eigen::Index count = terms_.cols();
-  const Eigen::MatrixXd shifts = terms_ * unknowns_.head(3 * count).reshaped(count, 3);
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    places_[k].shift = shifts.row(static_cast<Eigen::Index>(k)).transpose();
+  for (std::size_t n = 0; n < places_.size(); ++n)
+    places_[n].shift = shift_by(terms_.col(static_cast<Eigen::Index>(n)));
   values_ = rows_.at(places_, unknowns_.tail(rows_.middle_count()));
-}
-
-std::vector<Placed> MinimaxFit::placed(const std::vector<Vec6>& poses) const {
-  const auto count = static_cast<Eigen::Index>(powers_.size());
-  std::vector<Placed> out;
-  for (const Vec6& given : poses) {
-    const Vec6 at = rows_.region().nearest(given);
-    out.push_back({at, (terms_at(at) * unknowns_.head(3 * count).reshaped(count, 3)).transpose()});
-  }
-  return out;
 }
 
 double MinimaxFit::smoothed(double smoothing) const {
@@ -160,41 +162,40 @@ double MinimaxFit::smoothed(double smoothing) const {
 }
 
 MinimaxFit::Model MinimaxFit::model(double smoothing) const {
-  const Eigen::Index places = terms_.rows(), terms = terms_.cols(), middles = rows_.middle_count();
-  const double most = worst();
-  // Of each place, with the weight of each row: the slopes by O, their products, and those with the slope by a middle.
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(places, 3), product = Eigen::MatrixXd::Zero(places, 9),
-                  mixed = Eigen::MatrixXd::Zero(places, 3 * middles);
-  Eigen::VectorXd by_middle = Eigen::VectorXd::Zero(middles), of_middle = by_middle;
+  const Eigen::Index terms = terms_.rows(), middles = rows_.middle_count(), size = unknowns_.size();
+  const double most = worst(), least = most - window * smoothing;
+  Model out{smoothed(smoothing), Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   double total = 0.0;
-  for (Eigen::Index n = 0; n < places; ++n) {
+  for (Eigen::Index n = 0; n < terms_.cols(); ++n) {
+    // Sums over the rows of a place with their weights: slopes by O, their products, those with slopes by middles.
+    Vec3 slope = Vec3::Zero();
+    Mat3 product = Mat3::Zero();
+    Eigen::Matrix<double, 3, Eigen::Dynamic> mixed = Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, middles);
     const PlacedRows& rows = values_[at_index(n)];
+    if (!(worst_of(rows) > least)) continue;
     for (Eigen::Index row = 0; row < rows.value.size(); ++row) {
-      if (!(rows.value[row] > most - window * smoothing)) continue;
+      if (!(rows.value[row] > least)) continue;
       const double weight = std::exp((rows.value[row] - most) / smoothing);
-      const Eigen::RowVector3d g = rows.by_shift.row(row);
+      const Vec3 g = rows.by_shift.row(row).transpose();
       total += weight;
-      slope.row(n) += weight * g;
-      product.row(n) += weight * (g.transpose() * g).reshaped().transpose();
+      slope += weight * g;
+      product += weight * g * g.transpose();
       if (const auto [middle, by] = rows_.middle_of(rows, row); middle >= 0) {
-        mixed.row(n).segment<3>(3 * middle) += weight * by * g;
-        by_middle[middle] += weight * by;
-        of_middle[middle] += weight * by * by;
+        mixed.col(middle) += weight * by * g;
+        out.gradient[3 * terms + middle] += weight * by;
+        out.bend(3 * terms + middle, 3 * terms + middle) += weight * by * by;
       }
     }
+    const Eigen::VectorXd t = terms_.col(n);
+    const Eigen::MatrixXd square = t * t.transpose();
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      out.gradient.segment(i * terms, terms) += slope[i] * t;
+      for (Eigen::Index j = 0; j <= i; ++j)
+        out.bend.block(i * terms, j * terms, terms, terms) += product(i, j) * square;
+      out.bend.block(3 * terms, i * terms, middles, terms) += mixed.row(i).transpose() * t.transpose();
+    }
   }
-  Model out{smoothed(smoothing), Eigen::VectorXd(unknowns_.size()),
-            Eigen::MatrixXd::Zero(unknowns_.size(), unknowns_.size())};
-  out.gradient << (terms_.transpose() * slope).reshaped(), by_middle;
   out.gradient /= total;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j)
-      out.bend.block(i * terms, j * terms, terms, terms) =
-          terms_.transpose() * product.col(3 * i + j).asDiagonal() * terms_;
-    for (Eigen::Index k = 0; k < middles; ++k)
-      out.bend.row(3 * terms + k).segment(i * terms, terms) = (terms_.transpose() * mixed.col(3 * k + i)).transpose();
-  }
-  out.bend.diagonal().tail(middles) = of_middle;
   out.bend = ((out.bend / total - out.gradient * out.gradient.transpose()) / smoothing).eval();
   out.bend.diagonal().head(3 * terms) += stiffness_;
   out.gradient.head(3 * terms) += stiffness_.cwiseProduct(unknowns_.head(3 * terms));
@@ -203,8 +204,9 @@ MinimaxFit::Model MinimaxFit::model(double smoothing) const {
 
 /// What the damping of a step is measured by: shifts of O at the places, and of the middles.
 Eigen::MatrixXd MinimaxFit::metric() const {
-  const Eigen::Index terms = terms_.cols();
-  Eigen::MatrixXd spread = terms_.transpose() * terms_ / static_cast<double>(terms_.rows());
+  const Eigen::Index terms = terms_.rows();
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(terms, terms);
+  for (const auto& t : terms_.colwise()) spread += t * t.transpose() / static_cast<double>(terms_.cols());
   spread.diagonal().array() += ridge * spread.trace() / static_cast<double>(terms);
   Eigen::MatrixXd out = middle_metric * Eigen::MatrixXd::Identity(unknowns_.size(), unknowns_.size());
   for (Eigen::Index i = 0; i < 3; ++i) out.block(i * terms, i * terms, terms, terms) = spread;

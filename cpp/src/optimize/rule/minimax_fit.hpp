@@ -26,7 +26,7 @@ class MinimaxFit {
   void lower(double smoothing);
 
  private:
-  /// The smoothed worst row near the unknowns: these are the x, y and z coefficients of all terms, in zp, then the
+  /// The smoothed worst row near the unknowns, of `bend` the lower half: these are the x, y and z coefficients of all terms, in zp, then the
   /// middles.
   struct Model {
     double value;
@@ -34,10 +34,11 @@ class MinimaxFit {
     Eigen::MatrixXd bend;
   };
 
-  Eigen::RowVectorXd terms_at(const Vec6& at) const;
+  Eigen::VectorXd terms_at(const Vec6& at) const;
+  Vec3 shift_by(const Eigen::VectorXd& terms) const;
+  std::vector<Placed> placed(const std::vector<Vec6>& poses) const;
   void take(const std::vector<Vec6>& poses);
   void move_to(const Eigen::VectorXd& unknowns);
-  std::vector<Placed> placed(const std::vector<Vec6>& poses) const;
   double smoothed(double smoothing) const;
   Model model(double smoothing) const;
   Eigen::MatrixXd metric() const;
@@ -47,7 +48,7 @@ class MinimaxFit {
   Vec6 scale_;
   Eigen::VectorXd stiffness_;  // of the coefficients
   std::vector<Placed> places_;
-  Eigen::MatrixXd terms_;          // a row for each place
+  Eigen::MatrixXd terms_;          // a column for each place
   Eigen::VectorXd unknowns_;
   std::vector<PlacedRows> values_;  // at the places
 };

@@ -25,10 +25,10 @@ constexpr double wide_gap = 20.0;      // one that is proved at once
 using Say = std::function<void(const std::string&)>;
 
 /// All powers up to a degree of the coordinates that move.
-std::vector<Powers> powers_up_to(int degree, const std::vector<std::size_t>& moving) {
+std::vector<Powers> powers_up_to(int most, const std::vector<std::size_t>& moving) {
   std::vector<Powers> out{Powers{}};
   std::vector<std::pair<Powers, std::size_t>> last{{Powers{}, 0}};  // with the first coordinate that may rise
-  for (int total = 1; total <= degree; ++total) {
+  for (int total = 1; total <= most; ++total) {
     std::vector<std::pair<Powers, std::size_t>> next;
     for (const auto& [term, first] : last)
       for (std::size_t k = first; k < moving.size(); ++k) {
@@ -59,10 +59,10 @@ MinimaxFit fitted(const RuleRows& rows, const Say& say) {
   const std::vector<Placed> places = rows.best(poses);
   const std::vector<std::size_t> moving = moving_coordinates(rows, places);
   std::optional<MinimaxFit> best;
-  for (int degree = 1; degree <= highest_degree; ++degree) {
-    const std::vector<Powers> powers = powers_up_to(degree, moving);
+  for (int order = 1; order <= highest_degree; ++order) {
+    const std::vector<Powers> powers = powers_up_to(order, moving);
     if (best && (powers.size() > most_terms || powers.size() == best->term_count())) break;
-    say("fitting a rule for O of degree " + std::to_string(degree));
+    say("fitting a rule for O of degree " + std::to_string(order));
     MinimaxFit fit(rows, powers, places);
     for (const double smoothing : first_smoothings) fit.lower(smoothing);
     if (best && fit.worst() > best->worst() - gain) break;
