@@ -16,7 +16,6 @@ _Nearest = tuple[float, float, _Floats, int, _Floats]
 _Triple = tuple[float, float, float]
 _LimitBreak = tuple[str, float, float, float, float]
 _Range = tuple[str, Sequence[float], Sequence[float], float]
-_MetAt = tuple[_Triple, _Triple, float, int]
 _Progress = Callable[[int, int, float | None], object]
 
 version: str
@@ -293,33 +292,86 @@ class Settings:
         warm: Sequence[Sequence[float]] | _Floats | None = ...,
     ) -> None: ...
 
+class PointRule:
+    def __init__(
+        self,
+        scale: Sequence[float],
+        powers: Sequence[Sequence[int]],
+        coefficients: Sequence[Sequence[float]],
+        /,
+    ) -> None: ...
+    @property
+    def scale(self) -> list[float]: ...
+    @property
+    def powers(self) -> list[list[int]]: ...
+    @property
+    def coefficients(self) -> list[_Triple]: ...
+
+class PosedRobot:
+    def __init__(
+        self,
+        geometry: Geometry,
+        position: _Floats,
+        rotation: _Floats,
+        internal_point: _Floats,
+        characteristic_length: float,
+        region: Mapping[str, Any] | None,
+        rule: PointRule | None,
+        /,
+    ) -> None: ...
+
+class MetAt:
+    def __init__(self, shift: Sequence[float], tilt: Sequence[float], yaw: float, pose: int, /) -> None: ...
+    @property
+    def shift(self) -> _Triple: ...
+    @property
+    def tilt(self) -> _Triple: ...
+    @property
+    def yaw(self) -> float: ...
+    @property
+    def pose(self) -> int: ...
+
 def limits_over_poses(
-    geometry: Geometry,
-    position: _Floats,
-    rotation: _Floats,
-    internal_point: _Floats,
-    region: Mapping[str, Any] | None,
-    problem: Problem,
-    tolerance: float,
-    settings: Mapping[str, Any],
-    /,
+    machine: PosedRobot, problem: Problem, tolerance: float, threads: int, seconds: float, /
 ) -> tuple[
-    list[tuple[str, str, str, float, tuple[float, float], str, str, list[_MetAt], bool, int]],
+    list[tuple[str, str, str, float, tuple[float, float], str, str, list[MetAt], bool, int]],
     list[tuple[float, float]],
-    list[_MetAt],
 ]: ...
-def worst_condition(
-    geometry: Geometry,
-    position: _Floats,
-    rotation: _Floats,
-    internal_point: _Floats,
-    characteristic_length: float,
-    region: dict[str, Any] | None,
-    settings: dict[str, Any],
-    boxes: Sequence[Sequence[float]],
+
+class ConditionSettings:
+    def __init__(
+        self,
+        *,
+        threads: int,
+        seconds: float,
+        gap: float,
+        wanted: Sequence[float],
+        tolerance: float,
+        slice_seconds: float = ...,
+        least_seconds: float = ...,
+        keep_share: float = ...,
+    ) -> None: ...
+
+class ConditionState:
+    low: float
+    high: float
+    at: MetAt
+    boxes: int
+    left: Sequence[Sequence[float]]
+    target: float
+    interrupted: bool
+    def __init__(self) -> None: ...
+    @property
+    def left_count(self) -> int: ...
+
+def search_condition(
+    machine: PosedRobot,
+    settings: ConditionSettings,
+    earlier: ConditionState,
+    keep: Callable[[ConditionState], object] | None,
     progress: _Progress | None,
     /,
-) -> tuple[float, float, _MetAt, int, list[list[float]], int, float, bool]: ...
+) -> ConditionState: ...
 def region_pose(region: dict[str, Any], at: Sequence[float], /) -> tuple[_Triple, _Triple, _Triple]: ...
 def region_poses(region: dict[str, Any], at: _Floats, /) -> _Floats: ...
 def search_region(
@@ -352,15 +404,20 @@ def place_in_region(
     threads: int,
     /,
 ) -> tuple[_Floats, _Floats]: ...
-def placed_rows(
-    problem: Problem,
-    region: dict[str, Any],
-    variables: Sequence[float],
-    at: _Floats,
-    shift: _Floats,
-    threads: int,
-    /,
-) -> tuple[_Floats, _Floats, int]: ...
+
+class RuleTask:
+    def __init__(
+        self,
+        machine: PosedRobot,
+        problem: Problem,
+        variables: Sequence[float],
+        log_index: float,
+        ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+        known: Sequence[Sequence[float]],
+        /,
+    ) -> None: ...
+
+def fit_rule(task: RuleTask, threads: int, phase: Callable[[str], object], /) -> PointRule: ...
 def optimize_placed(
     problem: Problem,
     given: Sequence[tuple[Sequence[float], Sequence[Sequence[float]]]],

@@ -159,30 +159,6 @@ py::tuple places_in_region(const Problem& problem, const py::dict& region, const
   return py::make_tuple(near, moved);
 }
 
-/// Rows with O at given places, shape (n, r), the derivatives with respect to its shift in zp, shape (n, r, 3), and how
-/// many rows are of the index. `at`: coordinates in the region, shape (n, 6); `shift`: shape (n, 3).
-py::tuple rows_at_places(const Problem& problem, const py::dict& region, const std::vector<double>& x,
-                         const py::object& at, const py::object& shift, int threads) {
-  const Region r = region_from(region);
-  const Eigen::VectorXd variables = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-  const py::ssize_t count = py::len(at);
-  const Array poses = array_of_shape("at", at, {count, 6}), shifts = array_of_shape("shift", shift, {count, 3});
-  std::vector<Placed> places;
-  for (py::ssize_t k = 0; k < count; ++k)
-    places.push_back({r.nearest(Vec6::Map(poses.data(k, 0))), Vec3::Map(shifts.data(k, 0))});
-  const std::vector<PlacedRows> found = interruptible(
-      py::none(), [&](const Control& control) { return placed_rows(problem, r, variables, places, threads, control); });
-  const py::ssize_t rows = found.empty() ? 0 : found.front().value.size();
-  Array value({count, rows}), by_shift({count, rows, py::ssize_t{3}});
-  for (py::ssize_t k = 0; k < count; ++k) {
-    const PlacedRows& one = found[static_cast<std::size_t>(k)];
-    Eigen::VectorXd::Map(value.mutable_data(k, 0), rows) = one.value;
-    for (py::ssize_t row = 0; row < rows; ++row)
-      Vec3::Map(by_shift.mutable_data(k, row, 0)) = one.by_shift.row(row).transpose();
-  }
-  return py::make_tuple(value, by_shift, found.empty() ? 0 : found.front().of_index);
-}
-
 /// Ends of the ascents as (coordinates of the pose, shift of s in zp, excess, logarithm of the index, least margin, its
 /// limit).
 /// `ranges`: (limit, low, high, size) of the lengths of the nine legs; `known`: (coordinates, shift).
@@ -264,7 +240,6 @@ void bind_optimize(py::module_& m) {
   m.def("leg_ranges", &ranges_about);
   m.def("common_range", &range_of_all);
   m.def("search_region_placed", &worst_with_placing);
-  m.def("placed_rows", &rows_at_places);
   m.def("optimize_placed", &placed_optima);
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {

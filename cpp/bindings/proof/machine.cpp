@@ -2,6 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include <optional>
+#include <tuple>
+
 #include "ninedof/math/interval.hpp"
 #include "ninedof/problem/problem.hpp"
 #include "ninedof/proof/bounds.hpp"
@@ -13,91 +16,86 @@
 namespace ninedof::python {
 namespace {
 
-constexpr std::size_t most_kept = 20'000;
-constexpr long boxes_by_rule = 2'000'000;  // a rule is fitted until limits are only just kept
+using Three = std::array<double, 3>;
 
-/// Where O is in the region: scales of the six coordinates, powers and coefficients of each term.
-PointRule rule_from(const py::dict& d) {
-  PointRule out;
-  const auto scale = d["scale"].cast<std::array<double, 6>>();
-  out.scale = Vec6::Map(scale.data());
-  out.powers = d["powers"].cast<std::vector<std::array<int, 6>>>();
-  for (const auto& c : d["coefficients"].cast<std::vector<std::array<double, 3>>>())
-    out.coefficients.push_back(Vec3::Map(c.data()));
+Vec3 vector(const Three& v) {
+  return Vec3::Map(v.data());
+}
+std::tuple<double, double, double> numbers(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+PointRule rule_from(const std::array<double, 6>& scale, const std::vector<std::array<int, 6>>& powers,
+                    const std::vector<Three>& coefficients) {
+  PointRule out{Vec6::Map(scale.data()), powers, {}};
+  for (const Three& c : coefficients) out.coefficients.push_back(vector(c));
   out.validate();
   return out;
 }
 
-/// `region` is None or a mapping, with a "rule" where O follows one; the neutral configuration comes first in the
-/// stack, then the listed poses.
+/// The neutral configuration comes first in the stack, then the listed poses.
 PosedRobot robot_from(const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
-                      double characteristic_length, const py::object& region) {
+                      double characteristic_length, const std::optional<py::dict>& region,
+                      const std::optional<PointRule>& rule) {
   const ConfigurationStack all(position, rotation, internal_point);
   PosedRobot out{g, all[0], characteristic_length, {}, {}, {}};
-  if (!region.is_none()) {
-    out.region.push_back(region_from(region.cast<py::dict>()));
+  if (region) {
+    out.region.push_back(region_from(*region));
     out.region.front().validate();
-    if (region.contains("rule")) out.rule.push_back(rule_from(region["rule"].cast<py::dict>()));
   }
+  if (rule) out.rule.push_back(*rule);
   for (long k = 1; k < all.count(); ++k) out.poses.push_back(all[k]);
   return out;
 }
 
-ProofSettings settings_from(const py::dict& d) {
-  ProofSettings out;
-  out.threads = d["threads"].cast<int>();
-  out.seconds = d["seconds"].cast<double>();
-  out.gap = d["gap"].cast<double>();
-  out.condition = d["condition"].cast<double>();
-  require_sound_arithmetic();
-  return out;
-}
-
-/// (shift of p, tilt, yaw, index of a listed pose or -1)
-py::tuple tuple_of(const MetAt& at) {
-  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
-  return py::make_tuple(three(at.shift), three(at.tilt), at.yaw, at.pose);
+void bind_structs(py::module_& m) {
+  py::class_<PointRule>(m, "PointRule")
+      .def(py::init(&rule_from))
+      .def_property_readonly("scale",
+                             [](const PointRule& rule) {
+                               std::array<double, 6> out;
+                               Vec6::Map(out.data()) = rule.scale;
+                               return out;
+                             })
+      .def_readonly("powers", &PointRule::powers)
+      .def_property_readonly("coefficients", [](const PointRule& rule) {
+        py::list out;
+        for (const Vec3& c : rule.coefficients) out.append(numbers(c));
+        return out;
+      });
+  py::class_<PosedRobot>(m, "PosedRobot").def(py::init(&robot_from));
+  py::class_<MetAt>(m, "MetAt")
+      .def(py::init([](const Three& shift, const Three& tilt, double yaw, int pose) {
+        return MetAt{vector(shift), vector(tilt), yaw, pose};
+      }))
+      .def_property_readonly("shift", [](const MetAt& at) { return numbers(at.shift); })
+      .def_property_readonly("tilt", [](const MetAt& at) { return numbers(at.tilt); })
+      .def_readonly("yaw", &MetAt::yaw)
+      .def_readonly("pose", &MetAt::pose);
 }
 
 }  // namespace
 
 void bind_machine(py::module_& m) {
+  bind_structs(m);
   m.def("limits_over_poses",
-        [](const Geometry& g, const Array& position, const Array& rotation, const Array& internal_point,
-           const py::object& region, const Problem& problem, double tolerance, const py::dict& settings) {
-          const PosedRobot robot = robot_from(g, position, rotation, internal_point, 1.0, region);
-          ProofSettings how = settings_from(settings);
-          if (!robot.rule.empty()) how.boxes = boxes_by_rule;
+        [](const PosedRobot& machine, const Problem& problem, double tolerance, int threads, double seconds) {
+          require_sound_arithmetic();
           const LimitsOverPoses found = interruptible(py::none(), [&](const Control& control) {
-            return limits_over_poses(robot, problem.limits, exempt_pairs(problem), tolerance, how, control);
+            return limits_over_poses(machine, problem.limits, exempt_pairs(problem), tolerance,
+                                     {.threads = threads, .seconds = seconds}, control);
           });
           constexpr std::array words{"proved", "violated", "undecided"};
-          py::list limits, lengths, met;
+          py::list limits, lengths;
           for (const LimitOverPoses& one : found.limits) {
-            py::list at;
-            for (const MetAt& pose : one.at) at.append(tuple_of(pose));
             const auto ends = [](const Interval& x) { return py::make_tuple(x.lo, x.hi); };
             limits.append(py::make_tuple(one.name, to_string(one.kind), one.side == Side::high ? "max" : "min",
                                          one.limit, ends(one.value), words[static_cast<std::size_t>(one.answer)],
-                                         one.part, at, one.at_neutral, one.boxes));
+                                         one.part, one.at, one.at_neutral, one.boxes));
           }
           for (const Interval& length : found.lengths) lengths.append(py::make_tuple(length.lo, length.hi));
-          for (const MetAt& pose : found.met) met.append(tuple_of(pose));
-          return py::make_tuple(limits, lengths, met);
+          return py::make_tuple(limits, lengths);
         });
-  m.def("worst_condition", [](const Geometry& g, const Array& position, const Array& rotation,
-                              const Array& internal_point, double characteristic_length, const py::object& region,
-                              const py::dict& settings, const PoseBoxes& from, const py::object& progress) {
-    const PosedRobot robot = robot_from(g, position, rotation, internal_point, characteristic_length, region);
-    const ProofSettings how = settings_from(settings);
-    const WorstCondition found = interruptible(
-        progress, [&](const Control& control) { return worst_condition(robot, how, from, control); },
-        [](WorstCondition& worst) { return worst.interrupted = true; });
-    // More boxes than a record holds are only counted: as Python objects they would fill the memory.
-    const auto count = found.left.size();
-    return py::make_tuple(found.extreme.low, found.extreme.high, tuple_of(found.extreme.at), found.extreme.boxes,
-                          count <= most_kept ? found.left : PoseBoxes{}, count, found.tried, found.interrupted);
-  });
 }
 
 }  // namespace ninedof::python

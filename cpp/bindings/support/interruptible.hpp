@@ -8,6 +8,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -23,37 +24,53 @@ namespace ninedof::python {
 
 namespace py = pybind11;
 
+/// What the work of `interruptible` is given.
+struct WorkControl : Control {
+  /// Runs a call on the thread that waits for the work, with the GIL, and returns after it; on a stop at once.
+  std::function<void(const std::function<void()>&)> on_calling_thread;
+};
+
 /// Returns work(control), called on a new thread and without the GIL. The calling thread meanwhile checks for signals
 /// and calls `progress`, None or a Python callable, as progress(done, total, value) with None for a value of NaN. An
-/// exception of `progress` or of a signal handler stops the work and goes on to the caller. After Ctrl-C, though, a
-/// result that can show the interruption is returned, also one that was complete by then: mark(result) marks it and
-/// returns whether it could.
+/// exception of `progress`, of what the work has run here, or of a signal handler stops the work and goes on to the
+/// caller. After Ctrl-C, though, a result that can show the interruption is returned, also one that was complete by
+/// then: mark(result) marks it and returns whether it could.
 template <class Work, class Mark>
 auto interruptible(const py::object& progress, const Work& work, const Mark& mark) {
   struct {
     std::mutex guard;
-    std::condition_variable changed;
+    std::condition_variable_any changed;
     bool finished = false;
+    const std::function<void()>* call = nullptr;  // to be run on the calling thread
     long done = 0, total = 0;
     double value = 0.0;
   } shared;
-  std::optional<std::invoke_result_t<Work, Control>> result;
+  std::optional<std::invoke_result_t<Work, WorkControl>> result;
   std::exception_ptr failure;
   std::jthread worker([&](const std::stop_token& stop) {
     try {
-      result = work(Control{stop, [&](long done, long total, double value) {
-                              const std::lock_guard lock(shared.guard);
-                              shared.done = done;
-                              shared.total = total;
-                              shared.value = value;
-                            }});
+      WorkControl control;
+      control.stop = stop;
+      control.progress = [&](long done, long total, double value) {
+        const std::lock_guard lock(shared.guard);
+        shared.done = done;
+        shared.total = total;
+        shared.value = value;
+      };
+      control.on_calling_thread = [&](const std::function<void()>& call) {
+        std::unique_lock lock(shared.guard);
+        shared.call = &call;
+        shared.changed.notify_all();
+        shared.changed.wait(lock, stop, [&] { return shared.call == nullptr; });
+      };
+      result = work(control);
     } catch (const Stopped&) {  // no result: the exception that asked for the stop says why
     } catch (...) {
       failure = std::current_exception();
     }
     const std::lock_guard lock(shared.guard);
     shared.finished = true;
-    shared.changed.notify_one();
+    shared.changed.notify_all();
   });
   const CoreCall call(&worker);
   const auto join = [&] {
@@ -64,10 +81,12 @@ auto interruptible(const py::object& progress, const Work& work, const Mark& mar
   for (bool finished = false; !finished;) {
     long done = 0, total = 0;
     double value = 0.0;
+    const std::function<void()>* asked = nullptr;
     {
       const WithoutGil nogil;
       std::unique_lock lock(shared.guard);
-      shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.finished; });
+      shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.finished || shared.call; });
+      asked = shared.call;
       finished = shared.finished;
       done = shared.done;
       total = shared.total;
@@ -78,6 +97,12 @@ auto interruptible(const py::object& progress, const Work& work, const Mark& mar
         call_python(
             [&] { progress(done, total, std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value))); });
       reported = done;
+      if (asked != nullptr) {
+        call_python(*asked);
+        const std::lock_guard lock(shared.guard);
+        shared.call = nullptr;
+        shared.changed.notify_all();
+      }
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     } catch (const py::error_already_set& error) {
       if (call.left_by_worker() && !finished) throw;

@@ -26,7 +26,9 @@ void bind_problem(py::module_& m);
 void bind_interval(py::module_& m);
 void bind_bounds(py::module_& m);
 void bind_machine(py::module_& m);
+void bind_condition_search(py::module_& m);
 void bind_optimize(py::module_& m);
+void bind_rule_fit(py::module_& m);
 void bind_optimum(py::module_& m);
 
 }  // namespace ninedof::python

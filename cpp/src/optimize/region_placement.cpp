@@ -15,6 +15,7 @@ namespace {
 
 constexpr long samples_a_task = 256;        // of samples
 constexpr long poses_a_task = 16;
+constexpr long rows_a_task = 64;
 constexpr double spare = 0.02;     // a sample with so much to spare is not looked at further
 constexpr double no_longer_held = 1e-7;    // excess from which O is placed from other starts too
 constexpr double apart = 0.2;      // of the region: samples nearer than that to a worse one begin no ascent
@@ -212,21 +213,20 @@ std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& reg
 }
 
 std::vector<PlacedRows> placed_rows(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
-                                    const std::vector<Placed>& places, int threads, const Control& control) {
+                                    const PlacementGoal& goal, const std::vector<Placed>& places, int threads,
+                                    const Control& control) {
   problem.validate();
   region.validate();
   require_full("variables", problem, variables);
-  const PlacementGoal nothing;
   const auto count = static_cast<long>(places.size());
   std::vector<PlacedRows> out(places.size());
-  parallel_for((count + samples_a_task - 1) / samples_a_task, 1, threads, [&](long task, long) {
+  parallel_for((count + rows_a_task - 1) / rows_a_task, 1, threads, [&](long task, long) {
     if (control.stop.stop_requested()) return;
-    PlacedPose pose(problem, variables, nothing);
-    for (long k = task * samples_a_task; k < std::min(count, (task + 1) * samples_a_task); ++k) {
+    PlacedPose pose(problem, variables, goal);
+    for (long k = task * rows_a_task; k < std::min(count, (task + 1) * rows_a_task); ++k) {
       const Placed& placed = places[at_index(k)];
       pose.set_pose(region.pose(placed.at));
-      const PlacedPose::Inner rows = pose.rows(placed.shift);
-      out[at_index(k)] = {rows.value, rows.by_shift, rows.of_index};
+      out[at_index(k)] = pose.rows(placed.shift);
     }
   });
   if (control.stop.stop_requested()) throw Stopped{};

@@ -11,10 +11,9 @@ from ninedof.design.limits import label
 from ninedof.design.region import Region
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
-from ninedof.proof.machine_limits import proved_limits
+from ninedof.proof.machine_limits import met_at, proved_limits
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
 from ninedof.proof.machine_seal import belongs, machine_digest, sealed
-from ninedof.proof.machine_search import ConditionSearch
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -83,12 +82,12 @@ def certify(
 
     """
     region = study.objective.region
-    finite("gap", gap, 1e-9)
+    gap = finite("gap", gap, 1e-9)
     seconds = finite("time_limit", time_limit, 0.0)
-    finite("tolerance", tolerance, 0.0, 0.01)
+    tolerance = finite("tolerance", tolerance, 0.0, 0.01)
     if condition_number is not None:
-        finite("condition_number", condition_number, 1.0)
-    how = {"threads": whole("threads", threads, 0, MOST_THREADS), "seconds": seconds, "gap": gap, "condition": 0.0}
+        condition_number = finite("condition_number", condition_number, 1.0)
+    threads = whole("threads", threads, 0, MOST_THREADS)
     if resume is not None:
         instance("resume", resume, MachineCertificate)
     if keep is not None and not callable(keep):
@@ -98,77 +97,77 @@ def certify(
         raise ValueError(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
         )
-    machine = machine_digest(study, geometry, configurations, characteristic_length)
-    if resume is not None and not belongs(resume, machine):
+    digest = machine_digest(study, geometry, configurations, characteristic_length)
+    if resume is not None and not belongs(resume, digest):
         raise ValueError(
             "resume: got a certificate of another machine or one that was changed, expected one of this machine as it "
             "was written"
         )
     begin = perf_counter()
     followed = _rule(region, configurations[0], rule, resume)
-    start = perf_counter()  # finding a rule does not count for the time limit
+    end = perf_counter() + seconds  # finding a rule does not count for the time limit
+    over = None if region is None else region.for_core()
+    by_rule = None if followed is None else followed.for_core()
+
+    def posed(at: Configuration, *where: Any) -> _core.PosedRobot:
+        return _core.PosedRobot(
+            geometry, at.position, at.rotation, at.internal_point, float(characteristic_length), *where
+        )
+
+    def settings(bounds: list[float]) -> _core.ConditionSettings:
+        left = end - perf_counter()
+        return _core.ConditionSettings(threads=threads, seconds=left, gap=gap, wanted=bounds, tolerance=tolerance)
+
     phase(progress, "proving the limits")
     alone = configurations[[0, 0]]
-    stack = alone if only_neutral else configurations
-    shape = None if region is None else region.for_core() | ({"rule": followed.for_core()} if followed else {})
-    found = proved_limits(study, geometry, configurations, shape, tolerance, how)
+    machine = posed(alone if only_neutral else configurations, over, by_rule)
+    limits, lengths = proved_limits(study, machine, only_neutral, tolerance, threads, seconds)
 
     phase(progress, "proving the condition number")
     objective = study.objective
     bounds = {"condition_limit": objective.condition_limit, "condition_number": condition_number}
     wanted = {name: bound for name, bound in bounds.items() if bound is not None}
-
-    def search(
-        posed: Configuration,
-        over: dict[str, Any] | None,
-        told: Any,
-        only_neutral: bool,
-        keep: Callable[[], object] | None = None,
-    ) -> ConditionSearch:
-        arrays = (posed.position, posed.rotation, posed.internal_point)
-        return ConditionSearch(
-            lambda how, boxes: _core.worst_condition(geometry, *arrays, characteristic_length, over, how, boxes, told),
-            how,
-            start + seconds,
-            only_neutral,
-            keep,
-        )
-
     at_neutral = []
-    if objective.neutral_condition_limit is not None:
-        of_neutral = search(alone, None, None, True)
-        of_neutral.enclose([objective.neutral_condition_limit], tolerance)
+    if (bound := objective.neutral_condition_limit) is not None:
+        of_neutral = _core.search_condition(
+            posed(alone, None, None), settings([bound]), _core.ConditionState(), None, None
+        )
         if of_neutral.interrupted:
             raise KeyboardInterrupt
-        name = label("condition_limit", "neutral")
-        at_neutral.append(_condition_proof(name, objective.neutral_condition_limit, of_neutral, tolerance))
+        at_neutral.append(_condition_proof(label("condition_limit", "neutral"), bound, of_neutral, True, tolerance))
 
-    def made(interrupted: bool) -> MachineCertificate:
-        of_condition = [_condition_proof(*bound, runs, tolerance) for bound in wanted.items()]
+    def made(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
+        of_condition = [_condition_proof(*bound, state, only_neutral, tolerance) for bound in wanted.items()]
         certificate = MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
-            limits=(*found.limits, *of_condition, *at_neutral),
-            lengths=found.lengths,
-            condition=(runs.low, runs.high),
-            condition_at=runs.at,
-            condition_boxes=runs.boxes,
-            left=tuple(map(tuple, runs.left)),
-            left_count=runs.left_count,
-            target=runs.target,
+            limits=(*limits, *of_condition, *at_neutral),
+            lengths=lengths,
+            condition=(state.low, state.high),
+            condition_at=met_at(state.at, only_neutral),
+            condition_boxes=state.boxes,
+            left=tuple(map(tuple, state.left)),
+            left_count=state.left_count,
+            target=state.target,
             tolerance=tolerance,
             seconds=perf_counter() - begin,
             interrupted=interrupted,
             rule=followed,
         )
-        return sealed(certificate, machine)
+        return sealed(certificate, digest)
 
-    runs = search(stack, shape, progress, only_neutral, None if keep is None else lambda: keep(made(True)))
-    if resume is not None:
-        runs.go_on(resume, list(wanted.values()), tolerance)
-    else:
-        runs.enclose(list(wanted.values()), tolerance)
-    return made(runs.interrupted)
+    kept = None if keep is None else lambda state: keep(made(state, True))
+    state = _core.search_condition(machine, settings(list(wanted.values())), _state_of(resume), kept, progress)
+    return made(state, state.interrupted)
+
+
+def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:
+    """Return the state of the search that an earlier certificate goes on from; that of a new search without one."""
+    state = _core.ConditionState()
+    if earlier is not None:
+        (state.low, state.high), state.at = earlier.condition, earlier.condition_at.for_core()
+        state.boxes, state.left, state.target = earlier.condition_boxes, earlier.left, earlier.target
+    return state
 
 
 def _rule(
@@ -200,12 +199,15 @@ def _rule(
     return rule
 
 
-def _condition_proof(name: str, limit: float, runs: ConditionSearch, tolerance: float) -> LimitProof:
-    low, high = runs.low, runs.high
+def _condition_proof(
+    name: str, limit: float, state: _core.ConditionState, only_neutral: bool, tolerance: float
+) -> LimitProof:
+    low, high = state.low, state.high
     edge = limit * (1.0 + tolerance)
     answer = PROVED if high <= edge else VIOLATED if low > edge else UNDECIDED
     margin = float(margin_of("ratio", "max", limit, high))
-    return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", (runs.at,), runs.boxes)
+    at = (met_at(state.at, only_neutral),)
+    return LimitProof(name, "ratio", "max", limit, answer, (low, high), margin, "", at, state.boxes)
 
 
 def _where(study: Study, only_neutral: bool) -> str:

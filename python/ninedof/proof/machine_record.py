@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
+from ninedof import _core
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
 from ninedof.support.arguments import flag, known_keys, number, table, text, whole
@@ -27,6 +28,11 @@ class Met:
     tilt: tuple[float, float, float] = (0.0, 0.0, 0.0)
     yaw: float = 0.0
     listed: int | None = None
+
+    def for_core(self) -> _core.MetAt:
+        """Return the pose as the core counts poses."""
+        listed = -1 if self.listed is None else max(self.listed - 1, 0)
+        return _core.MetAt(self.shift, self.tilt, self.yaw, listed)
 
     def worded(self, unit: str = "") -> str:
         """Return the pose in words, angles in degrees."""

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ninedof import _core
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arguments import table
@@ -108,9 +109,9 @@ class PointRule:
         parts = (p - np.array(self.position), tilt, yaw[..., None])
         return self.at(np.concatenate([np.broadcast_to(x, (*shape, x.shape[-1])) for x in parts], axis=-1))
 
-    def for_core(self) -> dict[str, Any]:
+    def for_core(self) -> _core.PointRule:
         """Return the rule as the core takes it."""
-        return {"scale": self.scale, "powers": list(self.powers), "coefficients": list(self.coefficients)}
+        return _core.PointRule(self.scale, self.powers, self.coefficients)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""

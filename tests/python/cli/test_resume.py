@@ -8,16 +8,17 @@ import signal
 import socket
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 from killing import COMMANDS, Killer
 
 import ninedof as nd
+from ninedof import _core
 from ninedof.chunks import Store
 from ninedof.cli.app import main
 from ninedof.cli.commands import certify
-from ninedof.proof import machine_search
 from ninedof.runs.command_file import read_command
 from ninedof.support.lock import FolderLock
 from ninedof.support.seal import sealed, unsealed
@@ -126,11 +127,12 @@ def test_a_certificate_goes_on_where_its_run_now_lies(monkeypatch, tmp_path, cap
 
 KILLED = """
 import os, signal, sys
+from functools import partial
 sys.path[:] = {path}
 from ninedof.cli.app import main
 from ninedof.cli.commands import certify
-from ninedof.proof import machine_search
-machine_search.SLICE = machine_search.LEAST = 0.01
+from ninedof import _core
+_core.ConditionSettings = partial(_core.ConditionSettings, slice_seconds=0.01, least_seconds=0.01)
 def save(made, file, write=certify.save_certificate):
     write(made, file)
     if made.left_count < 10000:
@@ -166,11 +168,12 @@ def test_a_killed_certificate_goes_on_where_it_was(tmp_path, capsys):
 
 def test_a_certificate_whose_time_was_over_goes_on_and_one_that_time_does_not_help_says_so(monkeypatch, capsys):
     fixed()
+    settings = _core.ConditionSettings
     with monkeypatch.context() as patch:
-        patch.setattr(machine_search, "LEAST", 1e-9)
+        patch.setattr(_core, "ConditionSettings", partial(settings, least_seconds=1e-9))
         assert run("certify solved --gap 1e-3 --time 0") == 3
         assert nd.load_certificate("solved").left_count
-    monkeypatch.setattr(machine_search, "LEAST", 100.0)
+    monkeypatch.setattr(_core, "ConditionSettings", partial(settings, least_seconds=100.0))
     assert run("resume solved") == 0
     assert not nd.load_certificate("solved").left_count
     assert run("certify solved --condition 1.5") == 3

@@ -5,9 +5,9 @@ by points on them. None of it shares code with the proofs.
 """
 
 import math
-import time
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import numpy_model as model
@@ -19,7 +19,6 @@ from sizes import LONG, size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.proof import machine_search
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate, outward
 
@@ -319,12 +318,14 @@ def test_only_the_certificate_of_the_same_machine_is_gone_on_with():
 def test_boxes_of_other_poses_are_refused():
     _, neutral, _ = proved(None)
     stack = neutral[[0, 0]]
-    how = {"threads": 1, "seconds": 1.0, "gap": 0.1, "condition": 0.0}
+    settings = _core.ConditionSettings(threads=1, seconds=1.0, gap=0.1, wanted=[], tolerance=0.0)
     geometry = study(None).problem().geometry(list(VARIABLES.values()))
-    arrays = (stack.position, stack.rotation, stack.internal_point)
+    machine = _core.PosedRobot(geometry, stack.position, stack.rotation, stack.internal_point, 150.0, None, None)
     for piece in (0.0, -2.0, 7.0, math.nan):
+        earlier = _core.ConditionState()
+        earlier.left = [(piece,) + (0.0,) * 12]
         with pytest.raises(ValueError, match="boxes: got a box of other poses"):
-            _core.worst_condition(geometry, *arrays, 150.0, None, how, [(piece,) + (0.0,) * 12], None)
+            _core.search_condition(machine, settings, earlier, None, None)
 
 
 def test_limits_of_the_condition_number_count():
@@ -344,8 +345,8 @@ def test_limits_of_the_condition_number_count():
 
 def test_a_proof_whose_states_are_kept_comes_to_its_end_and_goes_on_from_each(monkeypatch):
     *_, whole = proved(SMALL, gap=1e-4)
-    for name, value in (("SLICE", 0.01), ("LEAST", 0.01), ("SHARE", 0)):
-        monkeypatch.setattr(machine_search, name, value)
+    sliced = partial(_core.ConditionSettings, slice_seconds=0.01, least_seconds=0.01, keep_share=0.0)
+    monkeypatch.setattr(_core, "ConditionSettings", sliced)
     kept = []
     geometry, neutral, found = proved(SMALL, gap=1e-4, keep=kept.append)
     assert kept
@@ -381,50 +382,40 @@ def test_a_certificate_that_has_the_gap_stays_as_it_is_when_gone_on_with():
         assert [one.answer for one in again.limits] == [one.answer for one in made.limits]
 
 
-class Scripted:
-    """A search whose answers are (low, high, boxes left, their number, interrupted); then it never ends."""
-
-    def __init__(self, *answers):
-        self.answers = list(answers)
-
-    def __call__(self, how, boxes):
-        low, high, left, count, stopped = self.answers.pop(0)
-        at = ((0.0,) * 3, (0.0,) * 3, 0.0, -1)
-        return low, high, at, 1, left, count, how["condition"] or 4.0, stopped
+class Pressed(Exception):
+    """What a user's function raises."""
 
 
-BOX, OTHER = (0.0, 1.0), (1.0, 2.0)
+@pytest.mark.parametrize("error", [KeyboardInterrupt, Pressed])
+def test_ctrl_c_while_a_state_is_kept_ends_with_the_certificate_and_other_errors_are_raised(monkeypatch, error):
+    sliced = partial(_core.ConditionSettings, slice_seconds=0.01, least_seconds=0.01, keep_share=0.0)
+    monkeypatch.setattr(_core, "ConditionSettings", sliced)
+    kept = []
 
+    def keep(made):
+        kept.append(made)
+        raise error
 
-@pytest.mark.parametrize("wanted", [[], [3.9]])
-def test_an_interruption_between_two_searches_is_one(wanted):
-    """Ctrl-C as a search began that looks at no box: another search followed, and its end was an ordinary one."""
-    gap = 0.01 if not wanted else 0.5
-    asked = Scripted((3.0, 4.0, [], 0, False), (3.0, 9.0, [BOX], 1, True))
-    search = machine_search.ConditionSearch(asked, {"gap": gap}, time.perf_counter() + 60.0, False)
-    search.enclose(wanted, 1e-6)
-    assert search.interrupted
-    assert not asked.answers
-    assert (search.low, search.high, search.left, search.left_count) == (3.0, 4.0, [], 0)
-
-
-def test_boxes_that_are_not_handed_out_are_those_that_the_search_began_with():
-    asked = Scripted((3.0, 9.0, [BOX, OTHER], 2, False), (3.1, 9.0, [], 30_000, True))
-    search = machine_search.ConditionSearch(asked, {"gap": 0.01}, 0.0, False)
-    search.enclose([], 1e-6)
-    assert (search.left_count, search.left) == (2, [BOX, OTHER])
-    began = search.left
-    search._run(began, 4.0)
-    assert (search.left_count, search.left, search.target) == (2, began, 4.0)
+    if error is Pressed:
+        with pytest.raises(Pressed):
+            proved(SMALL, gap=1e-4, keep=keep)
+    else:
+        *_, made = proved(SMALL, gap=1e-4, keep=keep)
+        assert made.interrupted
+        assert made.left_count
+        assert made.condition_boxes >= kept[0].condition_boxes
+    assert len(kept) == 1
 
 
 def test_an_interruption_at_the_neutral_pose_is_one(monkeypatch):
-    class Interrupted(machine_search.ConditionSearch):
-        def _search_for(self, *given):
-            super()._search_for(*given)
-            self.interrupted = True
+    search = _core.search_condition
 
-    monkeypatch.setattr("ninedof.proof.machine.ConditionSearch", Interrupted)
+    def interrupted(*given):
+        state = search(*given)
+        state.interrupted = True
+        return state
+
+    monkeypatch.setattr(_core, "search_condition", interrupted)
     limited = nd.Study(objective={"region": {"box": [0.01] * 3}, "neutral_condition_limit": 5.0})
     geometry = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0)
     with pytest.raises(KeyboardInterrupt):

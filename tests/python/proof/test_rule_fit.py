@@ -15,7 +15,6 @@ from scipy.spatial.transform import Rotation
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.design.region_placed import Placing
-from ninedof.proof import placed
 from ninedof.proof.placed import rule_of
 
 VARIABLES = {"a1": 1.0, "a2": 0.8, "b1": 0.5, "b2": 0.6, "zp": 2.0, "zs": 1.0, "theta_z": 0.6}
@@ -110,21 +109,6 @@ def test_an_interrupted_fit_raises(at):
     with pytest.raises(KeyboardInterrupt):
         fitted(REGIONS["shift"], {}, 20.3, told)
     assert told.words[-1].startswith(at)
-
-
-def test_a_fit_is_interrupted_in_the_proof_of_its_condition_number(monkeypatch):
-    """The core returns then what it has: a certificate keeps that, a fit has no use for it."""
-    search = placed._core.worst_condition
-    calls = []
-
-    def interrupted(*given):
-        calls.append(given)
-        return (*search(*given)[:-1], True)
-
-    monkeypatch.setattr(placed._core, "worst_condition", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        fitted(REGIONS["shift"], {}, 20.3)
-    assert len(calls) == 1
 
 
 @pytest.mark.slow

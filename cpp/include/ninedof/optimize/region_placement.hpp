@@ -16,7 +16,8 @@ struct PlacementGoal {
   std::vector<LegRange> ranges;
 };
 
-/// A pose of a region, by its coordinates, with O: the shift of s from the neutral position in zp.
+/// A pose of a region that holds O (`shifted` is false), by its coordinates, with O: the shift of s from its neutral
+/// position in zp.
 struct Placed {
   Vec6 at = Vec6::Zero();
   Vec3 shift = Vec3::Zero();
@@ -59,15 +60,18 @@ std::vector<PlacedEnd> place_in_region(const Problem& problem, const Region& reg
                                        const PlacementGoal& goal, const std::vector<Vec3>& known,
                                        const std::vector<Vec6>& at, int threads = 0, const Control& control = {});
 
-/// The index (a row for each ratio it is the largest of, in logarithms) and all limits of single poses (as negative
-/// margins) with O at given places, and their derivatives with respect to the shift of O in zp.
+/// The index less the goal's (a row for each ratio it is the largest of, in logarithms), all limits of single poses (as
+/// negative margins), what passes the goal's ranges (of each leg first above, then below), and bounds of O, with O at
+/// given places; and their derivatives with respect to the shift of O in zp.
 struct PlacedRows {
   Eigen::VectorXd value;
   Eigen::Matrix<double, Eigen::Dynamic, 3> by_shift;
-  int of_index = 0;  ///< how many of the first rows are of the index
+  int of_index = 0;        ///< how many of the first rows are of the index
+  int first_of_range = 0;  ///< where the 18 rows of each range begin
 };
 std::vector<PlacedRows> placed_rows(const Problem& problem, const Region& region, const Eigen::VectorXd& variables,
-                                    const std::vector<Placed>& places, int threads = 0, const Control& control = {});
+                                    const PlacementGoal& goal, const std::vector<Placed>& places, int threads = 0,
+                                    const Control& control = {});
 
 /// A design with O at each of some poses.
 struct PlacedDesign {

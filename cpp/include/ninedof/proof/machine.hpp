@@ -61,7 +61,8 @@ struct ProofSettings {
   double relative = 1e-7;    ///< see PoseQuantity::limit
   double gap = 0.05;         ///< the same of the condition number
   double condition = 0.0;    ///< a condition number to be proved instead; 0: none
-  long boxes = 200'000;    ///< at most, for a number
+  /// At most, for a number; ten times as many where O follows a rule: it is fitted until limits are only just kept.
+  long boxes = 200'000;
 };
 
 /// The extreme values over all poses. On a stop or when the time is over, enclosures are wider.

@@ -58,6 +58,7 @@ void PlacedPose::list_rows(const Eigen::VectorXd& variables) {
       continue;
     (moves && !name.ends_with(" at neutral") ? rows_ : of_design_).push_back({Row::Kind::limit, item, 0});
   }
+  first_of_range_ = static_cast<int>(rows_.size());
   for (std::size_t range = 0; range < goal_.ranges.size(); ++range)
     for (int leg = 0; leg < 9; ++leg)
       for (const auto kind : {Row::Kind::longest, Row::Kind::shortest})
@@ -221,11 +222,11 @@ double PlacedPose::place(Vec3& shift, double enough) {
   return worst;
 }
 
-PlacedPose::Inner PlacedPose::rows(const Vec3& shift) {
+PlacedRows PlacedPose::rows(const Vec3& shift) {
   evaluate(shift);
   select(-infinity);
   differentiate();
-  return {values_, gradients_, p_.rows};
+  return {values_, gradients_, p_.rows, first_of_range_};
 }
 
 PlacedEnd PlacedPose::end(const Placed& placed) {

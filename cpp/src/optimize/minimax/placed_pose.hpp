@@ -22,13 +22,8 @@ class PlacedPose {
   double place(Vec3& shift, double enough);
 
   using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  /// All rows at a shift and their derivatives with respect to it; the rows of the index come first.
-  struct Inner {
-    Eigen::VectorXd value;
-    Gradient by_shift;
-    int of_index;
-  };
-  Inner rows(const Vec3& shift);
+  /// All rows at a shift and their derivatives with respect to it.
+  PlacedRows rows(const Vec3& shift);
 
   /// The rows at a shift: the excess and what it consists of.
   PlacedEnd end(const Placed& placed);
@@ -72,6 +67,7 @@ class PlacedPose {
   DesignEvaluation design_;
   RowSelection none_, selection_;
   std::vector<Row> rows_;
+  int first_of_range_ = 0;
   std::vector<Row> of_design_;
   Eigen::VectorXd values_;          // of all rows, the worse the larger
   std::vector<Eigen::Index> near_;  // rows near the largest, with their gradients

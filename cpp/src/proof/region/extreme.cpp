@@ -101,7 +101,11 @@ class Sought {
 class Climb {
  public:
   Climb(const Domain& domain, const PoseQuantity& wanted, const ProofSettings& settings)
-      : domain_(domain), wanted_(wanted), sought_(domain, wanted), settings_(settings) {}
+      : domain_(domain),
+        wanted_(wanted),
+        sought_(domain, wanted),
+        settings_(settings),
+        most_boxes_(settings.boxes * (domain.machine().rule.empty() ? 1 : 10)) {}
 
   template <class Stop>
   Extreme run(const Stop& stopped) {
@@ -113,7 +117,7 @@ class Climb {
       const Open top = open_.top();
       const bool near = contains(sought_.number({met_, top.bound}), wanted_.limit);
       if (top.bound <= met_ + (near ? settings_.relative : wanted_.relative) * std::abs(met_)) break;
-      if (boxes >= settings_.boxes || (boxes % 256 == 0 && stopped())) break;
+      if (boxes >= most_boxes_ || (boxes % 256 == 0 && stopped())) break;
       open_.pop();
       if (top.divide < 0) {
         done = std::max(done, top.bound);
@@ -147,6 +151,7 @@ class Climb {
   const PoseQuantity& wanted_;
   Sought sought_;
   const ProofSettings& settings_;
+  long most_boxes_;
   std::priority_queue<Open> open_;
   double met_ = -infinity;
   Box at_;

@@ -1,0 +1,53 @@
+#include "ninedof/proof/condition_search.hpp"
+
+#include <pybind11/stl.h>
+
+#include "ninedof/proof/bounds.hpp"
+#include "support/interruptible.hpp"
+#include "support/module.hpp"
+
+namespace ninedof::python {
+namespace {
+
+/// `keep`, None or a callable, is called with a state where the search is called from.
+ConditionState search(const PosedRobot& machine, const ConditionSettings& settings, const ConditionState& earlier,
+                      const py::object& keep, const py::object& progress) {
+  require_sound_arithmetic();
+  return interruptible(
+      progress,
+      [&](const WorkControl& control) {
+        std::function<void(const ConditionState&)> kept;
+        if (!keep.is_none())
+          kept = [&](const ConditionState& state) { control.on_calling_thread([&] { keep(state); }); };
+        return search_condition(machine, settings, earlier, kept, control);
+      },
+      [](ConditionState& state) { return state.interrupted = true; });
+}
+
+}  // namespace
+
+void bind_condition_search(py::module_& m) {
+  const ConditionSettings defaults;
+  py::class_<ConditionSettings>(m, "ConditionSettings")
+      .def(py::init([](int threads, double seconds, double gap, const std::vector<double>& wanted, double tolerance,
+                       double slice_seconds, double least_seconds, double keep_share) {
+             return ConditionSettings{threads,   seconds,       gap,           wanted,
+                                      tolerance, slice_seconds, least_seconds, keep_share};
+           }),
+           py::kw_only(), py::arg("threads"), py::arg("seconds"), py::arg("gap"), py::arg("wanted"),
+           py::arg("tolerance"), py::arg("slice_seconds") = defaults.slice_seconds,
+           py::arg("least_seconds") = defaults.least_seconds, py::arg("keep_share") = defaults.keep_share);
+  py::class_<ConditionState>(m, "ConditionState")
+      .def(py::init<>())
+      .def_readwrite("low", &ConditionState::low)
+      .def_readwrite("high", &ConditionState::high)
+      .def_readwrite("at", &ConditionState::at)
+      .def_readwrite("boxes", &ConditionState::boxes)
+      .def_readwrite("left", &ConditionState::left)
+      .def_readonly("left_count", &ConditionState::left_count)
+      .def_readwrite("target", &ConditionState::target)
+      .def_readwrite("interrupted", &ConditionState::interrupted);
+  m.def("search_condition", &search);
+}
+
+}  // namespace ninedof::python
