@@ -14,6 +14,8 @@ void bind_limits(py::module_& m);
 void bind_redundancy(py::module_& m);
 void bind_workspace(py::module_& m);
 void bind_certified_workspace(py::module_& m);
+void bind_workspace_field(py::module_& m);
+void bind_workspace_surface(py::module_& m);
 void bind_acceleration(py::module_& m);
 void bind_conditioning(py::module_& m);
 void bind_singularity(py::module_& m);
