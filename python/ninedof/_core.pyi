@@ -390,3 +390,26 @@ def surface_net(
 def surface_normals(surface: Any, /) -> _Floats: ...
 def enclosed_volume(surface: Any, /) -> float: ...
 def smoothed_points(surface: Any, rounds: int, /) -> _Floats: ...
+
+class WorkspacePoses:
+    @property
+    def position(self) -> _Floats: ...
+    @property
+    def rotation(self) -> _Floats: ...
+    @property
+    def internal_point(self) -> _Floats: ...
+    def statistics(
+        self, values: _Floats, by_modulus: bool, /
+    ) -> tuple[float, float, list[float], float, list[float]]: ...
+
+def workspace_poses(
+    g: Geometry,
+    domain: Mapping[str, Any],
+    kind: str,
+    fraction: float,
+    point: _Floats,
+    cells: Any,
+    ends: _Ends,
+    first_piece_alone: bool,
+    /,
+) -> WorkspacePoses: ...

@@ -16,6 +16,7 @@ void bind_workspace(py::module_& m);
 void bind_certified_workspace(py::module_& m);
 void bind_workspace_field(py::module_& m);
 void bind_workspace_surface(py::module_& m);
+void bind_workspace_statistics(py::module_& m);
 void bind_acceleration(py::module_& m);
 void bind_conditioning(py::module_& m);
 void bind_singularity(py::module_& m);
