@@ -7,7 +7,7 @@ float64; characteristic lengths as one value or n.
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from numpy import float64, int16, int64, intc, uint8
+from numpy import float64, int8, int16, int64, intc, uint8
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
@@ -374,6 +374,7 @@ def certified_workspace(
     progress: _Progress | None,
 ) -> dict[str, Any]: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...
+def certified_states(certified: Any, points: _Floats, /) -> NDArray[int8]: ...
 
 _Ends = tuple[_Floats, _Floats]
 _Axes = tuple[_Floats, _Floats, _Floats]
