@@ -1,6 +1,5 @@
 /// Declared in ninedof/workspace/field.hpp.
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/numbers.hpp"
@@ -13,85 +12,73 @@
 namespace ninedof {
 namespace {
 
-/// The two coordinates that are drawn.
+using Plane = Eigen::Array2d;  // along the horizontal and the vertical coordinate of a section
+
+/// The two coordinates that are drawn where one is fixed.
 struct Drawn {
   int horizontal, vertical;
+
   explicit Drawn(int fixed) : horizontal(fixed == 0 ? 1 : 0), vertical(fixed == 2 ? 1 : 2) {
     if (fixed < 0 || fixed > 2) throw InvalidArgument("fixed", std::to_string(fixed), "0, 1 or 2");
   }
+  Plane of(const Vec3& x) const { return {x[horizontal], x[vertical]}; }
 };
+
+/// Nothing allowed, at `columns` x `rows` points from `first` on.
+WorkspaceSection empty_section(const Plane& first, const Plane& step, std::size_t columns, std::size_t rows) {
+  WorkspaceSection out;
+  for (std::size_t n = 0; n < columns; ++n) out.horizontal.push_back(first[0] + step[0] * static_cast<double>(n));
+  for (std::size_t n = 0; n < rows; ++n) out.vertical.push_back(first[1] + step[1] * static_cast<double>(n));
+  out.state.assign(columns * rows, CellState::outside);
+  out.limit.assign(columns * rows, -1);
+  out.condition_number.assign(columns * rows, not_a_number);
+  out.fraction.assign(columns * rows, 0.0);
+  return out;
+}
 
 Vec3 sides_of(const WorkspaceMap& map, std::size_t cell) {
   return std::ldexp(1.0, -map.cells.level[cell]) / map.resolution * (map.high - map.low);
 }
 
-/// `count` points from `first` on.
-std::vector<double> axis_of(double first, double step, std::size_t count) {
-  std::vector<double> out;
-  for (std::size_t n = 0; n < count; ++n) out.push_back(first + step * static_cast<double>(n));
-  return out;
+/// The first pixels whose centres are not below a place, in pixels; rounded, so that neighbouring cells agree.
+Eigen::Array<std::size_t, 2, 1> first_pixels(const Plane& at, int pixels) {
+  const Plane number = ((at - 0.5) * 1e6).rint() / 1e6;
+  return number.ceil().max(0.0).min(static_cast<double>(pixels)).cast<std::size_t>();
 }
 
-WorkspaceSection empty_section(std::vector<double> horizontal, std::vector<double> vertical) {
-  const std::size_t count = horizontal.size() * vertical.size();
-  return {std::move(horizontal),
-          std::move(vertical),
-          std::vector(count, CellState::outside),
-          std::vector<std::int16_t>(count, -1),
-          std::vector(count, not_a_number),
-          std::vector(count, 0.0)};
-}
-
-/// The first pixel whose centre is not below `at`, in pixels; rounded, so that neighbouring cells agree.
-std::size_t first_pixel(double at, int pixels) {
-  const double number = std::ceil(std::rint((at - 0.5) * 1e6) / 1e6);
-  return static_cast<std::size_t>(std::clamp(number, 0.0, static_cast<double>(pixels)));
-}
-
-/// Points of a section to find the nearest boundary cells of, in the two coordinates drawn.
-class BoundaryCells {
+/// The boundary cells about a section, and the faces of the box.
+class Boundary {
  public:
-  BoundaryCells(const WorkspaceMap& map, const Vec3& step, int fixed, double at)
-      : drawn_(fixed), map_(map), step_(step) {
+  Boundary(const WorkspaceMap& map, const Vec3& step, int fixed, double at)
+      : low_(Drawn(fixed).of(map.low)), high_(Drawn(fixed).of(map.high)), step_(Drawn(fixed).of(step)) {
     for (std::size_t n = 0; n < map.cells.size(); ++n) {
-      if (map.cells.state[n] != CellState::boundary) continue;
-      const Vec3 sides = sides_of(map, n);
-      if (std::abs(map.cells.centre[n][fixed] - at) > 0.5 * sides[fixed] + step[fixed]) continue;
-      near_.push_back({map.cells.centre[n], 0.5 * sides, map.cells.limit[n]});
+      const Vec3 centre = map.cells.centre[n], half = 0.5 * sides_of(map, n);
+      if (map.cells.state[n] == CellState::boundary && std::abs(centre[fixed] - at) <= half[fixed] + step[fixed])
+        cells_.push_back({Drawn(fixed).of(centre), Drawn(fixed).of(half), map.cells.limit[n]});
     }
   }
 
-  std::int16_t limit_at(double horizontal, double vertical) const {
+  /// The limit of the nearest cell, or "box" at a face without one.
+  std::int16_t limit_at(const Plane& x) const {
     double least = infinity;
     std::int16_t limit = -1;
-    for (const Near& cell : near_) {
-      const double away = square(cell, horizontal, drawn_.horizontal) + square(cell, vertical, drawn_.vertical);
-      if (!(away < least)) continue;
-      least = away;
+    for (const Cut& cell : cells_) {
+      const double square = (((cell.centre - x).abs() - cell.half).max(0.0) / step_).square().sum();
+      if (!(square < least)) continue;
+      least = square;
       limit = cell.limit;
     }
-    const bool face = on_face(horizontal, drawn_.horizontal) || on_face(vertical, drawn_.vertical);
+    const bool face = ((x - low_).abs().min((x - high_).abs()) <= step_).any();
     return face && least > 1.0 ? static_cast<std::int16_t>(limit::box) : limit;
   }
 
  private:
-  struct Near {
-    Vec3 centre, half;
+  struct Cut {
+    Plane centre, half;
     std::int16_t limit;
   };
-
-  double square(const Near& cell, double at, int axis) const {
-    const double away = std::max(std::abs(cell.centre[axis] - at) - cell.half[axis], 0.0) / step_[axis];
-    return away * away;
-  }
-  bool on_face(double at, int axis) const {
-    return std::min(std::abs(at - map_.low[axis]), std::abs(at - map_.high[axis])) <= step_[axis];
-  }
-
-  Drawn drawn_;
-  const WorkspaceMap& map_;
-  Vec3 step_;
-  std::vector<Near> near_;
+  Plane low_, high_, step_;
+  std::vector<Cut> cells_;
 };
 
 }  // namespace
@@ -100,23 +87,20 @@ WorkspaceSection section_of(const WorkspaceMap& map, int fixed, double at, int p
   if (map.resolution < 1) throw InvalidArgument("map", "no cells", "a map of an octree or a grid");
   if (pixels < 1) throw InvalidArgument("pixels", std::to_string(pixels), "at least 1");
   const Drawn drawn(fixed);
-  const Vec3 pixel = (map.high - map.low) / pixels, middle = map.low + 0.5 * pixel;
-  const auto count = static_cast<std::size_t>(pixels);
-  WorkspaceSection out = empty_section(axis_of(middle[drawn.horizontal], pixel[drawn.horizontal], count),
-                                       axis_of(middle[drawn.vertical], pixel[drawn.vertical], count));
+  const Plane low = drawn.of(map.low), pixel = drawn.of(map.high - map.low) / pixels;
+  const auto side = static_cast<std::size_t>(pixels);
+  WorkspaceSection out = empty_section(low + 0.5 * pixel, pixel, side, side);
   for (std::size_t n = 0; n < map.cells.size(); ++n) {
     stop_at_times(static_cast<long>(n), stop);
     // Half open, so that a plane between two layers belongs to one of them.
-    const Vec3 sides = sides_of(map, n), centre = map.cells.centre[n];
-    const double away = (at - centre[fixed]) / sides[fixed];
+    const Vec3 centre = map.cells.centre[n], half = 0.5 * sides_of(map, n);
+    const double away = 0.5 * (at - centre[fixed]) / half[fixed];
     if (!(away >= -0.5 && (away < 0.5 || at >= map.high[fixed]) && away <= 0.5 + 1e-9)) continue;
-    const Vec3 low = (centre - 0.5 * sides - map.low).cwiseQuotient(pixel);
-    const Vec3 high = (centre + 0.5 * sides - map.low).cwiseQuotient(pixel);
+    const auto first = first_pixels((drawn.of(centre - half) - low) / pixel, pixels);
+    const auto last = first_pixels((drawn.of(centre + half) - low) / pixel, pixels);
     const bool held = map.cells.fraction[n] > 0.0;
-    for (std::size_t v = first_pixel(low[drawn.vertical], pixels); v < first_pixel(high[drawn.vertical], pixels); ++v)
-      for (std::size_t h = first_pixel(low[drawn.horizontal], pixels); h < first_pixel(high[drawn.horizontal], pixels);
-           ++h) {
-        const std::size_t place = v * count + h;
+    for (std::size_t row = first[1]; row < last[1]; ++row)
+      for (std::size_t place = row * side + first[0]; place < row * side + last[0]; ++place) {
         out.state[place] = held ? map.cells.state[n] : CellState::outside;
         out.limit[place] = map.cells.limit[n];
         out.condition_number[place] = held ? map.cells.condition_number[n] : not_a_number;
@@ -130,33 +114,28 @@ WorkspaceSection section_of(const WorkspaceMap& map, const WorkspaceField& field
                             const std::stop_token& stop) {
   const Drawn drawn(fixed);
   const Raster& raster = field.fraction;
-  const auto h = at_index(drawn.horizontal), v = at_index(drawn.vertical), f = at_index(fixed);
+  const auto f = at_index(fixed), h = at_index(drawn.horizontal), v = at_index(drawn.vertical);
   if (raster.count[f] < 2) throw InvalidArgument("field", "fewer than two points along an axis", "at least two");
-  WorkspaceSection out =
-      empty_section(axis_of(raster.first[drawn.horizontal], raster.step[drawn.horizontal], raster.count[h]),
-                    axis_of(raster.first[drawn.vertical], raster.step[drawn.vertical], raster.count[v]));
+  WorkspaceSection out = empty_section(drawn.of(raster.first), drawn.of(raster.step), raster.count[h], raster.count[v]);
   const double last = static_cast<double>(raster.count[f] - 1);
   const double place = (at - raster.first[fixed]) / raster.step[fixed];
-  const bool beyond = place < 0.0 || place > last;
-  const auto before = std::min(static_cast<std::size_t>(std::clamp(place, 0.0, last)), raster.count[f] - 2);
-  const double share = std::clamp(place, 0.0, last) - static_cast<double>(before);
+  if (!(place >= 0.0 && place <= last)) return out;
+  const std::size_t before = std::min(static_cast<std::size_t>(place), raster.count[f] - 2);
+  const double share = place - static_cast<double>(before);
   const auto stride = strides(raster.count);
   const auto between = [&](const std::vector<double>& values, std::size_t n) {
     return (1.0 - share) * values[n] + share * values[n + stride[f]];
   };
-  const BoundaryCells boundary(map, raster.step, fixed, at);
-  std::size_t n = 0;
-  for (std::size_t row = 0; row < out.vertical.size(); ++row) {
-    if (stop.stop_requested()) throw Stopped{};
-    for (std::size_t column = 0; column < out.horizontal.size(); ++column, ++n) {
-      const std::size_t from = before * stride[f] + row * stride[v] + column * stride[h];
-      const double fraction = beyond ? 0.0 : between(raster.values, from);
-      out.fraction[n] = fraction;
-      if (!(fraction > 0.0)) continue;
-      out.condition_number[n] = between(field.condition_number.values, from);
-      out.state[n] = fraction < 1.0 ? CellState::boundary : CellState::inside;
-      if (fraction < 1.0) out.limit[n] = boundary.limit_at(out.horizontal[column], out.vertical[row]);
-    }
+  const Boundary boundary(map, raster.step, fixed, at);
+  for (std::size_t n = 0; n < out.fraction.size(); ++n) {
+    const std::size_t row = n / raster.count[h], column = n % raster.count[h];
+    if (column == 0 && stop.stop_requested()) throw Stopped{};
+    const std::size_t from = before * stride[f] + row * stride[v] + column * stride[h];
+    out.fraction[n] = between(raster.values, from);
+    if (!(out.fraction[n] > 0.0)) continue;
+    out.condition_number[n] = between(field.condition_number.values, from);
+    out.state[n] = out.fraction[n] < 1.0 ? CellState::boundary : CellState::inside;
+    if (out.fraction[n] < 1.0) out.limit[n] = boundary.limit_at({out.horizontal[column], out.vertical[row]});
   }
   return out;
 }
