@@ -140,6 +140,21 @@ TEST_SUITE("field") {
     CHECK(enclosed_volume(body) > 0.0);
   }
 
+  TEST_CASE("cells of a damaged file, beside the lattice or beyond the box, are left out") {
+    WorkspaceMap map = ball();
+    const WorkspaceField field = field_of(map);
+    for (const double shift : {0.4, 3.7}) {
+      WorkspaceMap other = map;
+      other.cells.centre.push_back(Vec3(4.0, 4.0, 4.0) - Vec3::Constant(0.5 - shift));
+      other.cells.level.push_back(0);
+      other.cells.state.push_back(CellState::inside);
+      other.cells.limit.push_back(-1);
+      other.cells.fraction.push_back(1.0);
+      other.cells.condition_number.push_back(1.0);
+      CHECK(field_of(other).fraction.values == field.fraction.values);
+    }
+  }
+
   TEST_CASE("a pixel of a section has the values of the cell that holds its centre") {
     const WorkspaceMap map = ball();
     for (const int fixed : {0, 1, 2})

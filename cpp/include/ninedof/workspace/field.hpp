@@ -19,7 +19,7 @@ struct WorkspaceField {
 ///
 /// From coarse to fine: the values of each level are the means of the cells in it where there are cells so small, and
 /// interpolated linearly from the level above elsewhere. So a large cell has no step at its faces.
-/// Throws Stopped.
+/// Throws InvalidArgument for a sample, and Stopped.
 WorkspaceField field_of(const WorkspaceMap& map, long most = 1'300'000, const std::stop_token& stop = {});
 
 /// The body of the workspace, at a level of the allowed share. The field is averaged, which shrinks a body that is round
@@ -38,7 +38,7 @@ struct WorkspaceSection {
 
 /// The section of the cells of a map where coordinate `fixed` is `at`: `pixels` points along each side of the box, each
 /// with the values of the cell that holds it. Cells of which no part is known to be allowed are outside.
-/// Throws Stopped.
+/// Throws InvalidArgument for a sample, no such coordinate or no pixels, and Stopped.
 WorkspaceSection section_of(const WorkspaceMap& map, int fixed, double at, int pixels,
                             const std::stop_token& stop = {});
 

@@ -16,8 +16,7 @@ struct WorkspacePoses {
   std::size_t size() const { return coordinates.size(); }
 };
 
-/// The poses of a map of `domain`, with O by a rule that is a formula; of piece 0, or of all. A map without a resolution
-/// is a sample.
+/// The poses of a map of `domain`, with O by a rule that is a formula; of piece 0, or of all.
 /// Throws InvalidArgument for sets of rotations and for the best O: a cell of theirs has no single pose.
 WorkspacePoses poses_of(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                         const WorkspaceMap& map, bool first_piece_alone);

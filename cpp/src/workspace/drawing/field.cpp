@@ -45,8 +45,10 @@ std::vector<FieldCell> cells_in(const WorkspaceMap& map, const Window& window, c
   double worst = 1.0;
   for (std::size_t n = 0; n < cells.size(); ++n) {
     stop_at_times(static_cast<long>(n), stop);
+    // Wholly in the window, so that no cell, not even one of a damaged file, is written beyond the raster.
+    const double half = std::ldexp(0.5 * (1.0 - 1e-6), -cells.level[n]);
     const Vec3 at = (cells.centre[n] - map.low).cwiseQuotient(side) - window.first;
-    if (!(at.minCoeff() > 0.0 && (span - at).minCoeff() > 0.0)) continue;
+    if (!(at.minCoeff() > half && (span - at).minCoeff() > half)) continue;
     const double kappa = cells.condition_number[n];
     if (std::isfinite(kappa)) worst = std::max(worst, kappa);
     out.push_back({at, cells.level[n], cells.state[n] == CellState::boundary, cells.fraction[n], std::log(kappa)});
