@@ -17,6 +17,9 @@ PYBIND11_MODULE(ninedof_core, m, pybind11::mod_gil_not_used()) {
   ninedof::python::bind_motion(m);
   ninedof::python::bind_workspace(m);
   ninedof::python::bind_certified_workspace(m);
+  ninedof::python::bind_workspace_field(m);
+  ninedof::python::bind_workspace_surface(m);
+  ninedof::python::bind_workspace_statistics(m);
   ninedof::python::bind_acceleration(m);
   ninedof::python::bind_conditioning(m);
   ninedof::python::bind_singularity(m);

@@ -7,7 +7,7 @@ float64; characteristic lengths as one value or n.
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from numpy import float64, intc, uint8
+from numpy import float64, int8, int16, int64, intc, uint8
 from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[float64]
@@ -499,3 +499,43 @@ def sheet_over_region(
 def leg_lengths_over(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, region: dict[str, Any], samples: int, /
 ) -> tuple[_Floats, _Floats]: ...
+def certified_states(certified: Any, points: _Floats, /) -> NDArray[int8]: ...
+
+_Ends = tuple[_Floats, _Floats]
+_Axes = tuple[_Floats, _Floats, _Floats]
+_Section = tuple[_Floats, _Floats, NDArray[uint8], NDArray[int16], _Floats, _Floats]
+
+# Cells, fields and surfaces are the tuples of ninedof.workspace.
+def workspace_field(cells: Any, ends: _Ends, most: int, /) -> tuple[_Axes, _Floats, _Floats]: ...
+def workspace_surface(field: Any, /) -> tuple[_Floats, NDArray[int64]]: ...
+def cell_section(cells: Any, ends: _Ends, fixed: int, at: float, pixels: int, /) -> _Section: ...
+def field_section(cells: Any, ends: _Ends, field: Any, fixed: int, at: float, /) -> _Section: ...
+def surface_net(
+    axes: Sequence[_Floats], values: _Floats, level: float, outside: float, /
+) -> tuple[_Floats, NDArray[int64]]: ...
+def surface_normals(surface: Any, /) -> _Floats: ...
+def enclosed_volume(surface: Any, /) -> float: ...
+def smoothed_points(surface: Any, rounds: int, /) -> _Floats: ...
+
+class WorkspacePoses:
+    @property
+    def position(self) -> _Floats: ...
+    @property
+    def rotation(self) -> _Floats: ...
+    @property
+    def internal_point(self) -> _Floats: ...
+    def statistics(
+        self, values: _Floats, by_modulus: bool, /
+    ) -> tuple[float, float, list[float], float, list[float]]: ...
+
+def workspace_poses(
+    g: Geometry,
+    domain: Mapping[str, Any],
+    kind: str,
+    fraction: float,
+    point: _Floats,
+    cells: Any,
+    ends: _Ends,
+    first_piece_alone: bool,
+    /,
+) -> WorkspacePoses: ...

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "support/arrays.hpp"
+#include "support/columns.hpp"
 #include "support/interruptible.hpp"
 #include "support/module.hpp"
 #include "support/workspace_question.hpp"
@@ -10,11 +10,7 @@
 namespace ninedof::python {
 namespace {
 
-Array rows_of(const std::vector<Vec3>& values) {
-  Array out(std::vector<py::ssize_t>{static_cast<py::ssize_t>(values.size()), 3});
-  for (std::size_t n = 0; n < values.size(); ++n) Eigen::Map<Vec3>(out.mutable_data() + 3 * n) = values[n];
-  return out;
-}
+constexpr std::array beyond{"nothing", "something", "unknown"};
 
 py::tuple ends_of_volume(const VolumeBounds& v) {
   return py::make_tuple(v.low, v.high);
@@ -28,23 +24,22 @@ py::dict dict_of_certified(const CertifiedWorkspace& c) {
   out["home_volume"] = ends_of_volume(c.home_volume);
   out["home_inside"] = c.home_inside;
   out["home_outside"] = c.home_outside;
-  constexpr std::array beyond{"nothing", "something", "unknown"};
   out["beyond"] = beyond[static_cast<std::size_t>(c.beyond)];
+  out["box_low"] = array_from(c.box_low);
+  out["box_high"] = array_from(c.box_high);
   out["low"] = array_from(c.low);
   out["high"] = array_from(c.high);
-  out["inner_low"] = rows_of(c.inner_low);
-  out["inner_high"] = rows_of(c.inner_high);
-  out["open_low"] = rows_of(c.open_low);
-  out["open_high"] = rows_of(c.open_high);
+  out["inner_low"] = array_from(c.inner_low);
+  out["inner_high"] = array_from(c.inner_high);
+  out["open_low"] = array_from(c.open_low);
+  out["open_high"] = array_from(c.open_high);
   Array volumes(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.open_volume.size()), 2});
   for (std::size_t n = 0; n < c.open_volume.size(); ++n) {
     volumes.mutable_data()[2 * n] = c.open_volume[n].low;
     volumes.mutable_data()[2 * n + 1] = c.open_volume[n].high;
   }
   out["open_volume"] = volumes;
-  py::array_t<std::int64_t> first(static_cast<py::ssize_t>(c.first_cut.size()));
-  std::copy(c.first_cut.begin(), c.first_cut.end(), first.mutable_data());
-  out["first_cut"] = first;
+  out["first_cut"] = column<std::int64_t>(c.first_cut);
   Array cuts(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.cuts.size()), 5});
   for (std::size_t n = 0; n < c.cuts.size(); ++n) {
     double* to = cuts.mutable_data() + 5 * n;
@@ -54,6 +49,28 @@ py::dict dict_of_certified(const CertifiedWorkspace& c) {
   }
   out["cuts"] = cuts;
   out["looked"] = c.looked;
+  return out;
+}
+
+/// The boxes of a CertifiedWorkspace and their planes; of the rest, what its states need.
+CertifiedWorkspace certified_from(const py::object& given) {
+  CertifiedWorkspace out;
+  const bool nothing = given.attr("beyond").cast<std::string>() == beyond[0];
+  out.beyond = nothing ? CertifiedWorkspace::Beyond::nothing : CertifiedWorkspace::Beyond::unknown;
+  out.box_low = vec3_of(given.attr("box_low").cast<Array>());
+  out.box_high = vec3_of(given.attr("box_high").cast<Array>());
+  out.inner_low = points_from("inner_low", given.attr("inner_low"));
+  out.inner_high = points_from("inner_high", given.attr("inner_high"));
+  out.open_low = points_from("open_low", given.attr("open_low"));
+  out.open_high = points_from("open_high", given.attr("open_high"));
+  out.first_cut = list_from<std::int64_t>("first_cut", given.attr("first_cut"), std::ssize(out.open_low) + 1);
+  const auto cuts = given.attr("cuts").cast<Array>();
+  for (const double* from = cuts.data(); from != cuts.data() + cuts.size() / 5 * 5; from += 5)
+    out.cuts.push_back({Eigen::Map<const Vec3>(from), from[3], from[4]});
+  const auto is_cut = [&](std::int64_t n) { return n >= 0 && n <= std::ssize(out.cuts); };
+  if (out.inner_low.size() != out.inner_high.size() || out.open_low.size() != out.open_high.size() ||
+      !std::ranges::all_of(out.first_cut, is_cut))
+    throw InvalidArgument("certified", "boxes and planes that do not match", "those of certified_workspace");
   return out;
 }
 
@@ -76,6 +93,12 @@ void bind_certified_workspace(py::module_& m) {
                 return true;
               }));
         });
+  m.def("certified_states", [](const py::object& certified, const Array& points) {
+    const CertifiedWorkspace found = certified_from(certified);
+    const std::vector<Vec3> at = points_from("points", points);
+    return column<std::int8_t>(
+        interruptible(py::none(), [&](const Control& control) { return proved_states(found, at, control.stop); }));
+  });
 }
 
 }  // namespace ninedof::python

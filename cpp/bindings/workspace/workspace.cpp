@@ -1,6 +1,6 @@
 #include "ninedof/workspace/workspace.hpp"
 
-#include "support/arrays.hpp"
+#include "support/columns.hpp"
 #include "support/interruptible.hpp"
 #include "support/map_audit.hpp"
 #include "support/module.hpp"
@@ -22,18 +22,9 @@ WorkspaceSettings workspace_settings_from(const py::dict& d) {
           d["threads"].cast<int>()};
 }
 
-template <class T, class U>
-py::array_t<T> column(const std::vector<U>& values) {
-  py::array_t<T> out(static_cast<py::ssize_t>(values.size()));
-  std::transform(values.begin(), values.end(), out.mutable_data(), [](const U& v) { return static_cast<T>(v); });
-  return out;
-}
-
 py::dict dict_of(const WorkspaceCells& c) {
-  Array centre(std::vector<py::ssize_t>{static_cast<py::ssize_t>(c.size()), 3});
-  for (std::size_t n = 0; n < c.size(); ++n) Eigen::Map<Vec3>(centre.mutable_data() + 3 * n) = c.centre[n];
   py::dict out;
-  out["centre"] = centre;
+  out["centre"] = array_from(c.centre);
   out["level"] = column<std::uint8_t>(c.level);
   out["state"] = column<std::uint8_t>(c.state);
   out["limit"] = column<std::int16_t>(c.limit);

@@ -20,8 +20,9 @@ from ninedof.sheet.pose_limits import PoseLimit
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.viewer.numbers import Yardstick, margins_at
-from ninedof.viewer.surface import Faces, smoothed, surface, triangles
+from ninedof.viewer.shapes import Faces
 from ninedof.workspace.study_criteria import EASE
+from ninedof.workspace.surface import closed_surface, smoothed
 
 COARSE, FINE = 17, 33  # points along each side: to find the body, and to draw it
 COARSE_SEARCHED, FINE_SEARCHED = 9, 15  # where the best O is sought at each of them
@@ -122,6 +123,7 @@ class Body:
 
     vertices: Floats
     faces: Faces
+    """Triangles: three numbers of vertices each."""
     volume: float
     open: bool
     """Whether it reaches the box that was looked at, so that there is more of it."""
@@ -155,9 +157,9 @@ def body(question: BodyQuestion, stopped: Callable[[], bool] = lambda: False) ->
         if found is None:
             return None
         field, drawn = found, tight
-    found_surface = surface(field, drawn[0], drawn[1])
-    faces = triangles(found_surface.faces)
-    return Body(smoothed(found_surface.points, faces), faces, found_surface.volume, is_open)
+    surface = closed_surface(field, drawn[0], drawn[1])
+    faces = np.concatenate([surface.faces[:, [0, 1, 2]], surface.faces[:, [0, 2, 3]]]).astype(np.uint32)
+    return Body(smoothed(surface), faces, surface.volume, is_open)
 
 
 def _about(inside: NDArray[np.bool_], whole: Floats) -> Floats | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,44 +52,6 @@ class WorkspaceSlice(NamedTuple):
     """NaN where no pose is allowed."""
     fraction: Floats
     """Allowed share; the contour at one half is the boundary."""
-
-
-def slice_of(
-    cells: WorkspaceCells,
-    ends: tuple[Floats, Floats],
-    coordinates: tuple[str, str, str],
-    fixed: int,
-    at: float,
-    pixels: int,
-) -> WorkspaceSlice:
-    """Return the section of cells between `ends` where coordinate number `fixed` has the value `at`.
-
-    Cells left undecided, of which no part is known to be allowed, are outside.
-    """
-    low, high = ends
-    h, v = (k for k in range(3) if k != fixed)
-    state = np.zeros((pixels, pixels), dtype=np.uint8)
-    limit = np.full((pixels, pixels), -1, dtype=np.int16)
-    kappa, share = np.full((pixels, pixels), np.nan), np.zeros((pixels, pixels))
-    # Half open, so that a plane between two layers belongs to one of them.
-    away = (at - cells.centre[:, fixed]) / cells.size[:, fixed]
-    hit = np.flatnonzero((away >= -0.5) & ((away < 0.5) | (at >= high[fixed])) & (away <= 0.5 + 1e-9))
-    scale = pixels / (high - low)
-
-    def pixel(x: Floats) -> Any:
-        """Return the first pixel whose centre is not below x; rounded, so that neighbouring cells agree."""
-        return np.ceil(np.round((x - low) * scale - 0.5, 6)).astype(int)
-
-    first, last = pixel(cells.centre[hit] - 0.5 * cells.size[hit]), pixel(cells.centre[hit] + 0.5 * cells.size[hit])
-    for n, a, b in zip(hit.tolist(), first, last, strict=True):
-        there = (slice(a[v], b[v]), slice(a[h], b[h]))
-        held = cells.state[n] if cells.fraction[n] > 0.0 else 0
-        state[there], limit[there] = held, cells.limit[n]
-        kappa[there] = cells.condition_number[n] if held else np.nan
-        share[there] = cells.fraction[n]
-    middle = (np.arange(pixels) + 0.5)[:, None] / scale + low
-    axes, plane = (coordinates[h], coordinates[v]), (coordinates[fixed], at)
-    return WorkspaceSlice(axes, plane, middle[:, h], middle[:, v], state, limit, kappa, share)
 
 
 def group_of(name: str) -> str:

@@ -127,8 +127,6 @@ def certified_workspace(
         **found,
         home="allowed" if inside else "forbidden" if outside else "unknown",
         connected=limits["singularity_free"],
-        box_low=domain["low"],
-        box_high=domain["high"],
         archetype=archetype,
         seconds=perf_counter() - begin,
         unit=named,

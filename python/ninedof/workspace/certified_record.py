@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninedof import _core
 from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
@@ -17,7 +18,6 @@ from ninedof.support.files import Arrays, Saved
 from ninedof.support.json import decode, encode
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
-from ninedof.workspace.located import located
 
 AXES = ("x", "y", "z")
 ENDS = {
@@ -147,31 +147,7 @@ class CertifiedWorkspace(Saved):
 
         """
         at = as_floats("points", points, (3,)).reshape(-1, 3)
-        out = np.full(len(at), -1, dtype=np.int8)
-        if self.beyond != "nothing":
-            out[~((at >= self.box_low) & (at <= self.box_high)).all(axis=1)] = 0
-        out[located(self.inner_low, self.inner_high, at) >= 0] = 1
-        inside = located(self.open_low, self.open_high, at)
-        there = np.flatnonzero((inside >= 0) & (out < 1))
-        out[there] = self._cut_states(at[there], inside[there])
-        return out
-
-    def _cut_states(self, at: Floats, box: NDArray[np.int64]) -> States:
-        """Return the states of points in open boxes, by their planes; roundings count against both proofs."""
-        low, high = self.open_low[box], self.open_high[box]
-        half = 0.5 * (high - low)
-        t = (at - 0.5 * (low + high)) / half
-        error = 2.0**-48 * (1.0 + (np.abs(low) + np.abs(high) + np.abs(at)) / half)
-        allowed, forbidden = np.ones(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
-        count = np.diff(self.first_cut)[box]
-        for k in range(int(count.max(initial=0))):
-            some = np.flatnonzero(count > k)
-            cut = self.cuts[self.first_cut[box[some]] + k]
-            value = np.einsum("ij,ij->i", cut[:, :3], t[some])
-            room = np.einsum("ij,ij->i", np.abs(cut[:, :3]), error[some] + 2.0**-48)
-            allowed[some] &= value - room >= cut[:, 3]
-            forbidden[some] |= value + room <= cut[:, 4]
-        return np.where(allowed, 1, np.where(forbidden, -1, 0)).astype(np.int8)
+        return _core.certified_states(self, at)
 
     def section(self, axis: str, at: float, pixels: int = 400) -> CertifiedSection:
         """Return a plane through the box that was divided, for drawing.

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
@@ -16,9 +17,9 @@ from ninedof.support.files import Arrays, Saved
 from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
 from ninedof.support.short import short
-from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of, slice_of
+from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
-from ninedof.workspace.field import WorkspaceField, field_of, section_of
+from ninedof.workspace.field import WorkspaceField, field_of
 from ninedof.workspace.statistics import IndexStatistics
 from ninedof.workspace.surface import WorkspaceSurface, surface_of
 
@@ -195,9 +196,14 @@ class WorkspaceMap(Saved):
         smooth = flag("smooth", smooth)
         if self.method == "sample":
             raise ValueError("slice: got a sample, expected a map of cells")
-        if smooth:
-            return section_of(self.cells, self.field, (self.low, self.high), self.coordinates, fixed, float(at))
-        return slice_of(self.cells, (self.low, self.high), self.coordinates, fixed, float(at), pixels)
+        ends = self.low, self.high
+        section = (
+            _core.field_section(self.cells, ends, self.field, fixed, at)
+            if smooth
+            else _core.cell_section(self.cells, ends, fixed, at, pixels)
+        )
+        h, v = (name for name in self.coordinates if name != axis)
+        return WorkspaceSlice((h, v), (axis, float(at)), *section)
 
     @cached_property
     def field(self) -> WorkspaceField:

@@ -198,7 +198,7 @@ def workspace(
     if not indices or made.interrupted:
         return made
     try:
-        over = statistics_of(geometry, domain, rule, limits, made.cells, indices, threads)
+        over = statistics_of(geometry, domain, rule, limits, made.cells, (made.low, made.high), indices, threads)
     except KeyboardInterrupt:
         return replace(made, status=WorkspaceStatus.STOPPED)
     return replace(made, indices=over, seconds=perf_counter() - begin)

@@ -269,7 +269,7 @@ def test_a_path_is_played_at_its_own_times_and_between_its_poses():
 
 def test_the_model_needs_no_screen():
     folder = Path(nd.__file__).parent / "viewer"
-    for name in ("state", "numbers", "subject", "player", "body", "surface"):
+    for name in ("state", "numbers", "subject", "player", "body"):
         text = (folder / f"{name}.py").read_text(encoding="utf-8")
         assert "viser" not in text
         assert "plot" not in text

@@ -38,9 +38,10 @@ struct CertifiedWorkspace {
   /// What lies outside the box: nothing allowed, proved; something, proved; or not known.
   enum class Beyond : std::uint8_t { nothing, something, unknown };
   Beyond beyond = Beyond::unknown;
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< of the box divided: nothing else in the box given is allowed
-  std::vector<Vec3> inner_low, inner_high;       ///< every pose is allowed
-  std::vector<Vec3> open_low, open_high;         ///< all others are in these boxes
+  Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< the box asked for
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< of the box divided: nothing else in the box asked for is allowed
+  std::vector<Vec3> inner_low, inner_high;  ///< every pose is allowed
+  std::vector<Vec3> open_low, open_high;  ///< all others are in these boxes
   /// The cuts of open box n are those from first_cut[n] to first_cut[n + 1]: poses allowed by all are allowed, and those
   /// forbidden by one are not.
   std::vector<std::int64_t> first_cut;
@@ -56,5 +57,12 @@ struct CertifiedWorkspace {
 CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                                        const WorkspaceCriteria& criteria, const CertifySettings& settings = {},
                                        const std::optional<Configuration>& home = {}, const Control& control = {});
+
+/// What is proved of positions: 1 where the pose is allowed, -1 where it is not, 0 where nothing is known. It does not
+/// say whether the pose is connected with home. Roundings count against both proofs. The inner and the open boxes do
+/// not overlap, but for their faces.
+/// Throws Stopped.
+std::vector<std::int8_t> proved_states(const CertifiedWorkspace& found, const std::vector<Vec3>& points,
+                                       const std::stop_token& stop = {});
 
 }  // namespace ninedof

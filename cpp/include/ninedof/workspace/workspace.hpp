@@ -159,7 +159,7 @@ struct WorkspaceMap {
   std::vector<WorkspaceLevel> levels;
   MapAudit internal_points;  ///< of the best O: how often continuation from nearby points missed a better one
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< of the chart
-  int resolution = 0;
+  int resolution = 0;  ///< 0 for a sample, whose points are no cells
   long evaluations = 0;
 };
 

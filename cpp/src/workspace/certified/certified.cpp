@@ -157,6 +157,8 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
     out.home_outside = piece.outside;
   }
   scale_back(out, exponent);
+  out.box_low = domain.low;
+  out.box_high = domain.high;
   if (nothing_there) {
     out.low = domain.low;
     out.high = domain.high;

@@ -11,9 +11,9 @@ namespace {
 constexpr int finest = 64;  // cells along each side of the raster; the time grows with its fourth power
 
 /// A raster of cells of one size, with those that are entirely allowed.
-class Raster {
+class CellRaster {
  public:
-  Raster(const std::vector<Leaf>& leaves, bool first_piece_alone, int resolution) {
+  CellRaster(const std::vector<Leaf>& leaves, bool first_piece_alone, int resolution) {
     while ((resolution << (level_ + 1)) <= finest) ++level_;
     side_ = resolution << level_;
     std::vector<double> share(at_index(side_) * at_index(side_ * side_), 0.0);
@@ -45,7 +45,7 @@ struct CellBox {
 };
 
 /// For each range of layers the largest rectangle of columns that are full in all of them (by the histogram method).
-CellBox largest_of_cells(const Raster& r, const Vec3& size) {
+CellBox largest_of_cells(const CellRaster& r, const Vec3& size) {
   const int n = r.side();
   const auto width = at_index(n);
   CellBox best{};
@@ -125,7 +125,7 @@ InscribedBox varied(InscribedBox box, const std::vector<Vec3>& surface, const Ch
 std::optional<InscribedBox> largest_box(const std::vector<Leaf>& leaves, const CellLattice& lattice,
                                         const std::vector<Vec3>& surface, const Chart& chart, bool first_piece_alone,
                                         int resolution, bool vary) {
-  const Raster raster(leaves, first_piece_alone, resolution);
+  const CellRaster raster(leaves, first_piece_alone, resolution);
   const Vec3 size = lattice.size(raster.level());
   const CellBox cells = largest_of_cells(raster, size);
   if (!(cells.volume > 0.0)) return {};

@@ -175,7 +175,7 @@ void map_by_sample(const Margins& m, const WorkspaceSettings& settings, const Co
     return std::pair(mean, std::sqrt(square / (settings.shifts - 1.0) / settings.shifts));
   };
   std::tie(map.volume, map.error) = mean_and_error(volume);
-  finish(m, total, settings.resolution, map);
+  finish(m, total, 0, map);
   const CellLattice lattice(m, settings.resolution, settings.threads);
   summarize(leaves, lattice, false, map, control.stop);
   map.cells.centre = where;
