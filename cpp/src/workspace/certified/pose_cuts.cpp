@@ -16,16 +16,16 @@ constexpr Criteria bit(int k) {
   return Criteria{1} << k;
 }
 
-/// What u of an item has to keep to lie between two numbers; a limit of 0 needs no form.
-std::vector<Edge> edges_of(const PoseRow& row, double low, double high) {
+/// What u has to keep for a number to be in a range; a limit of 0 needs no form.
+std::vector<Edge> edges_of(const PoseRow& row, const Interval& range) {
   std::vector<Edge> out;
   const auto add = [&](bool least, double limit) {
     Edge edge{least != row.falls, {}};
     if (limit != 0.0 || row.numerator == nullptr) edge.at = PoseForm::of(row.smooth(Interval(limit)));
     out.push_back(edge);
   };
-  if (low > -infinity) add(true, low);
-  if (high < infinity) add(false, high);
+  if (range.lo > -infinity) add(true, range.lo);
+  if (range.hi < infinity) add(false, range.hi);
   return out;
 }
 
@@ -46,18 +46,23 @@ PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const Inter
     : geometry_(g), criteria_(criteria), rule_(rule), some_(domain.archetype == Archetype::reachable) {
   for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
   if (criteria.legs) {
-    const PoseRow& row = *leg_length_limit().pose;
-    RowCuts& legs = add_row(row, FormHome(g, home, Vec3::Zero()));
-    for (int k = 0; k < 9; ++k) {
-      const double low = criteria.legs->low[k], high = criteria.legs->high[k];
-      add_item(legs, edges_of(row, low > 0.0 ? low : -infinity, high));
-    }
+    std::vector<Interval> ranges;
+    for (int k = 0; k < 9; ++k)
+      ranges.emplace_back(criteria.legs->low[k] > 0.0 ? criteria.legs->low[k] : -infinity, criteria.legs->high[k]);
+    add(*leg_length_limit().pose, FormHome(g, home, Vec3::Zero()), ranges);
   }
-  const std::vector<PoseCriterion> limits = criteria_besides_legs(criteria);
-  for (const PoseCriterion& c : limits)
-    if (c.row->pose != nullptr && !c.row->pose->pairs) add_limit(c, home);
-  for (const PoseCriterion& c : limits)
-    if (c.row->pose != nullptr && c.row->pose->pairs) add_limit(c, home);
+  const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(g, criteria.exempt);
+  for (const bool pairs : {false, true})
+    for (const PoseCriterion& c : criteria_besides_legs(criteria)) {
+      const PoseRow* row = c.row->pose;
+      if (row == nullptr || row->pairs != pairs) continue;
+      const bool no_limit = c.row->info.kind == LimitKind::angle && c.high >= std::numbers::pi;  // none is greater
+      std::vector<Interval> ranges(at_index(row->items), Interval(c.low, no_limit ? infinity : c.high));
+      for (int item = 0; pairs && item < row->items; ++item)
+        if (exempt[at_index(item)]) ranges[at_index(item)] = Interval::whole();
+      add(*row, FormHome(g, home, c.axis), ranges);
+      if (row->on_the_way) require_kept(rows_.back(), home, c.row->info.name);
+    }
   if (criteria.condition_number) condition_ = add_bit();
 }
 
@@ -67,34 +72,23 @@ int PoseCuts::add_bit() {
   return bits_++;
 }
 
-PoseCuts::RowCuts& PoseCuts::add_row(const PoseRow& row, const FormHome& home) {
-  rows_.push_back({&row, home, {}, 0.0});
-  return rows_.back();
-}
-
-void PoseCuts::add_item(RowCuts& row, std::vector<Edge> edges) {
-  row.items.push_back({edges.empty() ? -1 : add_bit(), std::move(edges)});
-}
-
-void PoseCuts::add_limit(const PoseCriterion& c, const Configuration& home) {
-  const PoseRow& row = *c.row->pose;
-  RowCuts& cuts = add_row(row, FormHome(geometry_, home, c.axis));
-  if (row.pairs) {
-    const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(geometry_, criteria_.exempt);
-    for (int pair = 0; pair < row.items; ++pair) cuts.items.push_back({exempt[at_index(pair)] ? -1 : add_bit(), {}});
-    cuts.distance = c.low;
-    return;
+void PoseCuts::add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges) {
+  rows_.push_back({&row, home, {}});
+  for (const Interval& range : ranges) {
+    const bool open = range.lo == -infinity && range.hi == infinity;
+    rows_.back().items.push_back(
+        {open ? -1 : add_bit(), range.lo, row.pairs ? std::vector<Edge>{} : edges_of(row, range)});
   }
-  const bool no_limit = c.row->info.kind == LimitKind::angle && c.high >= std::numbers::pi;  // no angle is greater
-  const std::vector<Edge> edges = edges_of(row, c.low, no_limit ? infinity : c.high);
-  for (int item = 0; item < row.items; ++item) add_item(cuts, edges);
-  if (!row.on_the_way) return;
+}
+
+void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const {
   const FormPose at_home = form_pose(home);
-  for (int item = 0; item < row.items; ++item)
-    for (const Edge& edge : edges)
-      if (!(lower(kept(edge, u_of(cuts, FormLook(geometry_, at_home, cuts.home), item))) > 0.0))
+  const FormLook look(geometry_, at_home, cuts.home);
+  for (int item = 0; item < cuts.row->items; ++item)
+    for (const Edge& edge : cuts.items[at_index(item)].edges)
+      if (!(lower(kept(edge, u_of(cuts, look, item))) > 0.0))
         throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
-                              std::string("a regular one with ") + c.row->info.name);
+                              "a regular one with " + name);
 }
 
 PoseForm PoseCuts::u_of(const RowCuts& cuts, const FormLook& look, int item) {
@@ -139,9 +133,9 @@ void PoseCuts::put(const Cut& cut, Found& found) {
 void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const {
   const FormLook look(geometry_, pose, cuts.home);
   for (int item = 0; item < cuts.row->items && !found.violated; ++item) {
-    const auto& [place, edges] = cuts.items[at_index(item)];
+    const auto& [place, low, edges] = cuts.items[at_index(item)];
     if (place < 0 || !(found.open & bit(place))) continue;
-    bool all = cuts.row->pairs ? look_at_pair(leg_pair_forms(look, item), cuts.distance, found) : true;
+    bool all = !cuts.row->pairs || look_at_pair(leg_pair_forms(look, item), low, found);
     if (!edges.empty()) {
       const PoseForm u = u_of(cuts, look, item);
       for (const Edge& edge : edges) all = decided(kept(edge, u), found) && all;

@@ -55,21 +55,21 @@ class PoseCuts {
   PositionBox reached() const;
 
  private:
-  /// A limit at a pose: of each item its bit, -1 for none, and its sides; of pairs of legs the least distance.
+  /// A limit at a pose: of each item its bit, -1 without a limit, its least number and what that says of u.
   struct RowCuts {
     struct Item {
       int bit;
-      std::vector<Edge> edges;
+      double low;
+      std::vector<Edge> edges;  ///< none of pairs of legs
     };
     const PoseRow* row;
     FormHome home;
     std::vector<Item> items;
-    double distance;
   };
   int add_bit();
-  RowCuts& add_row(const PoseRow& row, const FormHome& home);
-  void add_item(RowCuts& row, std::vector<Edge> edges);
-  void add_limit(const PoseCriterion& limit, const Configuration& home);
+  void add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges);
+  /// Throws InvalidArgument unless a limit is proved to hold at home.
+  void require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const;
   /// u of an item, or its numerator where that is enough.
   static PoseForm u_of(const RowCuts& cuts, const FormLook& look, int item);
   void look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const;
