@@ -22,7 +22,7 @@ void bind_limits(py::module_& m) {
     const LimitNumbers numbers(name, g, home[0], axis.size() == 3 ? Vec3(axis[0], axis[1], axis[2]) : Vec3(0, 0, 0));
     return for_each_row(c.count(), numbers.items(), 0, py::none(), [&](long k, double* out) { numbers.at(c[k], out); });
   });
-  m.def("pairs_sharing_a_joint", &pairs_sharing_a_joint);
+  m.def("pairs_sharing_a_joint", [](const Geometry& g) { return pairs_sharing_a_joint(g); });
 }
 
 }  // namespace ninedof::python

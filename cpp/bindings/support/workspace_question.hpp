@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -61,10 +62,19 @@ inline InternalPointRule rule_from(const std::string& kind, double fraction, con
           fraction, vec3_of(point)};
 }
 
-inline std::optional<ConeLimit> cone_from(const py::object& given) {
-  if (given.is_none()) return {};
-  const auto [angle, axis] = given.cast<std::pair<double, Array>>();
-  return ConeLimit{angle, vec3_of(axis)};
+/// A criterion: whether it is asked for, a limit, or a limit and an axis. Adds none for None or False.
+inline void add_limit(const ConstraintInfo& row, const py::object& given, std::vector<Limit>& out) {
+  if (given.is_none() || given.is(py::bool_(false))) return;
+  Limit limit{.name = row.name};
+  double& side = row.sides == LimitSides::only_low ? limit.low : limit.high;
+  if (row.kind == LimitKind::angle) {
+    const auto [angle, axis] = given.cast<std::pair<double, Array>>();
+    side = angle;
+    limit.axis = vec3_of(axis);
+  } else if (row.kind != LimitKind::sign) {
+    side = given.cast<double>();
+  }
+  out.push_back(limit);
 }
 
 inline WorkspaceCriteria criteria_from(const py::dict& d) {
@@ -73,11 +83,11 @@ inline WorkspaceCriteria criteria_from(const py::dict& d) {
     const auto [low, high] = d["leg_limits"].cast<std::pair<Array, Array>>();
     out.legs = LegLimits{Eigen::Map<const Vec9>(low.data()), Eigen::Map<const Vec9>(high.data())};
   }
-  out.base_cone = cone_from(d["base_cone"]);
-  out.platform_cone = cone_from(d["platform_cone"]);
-  out.leg_clearance = d["leg_clearance"].cast<std::optional<double>>();
   out.condition_number = d["condition_number"].cast<std::optional<double>>();
-  out.singularity_free = d["singularity_free"].cast<bool>();
+  const std::vector<std::string> rows = limits_of_poses();
+  for (const ConstraintInfo& row : criterion_table())
+    if (std::ranges::find(rows, row.name) != rows.end()) add_limit(row, d[row.name], out.limits);
+  if (d.contains("exempt")) out.exempt = d["exempt"].cast<std::array<bool, 21>>();
   out.characteristic_length = d["characteristic_length"].cast<double>();
   return out;
 }

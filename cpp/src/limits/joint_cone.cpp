@@ -12,7 +12,8 @@ namespace {
 
 template <bool platform>
 struct JointCone {
-  static constexpr int items = legs_at_body;
+  static constexpr int items = legs_at_body, cone_body = platform;
+  static constexpr double width = 1e-5;
   static constexpr bool falls = true, at_home = true;
 
   static std::string part(int item) { return leg_name(leg_at(platform, item)); }
@@ -37,10 +38,7 @@ struct JointCone {
     return dot(direction(look, item), axis(look, item));
   }
   /// By the tangent: the cosine alone leaves 1e-8 of a small angle.
-  static double number(const PointLook& look, int item) {
-    const Xyz<double> v = direction(look, item), a = axis(look, item), across = cross(v, a);
-    return std::atan2(std::sqrt(dot(across, across)), dot(v, a));
-  }
+  static double number(const PointLook& look, int item) { return cone_angle(direction(look, item), axis(look, item)); }
   static double number_of(double, const PointLook& look, int item) { return number(look, item); }
   /// On the axis the angle has no slope.
   static double slope(double angle) {
@@ -52,6 +50,7 @@ struct JointCone {
     const double most = std::clamp(cosine.hi, -1.0, 1.0), least = std::clamp(cosine.lo, -1.0, 1.0);
     return {std::max(std::acos(most) * (1.0 - 0x1p-50), 0.0), std::acos(least) * (1.0 + 0x1p-50)};
   }
+  static Interval smooth(const Interval& angle) { return cos(angle); }
   static void moves(const FormLook& look, int item, Moves& out) {
     const FormVector v = from_joint(platform, item, [&](int point) { return look.at(point); });
     out.add(v);

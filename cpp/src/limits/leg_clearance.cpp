@@ -13,6 +13,7 @@ namespace {
 struct LegClearances {
   static constexpr int items = leg_pairs;
   static constexpr bool at_home = false;
+  static constexpr double width = 0.03;
 
   static std::string part(int item) {
     const auto [a, b] = leg_pair(item);

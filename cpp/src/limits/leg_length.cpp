@@ -30,6 +30,7 @@ struct LegLengths {
   static double number_of(double, const PointLook& look, int item) { return number(look, item); }
   static double slope(double length) { return length > 0.0 ? 0.5 / length : 0.0; }
   static Interval read(const Interval& squared) { return sqrt(squared); }
+  static Interval smooth(const Interval& length) { return square(length); }
   static void moves(const FormLook& look, int item, Moves& out) { out.add(leg(look, item)); }
 };
 

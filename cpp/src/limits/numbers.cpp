@@ -1,43 +1,32 @@
 #include "ninedof/limits/numbers.hpp"
 
 #include "limits/table.hpp"
-#include "ninedof/math/error.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof {
-namespace {
-
-const PoseRow& row_of(const std::string& name) {
-  const LimitRow& row = limit_row(name);
-  if (row.pose == nullptr) throw InvalidArgument("limit", "\"" + name + "\"", "one that has a value at every pose");
-  return *row.pose;
-}
-
-}  // namespace
-
 std::vector<std::string> limits_of_poses() {
   std::vector<std::string> out;
-  for (const LimitRow& row : limit_rows)
+  for (const LimitRow& row : limit_rows())
     if (row.pose != nullptr) out.emplace_back(row.info.name);
   return out;
 }
 
 std::vector<std::string> limits_over_lengths() {
   std::vector<std::string> out;
-  for (const LimitRow& row : limit_rows)
+  for (const LimitRow& row : limit_rows())
     if (row.spread != nullptr) out.emplace_back(row.info.name);
   return out;
 }
 
 std::vector<std::string> limit_parts(const std::string& name) {
-  const PoseRow& row = row_of(name);
+  const PoseRow& row = pose_row("limit", name);
   std::vector<std::string> out;
   for (int item = 0; item < row.items; ++item) out.push_back(row.part(item));
   return out;
 }
 
 LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis)
-    : row_(row_of(name)), geometry_(g), home_(posed_points(g, home)), axis_(axis) {}
+    : row_(pose_row("limit", name)), geometry_(g), home_(posed_points(g, home)), axis_(axis) {}
 
 int LimitNumbers::items() const {
   return row_.items;
@@ -49,10 +38,11 @@ void LimitNumbers::at(const Configuration& pose, double* out) const {
   for (int item = 0; item < row_.items; ++item) out[item] = row_.number(look, item);
 }
 
-std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g) {
+std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g, const std::array<bool, 21>& among) {
   const Points at = points(g, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});  // joints in the frames of their bodies
-  std::array<bool, leg_pairs> out{};
-  for (int pair = 0; pair < leg_pairs; ++pair) out[at_index(pair)] = share_joint(std::span(at).first<12>(), pair);
+  std::array<bool, leg_pairs> out = among;
+  for (int pair = 0; pair < leg_pairs; ++pair)
+    out[at_index(pair)] = out[at_index(pair)] && share_joint(std::span(at).first<12>(), pair);
   return out;
 }
 

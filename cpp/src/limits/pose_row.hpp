@@ -24,19 +24,28 @@ struct PointSlopes {
 
 /// The functions of a row. u is the smooth quantity behind the number that people read: a squared length, a cosine.
 struct PoseRow {
-  int items = 0;       ///< legs, pairs of legs, determinants
-  int first_leg = -1;  ///< of a row of leg lengths, whose items are legs from this one on
-  std::string (*part)(int item) = nullptr;      ///< "l1", "det N"
+  int items = 0;  ///< legs, pairs of legs, determinants
+  /// Of a row of leg lengths: its items are legs from this one on.
+  int first_leg = -1;
+  /// Of a row of angles at the joints of a body, one for each of its legs: 0 for the base, 1 for the platform.
+  int cone_body = -1;
+  bool pairs = false;       ///< items are pairs of legs (leg_pairs.hpp), which may be exempt
+  bool on_the_way = false;  ///< it also has to hold at home and on the way from there to each pose
+  double width = 3e-5;      ///< of an enclosure in which no limit lies, relative: it is narrow enough
+  std::string (*part)(int item) = nullptr;  ///< "l1", "l1-q2", "det N"
   /// The number that people read, at a pose.
   double (*number)(const PointLook&, int item) = nullptr;
   /// `number` and its derivatives, zero where it has none.
   double (*slopes)(const PointLook&, int item, PointSlopes&) = nullptr;
-  /// u over a box of poses. Null for leg_clearance, see limits/leg_clearance.hpp.
+  /// u over a box of poses. Null for pairs of legs, see limits/leg_clearance.hpp.
   PoseForm (*form)(const FormLook&, int item) = nullptr;
+  /// u without a positive factor, where that is simpler: enough for a limit of 0.
+  PoseForm (*numerator)(const FormLook&, int item) = nullptr;
   /// The vectors that u is made of.
   void (*moves)(const FormLook&, int item, Moves&) = nullptr;
-  /// The number, of u.
+  /// The number, of u; and u, of the number.
   Interval (*read)(const Interval& u) = nullptr;
+  Interval (*smooth)(const Interval& number) = nullptr;
   /// Whether the number falls as u grows.
   bool falls = false;
 };
@@ -46,9 +55,6 @@ extern const PoseRow leg_length_row, external_length_row, upper_length_row, lowe
 
 /// "l1" to "r3", in the order of leg_lengths.
 const char* leg_name(int leg);
-
-/// det N, det B and det C (0 to 2) without their positive factors, times the side at home: rows are not of unit length.
-PoseForm determinant_numerator(const FormLook& look, int which);
 
 /// The number of a row and its slopes, by P touched points.
 template <class Row, int P>
@@ -82,6 +88,9 @@ constexpr PoseRow pose_row_of() {
   PoseRow out;
   out.items = Row::items;
   if constexpr (requires { Row::first_leg; }) out.first_leg = Row::first_leg;
+  if constexpr (requires { Row::cone_body; }) out.cone_body = Row::cone_body;
+  if constexpr (requires { Row::on_the_way; }) out.on_the_way = Row::on_the_way;
+  if constexpr (requires { Row::width; }) out.width = Row::width;
   out.part = Row::part;
   out.number = [](const PointLook& look, int item) { return Row::number(look, item); };
   out.slopes = Row::slopes;
@@ -89,8 +98,12 @@ constexpr PoseRow pose_row_of() {
     out.form = [](const FormLook& look, int item) { return Row::u(look, item); };
     out.moves = Row::moves;
     out.read = Row::read;
+    out.smooth = Row::smooth;
     out.falls = Row::falls;
+  } else {
+    out.pairs = true;
   }
+  if constexpr (requires { Row::numerator; }) out.numerator = Row::numerator;
   return out;
 }
 

@@ -1,6 +1,7 @@
 /// Lookups in the table of limits, and the checks of a limit against its row.
 /// Declared in ninedof/limits/limits.hpp.
 
+#include <algorithm>
 #include <cmath>
 
 #include "limits/table.hpp"
@@ -14,7 +15,7 @@ namespace {
 template <class Keep>
 std::vector<ConstraintInfo> rows_where(const Keep& keep) {
   std::vector<ConstraintInfo> out;
-  for (const LimitRow& row : limit_rows)
+  for (const LimitRow& row : limit_rows())
     if (keep(row)) out.push_back(row.info);
   return out;
 }
@@ -22,12 +23,26 @@ std::vector<ConstraintInfo> rows_where(const Keep& keep) {
 }  // namespace
 
 const LimitRow& limit_row(std::string_view name) {
-  for (const LimitRow& row : limit_rows)
+  for (const LimitRow& row : limit_rows())
     if (row.is_constraint() && name == row.info.name) return row;
   std::string names;
-  for (const LimitRow& row : limit_rows)
+  for (const LimitRow& row : limit_rows())
     if (row.is_constraint()) names += (names.empty() ? "\"" : ", \"") + std::string(row.info.name) + "\"";
   throw InvalidArgument("constraints", "\"" + std::string(name) + "\"", "one of " + names);
+}
+
+const PoseRow& pose_row(const char* argument, std::string_view name) {
+  const LimitRow& row = limit_row(name);
+  if (row.pose == nullptr)
+    throw InvalidArgument(argument, "\"" + std::string(name) + "\"", "a limit that has a value at every pose");
+  return *row.pose;
+}
+
+const LimitRow& leg_length_limit() {
+  const auto of_all_legs = [](const LimitRow& row) {
+    return row.pose != nullptr && row.pose->first_leg == 0 && row.pose->items == 9;
+  };
+  return *std::ranges::find_if(limit_rows(), of_all_legs);
 }
 
 const char* leg_name(int leg) {
@@ -71,7 +86,7 @@ std::vector<ConstraintInfo> constraint_table() {
 }
 
 std::vector<ConstraintInfo> criterion_table() {
-  return rows_where([](const LimitRow& row) { return row.info.items != WorkspaceItems::none; });
+  return rows_where([](const LimitRow& row) { return row.is_criterion(); });
 }
 
 const char* to_string(LimitKind kind) {

@@ -36,7 +36,8 @@ auto determinant_of(const Look& look, int which) {
 
 struct Determinants {
   static constexpr int items = 3;
-  static constexpr bool falls = false, at_home = false;
+  static constexpr bool falls = false, at_home = false, on_the_way = true;
+  static constexpr double width = 1e-3;
 
   static std::string part(int item) { return std::string("det ") + "NBC"[item]; }
   static double slopes(const PointLook& look, int item, PointSlopes& out) {
@@ -54,6 +55,11 @@ struct Determinants {
   static double number_of(double determinant, const PointLook&, int) { return determinant; }
   static double slope(double) { return 1.0; }
   static Interval read(const Interval& determinant) { return determinant; }
+  static Interval smooth(const Interval& determinant) { return determinant; }
+  /// Of rows that are not of unit length.
+  static PoseForm numerator(const FormLook& look, int item) {
+    return look.side(item) * determinant_of<false>(look, item);
+  }
   static void moves(const FormLook& look, int item, Moves& out) {
     for (int k = 0; k < 3; ++k) {
       const LegEnds ends = leg_ends(first_leg(item) + k);
@@ -73,10 +79,6 @@ struct Determinants {
 
 double PointLook::side(int which) const {
   return determinant_of<true>(PointLook(home_, home_, axis_), which) < 0.0 ? -1.0 : 1.0;
-}
-
-PoseForm determinant_numerator(const FormLook& look, int which) {
-  return look.side(which) * determinant_of<false>(look, which);
 }
 
 FormHome::FormHome(const Geometry& g, const Configuration& home, const Vec3& given) {

@@ -2,7 +2,7 @@
 /// The table of limits: constraints of designs, and criteria of workspaces. One row each: study files, messages,
 /// Python, the names of what limits a workspace, and every loop over limits are made from it.
 
-#include <array>
+#include <span>
 #include <string_view>
 
 #include "limits/design_row.hpp"
@@ -33,50 +33,21 @@ struct LimitRow {
   const SpreadRow* spread = nullptr;  ///< over all poses together
 
   bool is_constraint() const { return pose != nullptr || design != nullptr || spread != nullptr; }
+  /// Workspaces have limits of every leg in place of those of lengths.
+  bool is_criterion() const { return pose != nullptr ? pose->first_leg < 0 : !is_constraint(); }
+  bool on_the_way() const { return pose != nullptr && pose->on_the_way; }
 };
 
-inline constexpr SpreadRow leg_ratio_row{true, false}, stroke_ratio_row{true, true}, stroke_row{false, true};
-
-/// Name, kind, sides; unit besides "length", option besides `of` and `at`, low side if none is given, items in a
-/// workspace, whether it compares poses.
-inline constexpr std::array limit_rows = [] {
-  using enum LimitKind;
-  using enum LimitSides;
-  using enum WorkspaceItems;
-  using enum SolverMargin;
-  const auto of_pose = [](const ConstraintInfo& info, SolverMargin solver, const PoseRow& row) {
-    return LimitRow{info, solver, &row, nullptr, nullptr};
-  };
-  const auto of_design = [](const ConstraintInfo& info, SolverMargin solver, const DesignRow& row) {
-    return LimitRow{info, solver, nullptr, &row, nullptr};
-  };
-  const auto of_poses = [](const ConstraintInfo& info, const SpreadRow& row) {
-    return LimitRow{info, row.ratio ? logarithm : linear, nullptr, nullptr, &row};
-  };
-  return std::array{
-      of_design({"radius_ratio", ratio, both}, logarithm, radius_ratio_row),
-      of_poses({"leg_ratio", ratio, both}, leg_ratio_row),
-      of_poses({"stroke_ratio", ratio, only_high, {}, "", 0.0, none, true}, stroke_ratio_row),
-      of_design({"zs_fraction", ratio, both}, logarithm, zs_fraction_row),
-      of_poses({"stroke", length, only_high, Unit::zp, "", 0.0, none, true}, stroke_row),
-      of_pose({"leg_length", length, both, Unit::zp}, logarithm, leg_length_row),
-      of_pose({"external_length", length, both, Unit::zp}, logarithm, external_length_row),
-      of_pose({"upper_length", length, both, Unit::zp}, logarithm, upper_length_row),
-      of_pose({"lower_length", length, both, Unit::zp}, logarithm, lower_length_row),
-      of_design({"height", length, both}, logarithm, height_row),
-      of_design({"footprint", length, both}, logarithm, footprint_row),
-      of_design({"joint_height", length, only_high, Unit::radius}, linear, joint_height_row),
-      of_design({"joint_spacing", length, only_low, Unit::radius}, linear, joint_spacing_row),
-      LimitRow{{"leg_limits", length, both, {}, "", 0.0, leg_sides}},
-      of_pose({"base_cone", angle, only_high, {}, "axis", 0.0, base_legs}, linear, base_cone_row),
-      of_pose({"platform_cone", angle, only_high, {}, "axis", 0.0, platform_legs}, linear, platform_cone_row),
-      of_pose({"leg_clearance", length, only_low, Unit::zp, "radius", 0.0, pairs_of_legs}, linear, leg_clearance_row),
-      LimitRow{{"condition_number", ratio, only_high, {}, "", 0.0, itself}},
-      of_pose({"singularity_free", sign, only_low, {}, "steps", 1e-3, determinants}, plain, singularity_free_row),
-  };
-}();
+/// The table, in the order in which limits are listed.
+std::span<const LimitRow> limit_rows();
 
 /// The row of a constraint; throws InvalidArgument for another name.
 const LimitRow& limit_row(std::string_view name);
+
+/// The row of a limit that has a value at every pose; throws InvalidArgument for `argument` of another name.
+const PoseRow& pose_row(const char* argument, std::string_view name);
+
+/// The limit of the lengths of all nine legs.
+const LimitRow& leg_length_limit();
 
 }  // namespace ninedof

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "limits/table.hpp"
 #include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
@@ -16,7 +17,7 @@ std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coor
   }
   int steps = 1;
   for (const Limit& limit : problem.limits)
-    if (limit.name == "singularity_free" && limit.at == LimitAt::poses) steps = limit.steps;
+    if (limit.at == LimitAt::poses && limit_row(limit.name).on_the_way()) steps = limit.steps;
   for (std::size_t k = 1; k <= problem.objective.poses.size(); ++k)
     for (int step = 1; step < steps; ++step) {
       PoseSpec between = specs[k];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limits/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/length_range.hpp"
@@ -70,7 +71,7 @@ void Problem::validate() const {
   for (std::size_t k = 0; k < limits.size(); ++k) {
     limits[k].validate();
     for (std::size_t j = 0; j < k; ++j)
-      if (limits[j].name == "singularity_free" && limits[j].label() == limits[k].label())
+      if (limits[j].label() == limits[k].label() && limit_row(limits[j].name).on_the_way())
         throw InvalidArgument(limits[k].label(), "two limits", "one, with one number of steps");
   }
   objective.validate();

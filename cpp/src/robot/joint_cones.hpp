@@ -1,9 +1,9 @@
 #pragma once
 /// The legs at the joints of a body, and the angle of each from the axis of its joint's cone.
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "ninedof/math/xyz.hpp"
 #include "ninedof/robot/points.hpp"
 
 namespace ninedof {
@@ -22,8 +22,9 @@ constexpr double sense_at(bool platform, int k) {
 }
 
 /// Angle between a leg and an axis, 0 to pi; both in one frame, of any length.
-inline double cone_angle(const Vec3& leg, const Vec3& axis) {
-  return std::atan2(leg.cross(axis).norm(), leg.dot(axis));
+inline double cone_angle(const Xyz<double>& leg, const Xyz<double>& axis) {
+  const Xyz<double> across = cross(leg, axis);
+  return std::atan2(std::sqrt(dot(across, across)), dot(leg, axis));
 }
 
 }  // namespace ninedof

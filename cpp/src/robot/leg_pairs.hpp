@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of legs that can collide, the distance between the axes of two legs, and the closest pair.
+/// Pairs of legs that can collide, and the distance between the axes of two legs.
 
 #include <algorithm>
 #include <array>
@@ -61,22 +61,6 @@ inline Nearest nearest(const Points& at, int pair) {
   const LegEnds one = leg_ends(a), two = leg_ends(b);
   const auto point = [&](int k) -> const Vec3& { return at[at_index(k)]; };
   return nearest(point(one.from), point(one.to), point(two.from), point(two.to));
-}
-
-struct Closest {
-  double distance;
-  int pair;  ///< -1 where every pair shares a joint
-};
-
-/// The closest pair of legs that share no joint.
-inline Closest closest_legs(const Points& at, const std::array<bool, leg_pairs>& exempt) {
-  Closest out{infinity, -1};
-  for (int pair = 0; pair < leg_pairs; ++pair) {
-    if (exempt[at_index(pair)]) continue;
-    const double distance = nearest(at, pair).apart.norm();
-    if (distance < out.distance) out = {distance, pair};
-  }
-  return out;
 }
 
 }  // namespace ninedof

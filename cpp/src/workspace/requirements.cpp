@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "limits/table.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/length_range.hpp"
 #include "ninedof/math/rotation.hpp"
@@ -34,12 +35,18 @@ void require_domain(const WorkspaceDomain& d) {
                           "low < high, at most 2 pi apart");
 }
 
-void require_cone(const char* name, const std::optional<ConeLimit>& cone) {
-  if (!cone) return;
-  if (!(cone->angle > 0.0 && cone->angle <= pi))
-    throw InvalidArgument(name, format_number(cone->angle), "radians in (0, pi]");
-  if (!cone->axis.allFinite())
-    throw InvalidArgument(std::string(name) + " axis", "numbers that are not finite", "a direction");
+void require_limit(const Limit& limit) {
+  const LimitRow& row = limit_row(limit.name);
+  const char* name = row.info.name;
+  if (!row.is_criterion())
+    throw InvalidArgument("criteria", limit.name, "limits with a value at every pose, and `legs` for those of lengths");
+  if (limit.of != Unit::length || limit.at != LimitAt::poses)
+    throw InvalidArgument(name, "a fraction, or a limit at the neutral pose", "a number, at every pose");
+  if (row.info.kind == LimitKind::angle && !(limit.high > 0.0 && limit.high <= pi))
+    throw InvalidArgument(name, format_number(limit.high), "radians in (0, pi]");
+  if (row.info.kind == LimitKind::length && row.info.sides != LimitSides::both)
+    require_positive(name, row.info.sides == LimitSides::only_low ? limit.low : limit.high);
+  limit.validate();
 }
 
 void require_criteria(const WorkspaceCriteria& c) {
@@ -49,9 +56,7 @@ void require_criteria(const WorkspaceCriteria& c) {
     limits.limits = *c.legs;
     validate(limits);
   }
-  require_cone("base_cone", c.base_cone);
-  require_cone("platform_cone", c.platform_cone);
-  if (c.leg_clearance) require_positive("leg_clearance", *c.leg_clearance);
+  for (const Limit& limit : c.limits) require_limit(limit);
   if (c.condition_number && !(*c.condition_number >= 1.0))
     throw InvalidArgument("condition_number", format_number(*c.condition_number), "at least 1");
 }

@@ -22,9 +22,10 @@ void require_workspace(const WorkspaceDomain& domain, const InternalPointRule& r
                        const WorkspaceSettings& settings, const std::optional<Configuration>& home) {
   require_question(domain, rule, criteria, home);
   using Method = WorkspaceSettings::Method;
-  if (settings.method == Method::sample && criteria.singularity_free)
-    throw InvalidArgument("method", "\"sample\" with singularity_free",
-                          "\"octree\" or \"grid\": a sample has no neighbouring cells");
+  for (const Limit& limit : criteria.limits)
+    if (settings.method == Method::sample && limit_row(limit.name).on_the_way())
+      throw InvalidArgument("method", "\"sample\" with " + limit.name,
+                            "\"octree\" or \"grid\": a sample has no neighbouring cells");
   require_whole("resolution", settings.resolution, 2, settings.method == Method::grid ? 512 : 128);
   require_whole("points", settings.points, 1, 100'000'000);
   require_whole("shifts", settings.shifts, 2, 1000);
@@ -81,7 +82,7 @@ WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const I
   map.low = margins.chart().low();
   map.high = margins.chart().high();
   map.chart_volume = margins.chart().volume();
-  map.limit_area.assign(limit::count, 0.0);
+  map.limit_area.assign(limit::count(), 0.0);
   try {
     PointMargins at_home;
     margins.evaluate(&margins.home(), 1, &at_home, control.stop);
@@ -89,20 +90,21 @@ WorkspaceMap workspace(const Geometry& g, const WorkspaceDomain& domain, const I
     if (!map.home_allowed) map.home_limit = static_cast<std::int16_t>(margins.violated(at_home));
     if (!margins.in_chart(margins.home())) {
       map.home_allowed = false;
-      map.home_limit = limit::box;
+      map.home_limit = static_cast<std::int16_t>(limit::box());
     }
     using enum WorkspaceSettings::Method;
-    if (settings.method == octree) map_by_octree(margins, settings, criteria.singularity_free, control, map);
+    const bool connected = asks_for_connection(criteria);
+    if (settings.method == octree) map_by_octree(margins, settings, connected, control, map);
     // A part of a grid or of a sample is no result: a stop leaves the map as it was.
     WorkspaceMap whole = map;
-    if (settings.method == grid) map_by_grid(margins, settings, criteria.singularity_free, control, whole);
+    if (settings.method == grid) map_by_grid(margins, settings, connected, control, whole);
     if (settings.method == sample) map_by_sample(margins, settings, control, whole);
     if (settings.method != octree) map = std::move(whole);
   } catch (const Stopped&) {
     map.status = WorkspaceStatus::stopped;
   }
   for (const double area : map.limit_area) map.boundary_area += area;
-  map.box_limits = map.limit_area[limit::box] > 0.0 || map.limit_area[limit::region] > 0.0;
+  map.box_limits = map.limit_area[limit::box()] > 0.0 || map.limit_area[limit::region()] > 0.0;
   return map;
 }
 

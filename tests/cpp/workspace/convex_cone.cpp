@@ -9,10 +9,13 @@
 #include "support/support.hpp"
 
 using namespace support;
-using ninedof::cone_angle;
 using ninedof::ConvexCone;
 
 namespace {
+
+double cone_angle(const Vec3& leg, const Vec3& axis) {
+  return std::atan2(leg.cross(axis).norm(), leg.dot(axis));
+}
 
 Vec3 in_box(Random& random, const Vec3& centre, const Vec3& half) {
   return centre +

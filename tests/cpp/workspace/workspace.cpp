@@ -5,7 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/math/rotation.hpp"
+#include "ninedof/workspace/certified.hpp"
 #include "support/support.hpp"
 #include "workspace/cells/leaf.hpp"
 #include "workspace/cells/tetrahedra.hpp"
@@ -87,15 +89,15 @@ TEST_SUITE("workspace") {
     const BallOfOneLeg ball(1.5);
     WorkspaceCriteria criteria = ball.criteria;
     criteria.condition_number = 12.0;
-    criteria.singularity_free = true;
-    criteria.leg_clearance = 0.05;
+    criteria.limits = {{.name = "leg_clearance", .low = 0.05}};
     WorkspaceSettings settings;
     settings.points = 2000;
     settings.tolerance = 5e-3;
     for (const auto method :
          {WorkspaceSettings::Method::octree, WorkspaceSettings::Method::grid, WorkspaceSettings::Method::sample}) {
       settings.method = method;
-      criteria.singularity_free = method != WorkspaceSettings::Method::sample;
+      criteria.limits.resize(1);
+      if (method != WorkspaceSettings::Method::sample) criteria.limits.push_back({.name = "singularity_free"});
       settings.threads = 1;
       const WorkspaceMap one = workspace(published, ball.domain, {}, criteria, settings);
       for (const int threads : {2, 5}) {
@@ -267,7 +269,7 @@ TEST_SUITE("workspace") {
 
     const BallOfOneLeg again(2.0);
     WorkspaceCriteria connected = again.criteria;
-    connected.singularity_free = true;
+    connected.limits = {{.name = "singularity_free"}};
     Configuration home;
     home.position = again.centre + Vec3(2.3, 0.0, 0.0);
     home.internal_point = Vec3(0.0, 0.0, 1.0);
@@ -301,6 +303,35 @@ TEST_SUITE("workspace") {
     CHECK(relative_error(map.volume, 4.0 / 3.0 * pi * 8.0) < 1e-2);
   }
 
+  TEST_CASE("pairs of legs that share a joint may meet if they are exempt, and others may not") {
+    BallOfOneLeg ball(1.5);
+    ball.criteria.limits = {{.name = "leg_clearance", .low = 0.05}};
+    WorkspaceSettings settings;
+    settings.tolerance = 2e-2;
+    settings.points = 1000;
+    const auto map = [&](const std::array<bool, 21>& exempt) {
+      ball.criteria.exempt = exempt;
+      return workspace(published, ball.domain, {}, ball.criteria, settings);
+    };
+    const auto certified = [&] {
+      return certified_workspace(published, ball.domain, {}, ball.criteria, {.gap = 0.3, .boxes = 2000});
+    };
+    // Each external leg of this robot has an internal one at either end.
+    const std::array<bool, 21> shared = pairs_sharing_a_joint(published);
+    REQUIRE(std::ranges::count(shared, true) == 6);
+    CHECK(map(all_pairs).volume == map(shared).volume);
+    CHECK(map(shared).volume > 1.0);
+    CHECK(certified().volume.low > 1.0);
+    std::array<bool, 21> less = shared;
+    *std::ranges::find(less, true) = false;
+    CHECK(pairs_sharing_a_joint(published, less) == less);
+    const WorkspaceMap empty = map(less);
+    CHECK(empty.status == WorkspaceStatus::empty);
+    REQUIRE(empty.home_limit >= 0);
+    CHECK(limit_names()[static_cast<std::size_t>(empty.home_limit)].starts_with("leg_clearance "));
+    CHECK(certified().volume.low == 0.0);
+  }
+
   TEST_CASE("invalid arguments are named") {
     const BallOfOneLeg ball(2.0);
     const auto with = [&](const auto& change) {
@@ -319,14 +350,22 @@ TEST_SUITE("workspace") {
           }).starts_with("limits of q2: got "));
     CHECK(with([](auto&, auto& c, auto&) { c.condition_number = 0.5; }).starts_with("condition_number: got "));
     CHECK(with([](auto&, auto& c, auto&) {
-            c.base_cone = ConeLimit{-1.0, Vec3::Zero()};
+            c.limits = {{.name = "base_cone", .high = -1.0}};
           }).starts_with("base_cone: got "));
-    CHECK(with([](auto&, auto& c, auto&) { c.leg_clearance = not_a_number; }).starts_with("leg_clearance: got "));
+    CHECK(with([](auto&, auto& c, auto&) {
+            c.limits = {{.name = "leg_clearance", .low = not_a_number}};
+          }).starts_with("leg_clearance: got "));
+    CHECK(with([](auto&, auto& c, auto&) {
+            c.limits = {{.name = "stroke", .high = 1.0}};
+          }).starts_with("criteria: got "));
+    CHECK(with([](auto&, auto& c, auto&) {
+            c.limits = {{.name = "leg_clearance", .low = 0.1, .of = Unit::zp}};
+          }).starts_with("leg_clearance: got "));
     CHECK(with([](auto&, auto&, auto& s) { s.tolerance = 0.0; }).starts_with("tolerance: got "));
     CHECK(with([](auto&, auto&, auto& s) { s.resolution = 1; }).starts_with("resolution: got "));
     CHECK(with([](auto&, auto& c, auto& s) {
             s.method = WorkspaceSettings::Method::sample;
-            c.singularity_free = true;
+            c.limits = {{.name = "singularity_free"}};
           }).starts_with("method: got "));
   }
 }

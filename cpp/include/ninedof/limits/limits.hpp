@@ -65,17 +65,6 @@ enum class Side { high, low };
 /// The sides that a limit can have.
 enum class LimitSides { both, only_low, only_high };
 
-/// What a criterion of workspaces has one name for, see limit_names() of workspace.hpp.
-enum class WorkspaceItems {
-  none,           ///< it is no criterion of workspaces
-  leg_sides,      ///< low side of each leg, then high side of each
-  base_legs,      ///< l1 l2 l3 r1 r2 r3
-  platform_legs,  ///< l1 l2 l3 q1 q2 q3
-  pairs_of_legs,  ///< the 21 pairs that need not meet in O
-  itself,         ///< one item
-  determinants,   ///< det N, det B, det C
-};
-
 /// A row of the table of constraints and of the criteria of workspaces.
 struct ConstraintInfo {
   const char* name;
@@ -84,7 +73,6 @@ struct ConstraintInfo {
   Unit of = Unit::length;    ///< the unit it takes besides "length", if another
   const char* option = "";   ///< "axis", "radius" or "steps"; what else a study file may say of it
   double default_low = 0.0;  ///< its low side where none is given
-  WorkspaceItems items = WorkspaceItems::none;
   bool compares_poses = false;  ///< it has no value at a single pose
 };
 

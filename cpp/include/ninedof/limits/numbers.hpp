@@ -40,7 +40,14 @@ class LimitNumbers {
   Vec3 axis_;
 };
 
-/// The pairs of legs whose joints coincide in this robot.
-std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g);
+/// Every pair of legs.
+inline constexpr std::array<bool, 21> all_pairs = [] {
+  std::array<bool, 21> out{};
+  out.fill(true);
+  return out;
+}();
+
+/// The pairs of legs, of those in `among`, whose joints coincide in this robot.
+std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g, const std::array<bool, 21>& among = all_pairs);
 
 }  // namespace ninedof

@@ -5,12 +5,15 @@
 /// whose pose is allowed: every margin asked for is at least zero. Margins have different units. The search uses only
 /// where they are zero and that they are nearly linear there.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ninedof/limits/limits.hpp"
+#include "ninedof/limits/numbers.hpp"
 #include "ninedof/math/control.hpp"
 #include "ninedof/redundancy/redundancy.hpp"
 #include "ninedof/redundancy/redundancy_map.hpp"
@@ -59,20 +62,16 @@ struct InternalPointRule {
   Vec3 point = Vec3::Zero();
 };
 
-/// The angle between each leg and an axis of the body it starts from, as base_cone and platform_cone of
-/// constraints.hpp.
-struct ConeLimit {
-  double angle = 0.0;  ///< greatest, radians
-  Vec3 axis = Vec3::Zero();  ///< in the body's frame; zero: the leg's own direction at the home configuration
-};
-
 /// The criteria of an allowed pose; those without a value do not apply.
 struct WorkspaceCriteria {
   std::optional<LegLimits> legs;
-  std::optional<ConeLimit> base_cone, platform_cone;
-  std::optional<double> leg_clearance;  ///< least distance of the axes of legs that share no joint
+  /// Limits with a value at every pose (limits_of_poses(), but for those of lengths, which `legs` has), in lengths or
+  /// radians. Home is their neutral configuration. Of one that also has to hold on the way (singularity_free), poses
+  /// are allowed that are connected with home; without a low side its determinants have the signs of home.
+  std::vector<Limit> limits;
+  /// Pairs of legs that may meet if their joints coincide in this robot.
+  std::array<bool, 21> exempt = all_pairs;
   std::optional<double> condition_number;  ///< greatest
-  bool singularity_free = false;  ///< determinants with the signs of home, and connected with it
   double characteristic_length = 1.0;  ///< of the condition number
 };
 

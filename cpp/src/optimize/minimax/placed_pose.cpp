@@ -29,7 +29,11 @@ Problem with_free_point(Problem problem) {
 }  // namespace
 
 PlacedPose::PlacedPose(const Problem& problem, const Eigen::VectorXd& variables, const PlacementGoal& goal)
-    : goal_(goal), p_(with_free_point(problem)), specs_(p_.pose_specs), shift_variable_(specs_.at(1).offset) {
+    : goal_(goal),
+      p_(with_free_point(problem)),
+      specs_(p_.pose_specs),
+      shift_variable_(specs_.at(1).offset),
+      between_plates_(make_between_plates({0})) {
   none_.spectra.assign(at_index(p_.evaluated_spectra()), false);
   list_rows(variables);
 }
@@ -63,8 +67,7 @@ void PlacedPose::list_rows(const Eigen::VectorXd& variables) {
     for (int leg = 0; leg < 9; ++leg)
       for (const auto kind : {Row::Kind::longest, Row::Kind::shortest})
         rows_.push_back({kind, leg, static_cast<int>(range)});
-  rows_.push_back({Row::Kind::above_base, 2, 0});
-  rows_.push_back({Row::Kind::below_platform, 2, 0});
+  for (int plate = 0; plate < between_plates_->rows(); ++plate) rows_.push_back({Row::Kind::plates, plate, 0});
   for (int axis = 0; axis < 3; ++axis) rows_.push_back({Row::Kind::box, axis, 0});
   values_.resize(static_cast<Eigen::Index>(rows_.size()));
 }
@@ -87,8 +90,7 @@ double PlacedPose::value(const Row& row) const {
     case Row::Kind::limit: return -design_.margins[row.item];
     case Row::Kind::longest: return range->measured(at.legs.length[row.item]) - range->high[row.item];
     case Row::Kind::shortest: return range->low[row.item] - range->measured(at.legs.length[row.item]);
-    case Row::Kind::above_base: return plate_gap - at.at[point_s].z() / zp();
-    case Row::Kind::below_platform: return plate_gap - (at.at[point_p] - at.at[point_s]).dot(at.rotation.col(2)) / zp();
+    case Row::Kind::plates: return -between_plates_->margin(design_.state, row.item);
     case Row::Kind::box: return std::abs(design_.state.x[shift_variable_[at_index(row.item)]]) - 1.0;
   }
   return largest_row;
@@ -117,8 +119,11 @@ Vec3 PlacedPose::gradient(const Row& row) const {
       const double by = range.logarithm ? std::max(at.legs.length[row.item], 1e-300) : range.size;
       return (row.kind == Row::Kind::longest ? zp() : -zp()) / by * at.legs.direction[at_index(row.item)];
     }
-    case Row::Kind::above_base: return -Vec3::UnitZ();
-    case Row::Kind::below_platform: return at.rotation.col(2);
+    case Row::Kind::plates: {
+      Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(design_.state.columns());
+      between_plates_->add_gradient(design_.state, row.item, g);
+      return -Vec3(g[shift_variable_[0]], g[shift_variable_[1]], g[shift_variable_[2]]);
+    }
     case Row::Kind::box:
       return design_.state.x[shift_variable_[at_index(row.item)]] < 0.0 ? Vec3(-Vec3::Unit(row.item))
                                                                         : Vec3(Vec3::Unit(row.item));
@@ -269,18 +274,10 @@ void PlacedPose::add_outer(const Row& row, double weight, Eigen::Index k, Outer&
       out.by_ranges(k, 9 * row.range + row.item) -= sign * weight;
       break;
     }
-    case Row::Kind::above_base:
-      state.add_point(1, point_s, -Vec3::UnitZ() / zp(), g);
-      state.add_zp(at.at[point_s].z() / (zp() * zp()), g);
+    case Row::Kind::plates:
+      between_plates_->add_gradient(state, row.item, g);
+      g = -g;
       break;
-    case Row::Kind::below_platform: {
-      const Vec3 axis = at.rotation.col(2), below = at.at[point_p] - at.at[point_s];
-      state.add_point(1, point_p, -axis / zp(), g);
-      state.add_point(1, point_s, axis / zp(), g);
-      state.add_zp(below.dot(axis) / (zp() * zp()), g);
-      state.add_turn(1, -axis.cross(below) / zp(), g);
-      break;
-    }
     case Row::Kind::box: break;
   }
   out.by_variables.row(k) += weight * g.head(own);

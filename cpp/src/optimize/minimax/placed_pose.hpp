@@ -44,9 +44,9 @@ class PlacedPose {
 
  private:
   struct Row {
-    enum class Kind { index, limit, longest, shortest, above_base, below_platform, box };
+    enum class Kind { index, limit, longest, shortest, plates, box };
     Kind kind;
-    int item;   ///< of the index, of the margins; leg; axis
+    int item;   ///< of the index, of the margins; leg; plate; axis
     int range;  ///< of the goal
   };
 
@@ -64,6 +64,7 @@ class PlacedPose {
   PreparedProblem p_;
   std::vector<PoseSpec> specs_;
   std::array<int, 3> shift_variable_{};
+  std::unique_ptr<Constraint> between_plates_;
   DesignEvaluation design_;
   RowSelection none_, selection_;
   std::vector<Row> rows_;

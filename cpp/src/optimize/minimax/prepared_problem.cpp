@@ -74,7 +74,10 @@ PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpo
       if (weighted) row_levels.push_back({row, levels - 1});
     }
   const auto full = static_cast<int>(full_variables(problem).size());
-  const auto of_pairs = [](const Limit& l) { return limit_row(l.name).pose == &leg_clearance_row; };
+  const auto of_pairs = [](const Limit& l) {
+    const PoseRow* row = limit_row(l.name).pose;
+    return row != nullptr && row->pairs;
+  };
   const bool pairs = std::ranges::any_of(problem.limits, of_pairs);
   const std::array<bool, leg_pairs> exempt = pairs ? exempt_pairs(problem) : std::array<bool, leg_pairs>{};
   for (const Limit& limit : problem.limits) {

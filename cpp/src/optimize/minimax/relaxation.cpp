@@ -39,7 +39,9 @@ const char* suffix(const Limit& limit, bool angle) {
 }
 
 bool is_angle(const Limit& limit) {
-  return limit.name == "base_cone" || limit.name == "platform_cone";
+  return std::ranges::any_of(limit_rows(), [&](const LimitRow& row) {
+    return row.info.kind == LimitKind::angle && limit.name == row.info.name;
+  });
 }
 
 double largest_bound(const Problem& study) {

@@ -3,14 +3,6 @@
 #include <cmath>
 
 namespace ninedof {
-namespace {
-
-double radius_of(const DesignState& v, int body) {
-  return v.blueprint.joint[at_index(widest_joint(v.blueprint.joint, body))].head<2>().norm();
-}
-
-}  // namespace
-
 ShownMargin share_of_limit(Side side, double logarithm) {
   const double sign = side == Side::high ? -1.0 : 1.0;
   return {sign * std::expm1(sign * logarithm), std::exp(sign * logarithm)};
@@ -71,7 +63,7 @@ double Constraint::unit(const DesignState& v, int body) const {
   switch (limit_.of) {
     case Unit::length: return 1.0;
     case Unit::zp: return v.blueprint.zp;
-    case Unit::radius: return radius_of(v, body);
+    case Unit::radius: return v.blueprint.joint[at_index(widest_joint(v.blueprint.joint, body))].head<2>().norm();
   }
   return 1.0;
 }
@@ -81,7 +73,7 @@ void Constraint::add_unit_gradient(const DesignState& v, double scale, Row out, 
   if (limit_.of != Unit::radius) return;
   const int joint = widest_joint(v.blueprint.joint, body);
   const Vec3& at = v.blueprint.joint[at_index(joint)];
-  const double radius = at.head<2>().norm();
+  const double radius = unit(v, body);
   if (radius > 0.0) v.add_joint(joint, scale * Vec3(at.x() / radius, at.y() / radius, 0.0), out);
 }
 

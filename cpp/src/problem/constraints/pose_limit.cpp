@@ -1,4 +1,4 @@
-/// A limit at every pose, and singularity_free on the way there. Declared in problem/constraints/constraint.hpp.
+/// A limit at every pose, and where its row says so at home and on the way there. Declared in problem/constraints/constraint.hpp.
 
 #include <algorithm>
 
@@ -12,21 +12,21 @@ class PoseLimit : public Constraint {
   PoseLimit(const Limit& limit, const LimitRow& row, int poses, const std::array<bool, leg_pairs>& exempt)
       : Constraint(limit),
         row_(row),
-        on_the_way_(row.pose == &singularity_free_row),
-        pairs_(row.pose == &leg_clearance_row),
-        poses_(on_the_way_ ? 1 + poses * limit.steps : std::max(poses, 1)),
+        poses_(row.on_the_way() ? 1 + poses * limit.steps : std::max(poses, 1)),
         exempt_(exempt) {}
 
   /// Which points of two legs are nearest changes from design to design.
-  bool analytic() const override { return !pairs_; }
+  bool analytic() const override { return !row_.pose->pairs; }
 
  private:
   SolverMargin form() const override { return row_.solver; }
   int items(Side) const override { return row_.pose->items * poses_; }
   int part(int item) const { return item % row_.pose->items; }
   /// The neutral pose comes first where the way is looked at.
-  int pose(const DesignState& v, int item) const { return (on_the_way_ ? 0 : first_pose(v)) + item / row_.pose->items; }
-  bool exempt(int item) const { return pairs_ && exempt_[at_index(part(item))]; }
+  int pose(const DesignState& v, int item) const {
+    return (row_.on_the_way() ? 0 : first_pose(v)) + item / row_.pose->items;
+  }
+  bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(part(item))]; }
   PointLook look(const DesignState& v, int item) const { return {v.pose(pose(v, item)), v.pose(0), limit().axis}; }
 
   double value(const DesignState& v, Side, int item) const override {
@@ -51,7 +51,6 @@ class PoseLimit : public Constraint {
   }
 
   const LimitRow& row_;
-  bool on_the_way_, pairs_;
   int poses_;
   std::array<bool, leg_pairs> exempt_;
 };

@@ -25,15 +25,13 @@ struct Open {
   bool operator<(const Open& other) const { return bound < other.bound; }
 };
 
-const PoseRow& row_of(const PoseQuantity& wanted) {
-  const PoseRow* row = limit_row(wanted.limit_name).pose;
-  if (row == nullptr)
-    throw InvalidArgument("limit_name", "\"" + wanted.limit_name + "\"", "a limit that has a value at every pose");
-  if (wanted.item < 0 || wanted.item >= row->items)
-    throw InvalidArgument("item", std::to_string(wanted.item), "0 to " + std::to_string(row->items - 1));
-  if (row->form == nullptr && wanted.greatest)
+const PoseRow& checked_row(const PoseQuantity& wanted) {
+  const PoseRow& row = pose_row("limit_name", wanted.limit_name);
+  if (wanted.item < 0 || wanted.item >= row.items)
+    throw InvalidArgument("item", std::to_string(wanted.item), "0 to " + std::to_string(row.items - 1));
+  if (row.pairs && wanted.greatest)
     throw InvalidArgument("greatest", "true for " + wanted.limit_name, "false: only the least distance is enclosed");
-  return *row;
+  return row;
 }
 
 /// A number as a function to be maximized: u of its row, or less u, or less the distance of two legs.
@@ -41,16 +39,16 @@ class Sought {
  public:
   Sought(const Domain& domain, const PoseQuantity& wanted)
       : domain_(domain),
-        row_(row_of(wanted)),
+        row_(checked_row(wanted)),
         item_(wanted.item),
         home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
-        sign_(row_.form != nullptr && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
+        sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
   /// At least every value at the poses of the domain in the box.
   double bound(const Box& box, std::array<double, PoseForm::size>& slope, Moves& moves) const {
     const FormPose pose = domain_.pose(box);
     const FormLook look(domain_.machine().geometry, pose, home_);
-    if (row_.form == nullptr) return less_distance(look, box, slope, moves);
+    if (row_.pairs) return less_distance(look, box, slope, moves);
     const PoseForm f = sign_ * row_.form(look, item_);
     slope = f.a;
     row_.moves(look, item_, moves);
@@ -60,13 +58,13 @@ class Sought {
   double attained(const Box& point) const {
     const FormPose pose = domain_.pose(point);
     const FormLook look(domain_.machine().geometry, pose, home_);
-    if (row_.form != nullptr) return lower(sign_ * row_.form(look, item_));
+    if (!row_.pairs) return lower(sign_ * row_.form(look, item_));
     return -detail::above(std::sqrt(upper(squared_distance_above(leg_pair_forms(look, item_)))));
   }
   /// The number, where the function is within `value`.
   Interval number(const Interval& value) const {
     const Interval u = sign_ > 0.0 ? value : -value;
-    return row_.form != nullptr ? row_.read(u) : u;  // a distance is less what was sought
+    return row_.pairs ? u : row_.read(u);  // a distance is less what was sought
   }
 
  private:
@@ -165,7 +163,7 @@ std::vector<Extreme> pose_extremes(const PosedRobot& machine, const std::vector<
   using namespace over_region;
   const Domain domain(machine);
   if (domain.roots().empty()) throw InvalidArgument("machine", "no poses", "a region or listed poses");
-  for (const PoseQuantity& quantity : quantities) row_of(quantity);  // throws before threads begin
+  for (const PoseQuantity& quantity : quantities) checked_row(quantity);  // throws before threads begin
   const Clock::time_point start = Clock::now();
   const auto stopped = [&] {
     return control.stop.stop_requested() ||

@@ -4,32 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "limits/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/limits/numbers.hpp"
-#include "ninedof/proof/machine.hpp"
+#include "proof/region/questions.hpp"
 
 namespace ninedof {
 namespace {
 
-// Widths of enclosures, relative.
-constexpr double narrow = 1e-7;    // of lengths that decide on a stroke
-constexpr double any_case = 1e-6;  // of a number with two limits
-
-/// Width of an enclosure, relative, unless a limit lies inside: then the search goes on.
-double width_of(const PoseRow& row) {
-  if (row.form == nullptr) return 0.03;
-  if (row.falls) return 1e-5;
-  return &row == &singularity_free_row ? 1e-3 : 3e-5;
-}
-
-/// An extreme that a limit asks for.
-struct Asked {
-  PoseQuantity quantity;
-  const PoseRow* row;
-  bool at_neutral;
-  Extreme found = {};
-};
+using over_region::Questions;
 
 /// Longest over shortest: a shortest length whose enclosure touches 0 leaves no upper end.
 Interval ratio_of(const Interval& longest, const Interval& shortest) {
@@ -41,38 +23,36 @@ class Statements {
  public:
   Statements(const PosedRobot& machine, const std::array<bool, 21>& exempt, double tolerance,
              const ProofSettings& settings, const Control& control)
-      : machine_(machine), tolerance_(tolerance), settings_(settings), control_(control) {
-    // An exemption is no more than what this machine shows.
-    const std::array<bool, 21> share = pairs_sharing_a_joint(machine.geometry);
-    for (std::size_t k = 0; k < exempt_.size(); ++k) exempt_[k] = exempt[k] && share[k];
-    if (machine_.region.empty() && machine_.poses.empty()) machine_.poses.push_back(machine_.neutral);
+      : machine_(machine),
+        exempt_(pairs_sharing_a_joint(machine.geometry, exempt)),
+        tolerance_(tolerance),
+        control_(control),
+        questions_(machine, settings, control) {
     const Points at = points(machine.geometry, {Vec3::Zero(), Mat3::Identity(), Vec3::Zero()});
     std::copy_n(at.begin(), joints_.size(), joints_.begin());
   }
 
   LimitsOverPoses prove(const std::vector<Limit>& limits) {
     std::array<std::pair<std::size_t, std::size_t>, 9> ends;
-    for (int leg = 0; leg < 9; ++leg) ends[at_index(leg)] = ends_of_leg(leg, false);
-    add_pose_limit("no singularity", limit_row("singularity_free"), Side::low, 0.0, Vec3::Zero(), false);
+    for (int leg = 0; leg < 9; ++leg) ends[at_index(leg)] = questions_.ends_of_leg(leg, false);
+    for (const LimitRow& row : limit_rows())
+      if (row.info.kind == LimitKind::sign) add_pose_limit("no singularity", row, Side::low, 0.0, Vec3::Zero(), false);
     for (const Limit& limit : limits) {
       limit.validate();
       add(limit);
     }
-    search(false);
+    questions_.search();
     answer();
     const auto open = [this](const Stroke& s) {
       return out_.limits[s.limit].answer == LimitOverPoses::Answer::undecided;
     };
     if (tolerance_ > 0.0 && !control_.stop.stop_requested() && std::ranges::any_of(strokes_, open)) {
-      for (Asked& one : asked_)
-        if (one.row == &leg_length_row) one.quantity.relative = narrow;
-      search(true);
+      questions_.search_lengths_again();
       answer();
     }
     for (std::size_t leg = 0; leg < 9; ++leg)
-      out_.lengths[leg] = {asked_[ends[leg].first].found.low, asked_[ends[leg].second].found.high};
-    for (const Asked& one : asked_)
-      if (!one.at_neutral && one.found.at.pose < 0) out_.met.push_back(one.found.at);
+      out_.lengths[leg] = {questions_[ends[leg].first].low, questions_[ends[leg].second].high};
+    out_.met = questions_.met_in_region();
     return std::move(out_);
   }
 
@@ -86,28 +66,6 @@ class Statements {
     const SpreadRow* row;
     std::array<std::pair<std::size_t, std::size_t>, 9> ends;
   };
-
-  std::size_t ask(const PoseRow& row, const std::string& name, int item, bool greatest, bool at_neutral, double limit,
-                  const Vec3& axis) {
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      PoseQuantity& old = asked_[k].quantity;
-      if (asked_[k].row != &row || old.item != item || old.greatest != greatest || asked_[k].at_neutral != at_neutral ||
-          old.axis != axis)
-        continue;
-      if (std::isnan(old.limit)) old.limit = limit;
-      else if (!std::isnan(limit)) old.relative = any_case;  // narrow in any case
-      return k;
-    }
-    asked_.push_back({{name, item, axis, greatest, width_of(row), limit}, &row, at_neutral});
-    return asked_.size() - 1;
-  }
-  std::pair<std::size_t, std::size_t> ends_of_leg(int leg, bool at_neutral) {
-    const auto end = [&](bool greatest) {
-      return ask(leg_length_row, "leg_length", leg, greatest, at_neutral, not_a_number, Vec3::Zero());
-    };
-    const std::size_t shortest = end(false);
-    return {shortest, end(true)};
-  }
 
   LimitOverPoses& put(const std::string& name, const LimitRow& row, Side side, double limit, bool at_neutral) {
     LimitOverPoses one;
@@ -147,12 +105,8 @@ class Statements {
                       bool at_neutral) {
     Group group{out_.limits.size(), {}};
     for (int item = 0; item < row.pose->items; ++item) {
-      if (row.pose == &leg_clearance_row && exempt_[at_index(item)]) continue;
-      // All rows of lengths ask for the same numbers.
-      const bool length = row.pose->first_leg >= 0;
-      const int of = length ? row.pose->first_leg + item : item;
-      const std::size_t asked = ask(length ? leg_length_row : *row.pose, length ? "leg_length" : row.info.name, of,
-                                    side == Side::high, at_neutral, edge(side, bound), axis);
+      if (row.pose->pairs && exempt_[at_index(item)]) continue;
+      const std::size_t asked = questions_.ask(row, item, {side == Side::high, at_neutral, edge(side, bound), axis});
       group.of.emplace_back(asked, row.pose->part(item));
     }
     if (group.of.empty()) return;
@@ -161,7 +115,7 @@ class Statements {
   }
   void add_stroke(const std::string& label, const LimitRow& row, Side side, double bound, bool at_neutral) {
     Stroke stroke{out_.limits.size(), row.spread, {}};
-    for (int leg = 0; leg < 9; ++leg) stroke.ends[at_index(leg)] = ends_of_leg(leg, at_neutral);
+    for (int leg = 0; leg < 9; ++leg) stroke.ends[at_index(leg)] = questions_.ends_of_leg(leg, at_neutral);
     put(label, row, side, bound, at_neutral);
     strokes_.push_back(stroke);
   }
@@ -198,30 +152,6 @@ class Statements {
     return sqrt(square(widest.x) + square(widest.y)) * Interval(1.0 - 0x1p-49, 1.0 + 0x1p-49);
   }
 
-  void search(bool lengths_alone) {
-    PosedRobot alone{machine_.geometry, machine_.neutral, machine_.characteristic_length, {}, {machine_.neutral}, {}};
-    for (const bool at_neutral : {false, true}) {
-      std::vector<PoseQuantity> wanted;
-      std::vector<Asked*> of;
-      for (Asked& one : asked_) {
-        if (one.at_neutral != at_neutral || (lengths_alone && one.row != &leg_length_row)) continue;
-        wanted.push_back(one.quantity);
-        of.push_back(&one);
-      }
-      if (wanted.empty()) continue;
-      const std::vector<Extreme> found = pose_extremes(at_neutral ? alone : machine_, wanted, settings_, control_);
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        Extreme& old = of[k]->found;
-        const Extreme& now = found[k];
-        const bool most = of[k]->quantity.greatest;
-        if (!lengths_alone || (most ? now.low > old.low : now.high < old.high)) old.at = now.at;
-        old = lengths_alone
-                  ? Extreme{std::max(old.low, now.low), std::min(old.high, now.high), old.at, old.boxes + now.boxes}
-                  : now;
-      }
-    }
-  }
-
   void answer() {
     for (const Group& group : groups_) {
       LimitOverPoses& limit = out_.limits[group.limit];
@@ -230,17 +160,17 @@ class Statements {
       limit.boxes = 0;
       double beyond = most ? -infinity : infinity;  // the end of the enclosure that was not met
       const auto met = [&](const auto& item) {
-        return most ? asked_[item.first].found.low : asked_[item.first].found.high;
+        return most ? questions_[item.first].low : questions_[item.first].high;
       };
       for (const auto& item : group.of) {
-        const Extreme& e = asked_[item.first].found;
+        const Extreme& e = questions_[item.first];
         limit.boxes += e.boxes;
         beyond = most ? std::max(beyond, e.high) : std::min(beyond, e.low);
         if (worst == nullptr || (most ? met(item) > met(*worst) : met(item) < met(*worst))) worst = &item;
       }
       limit.value = most ? Interval(met(*worst), beyond) : Interval(beyond, met(*worst));
       limit.part = worst->second;
-      limit.at = {asked_[worst->first].found.at};
+      limit.at = {questions_[worst->first].at};
     }
     for (const Stroke& stroke : strokes_) answer(stroke);
     for (LimitOverPoses& limit : out_.limits) limit.answer = answer_of(limit);
@@ -257,7 +187,7 @@ class Statements {
     limit.part.clear();
     for (int k = 0; k < 9; ++k) {
       const auto& [first, second] = stroke.ends[at_index(k)];
-      const Extreme &a = asked_[first].found, &b = asked_[second].found;
+      const Extreme &a = questions_[first], &b = questions_[second];
       limit.boxes += a.boxes + b.boxes;
       legs.push_back({{a.low, a.high}, {b.low, b.high}, a.at, b.at, leg_name(k)});
     }
@@ -284,13 +214,12 @@ class Statements {
     limit.value = value;
   }
 
-  PosedRobot machine_;
-  std::array<bool, 21> exempt_{};
+  const PosedRobot& machine_;
+  std::array<bool, 21> exempt_;
   double tolerance_;
-  const ProofSettings& settings_;
   const Control& control_;
   std::array<Vec3, 12> joints_;
-  std::vector<Asked> asked_;
+  Questions questions_;
   std::vector<Group> groups_;
   std::vector<Stroke> strokes_;
   LimitsOverPoses out_;

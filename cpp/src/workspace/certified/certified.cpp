@@ -9,6 +9,7 @@
 #include "workspace/certified/home_piece.hpp"
 #include "workspace/certified/scale.hpp"
 #include "workspace/certified/search.hpp"
+#include "workspace/criteria/limits.hpp"
 #include "workspace/criteria/placement.hpp"
 #include "workspace/requirements.hpp"
 
@@ -28,9 +29,8 @@ void require_certified(const WorkspaceDomain& domain, const InternalPointRule& r
   if (rule.kind == InternalPointRule::Kind::best)
     throw InvalidArgument("internal_point", "\"best\"",
                           "a rule that is a formula: where O is searched for, nothing is certified");
-  const bool any = criteria.legs || criteria.base_cone || criteria.platform_cone || criteria.leg_clearance ||
-                   criteria.condition_number || criteria.singularity_free;
-  if (!any) throw InvalidArgument("criteria", "none", "at least one");
+  if (!criteria.legs && criteria.limits.empty() && !criteria.condition_number)
+    throw InvalidArgument("criteria", "none", "at least one");
   if (!(settings.gap > 0.0 && settings.gap < 1.0))
     throw InvalidArgument("gap", format_number(settings.gap), "a number in (0, 1)");
   if (!(settings.seconds >= 0.0)) throw InvalidArgument("time_limit", format_number(settings.seconds), "at least 0");
@@ -141,7 +141,7 @@ CertifiedWorkspace certified_workspace(const Geometry& g, const WorkspaceDomain&
     HomePiece piece = home_piece(grown.tree, question.home.position);
     // Where only home's piece counts, its own gap is to be small: others go on for as long as it takes.
     const auto wide = [&] { return piece.volume.high - piece.volume.low > settings.gap * piece.volume.high; };
-    while (criteria.singularity_free && wide() && grown.end == CertifiedWorkspace::End::gap &&
+    while (asks_for_connection(criteria) && wide() && grown.end == CertifiedWorkspace::End::gap &&
            now.gap > least_gap * settings.gap) {
       now.gap *= 0.5;
       grow(grown, cuts, some, now, time_is_over, control);

@@ -7,21 +7,31 @@
 #include "math/numbers.hpp"
 #include "ninedof/limits/numbers.hpp"
 #include "ninedof/math/error.hpp"
-#include "robot/joint_cones.hpp"
+#include "robot/leg_pairs.hpp"
 
 namespace ninedof::certified {
 namespace {
 
-// Places of the criteria among the bits.
-constexpr int legs_first = 0, base_first = 9, platform_first = 15, pairs_first = 21, signs_first = 42,
-              condition_first = 45;
-static_assert(pairs_first + leg_pairs == signs_first);
-
 constexpr Criteria bit(int k) {
   return Criteria{1} << k;
 }
-constexpr Criteria bits(int first, int count) {
-  return (bit(count) - 1) << first;
+
+/// What u has to keep for a number to be in a range; a limit of 0 needs no form.
+std::vector<Edge> edges_of(const PoseRow& row, const Interval& range) {
+  std::vector<Edge> out;
+  const auto add = [&](bool least, double limit) {
+    Edge edge{least != row.falls, {}};
+    if (limit != 0.0 || row.numerator == nullptr) edge.at = PoseForm::of(row.smooth(Interval(limit)));
+    out.push_back(edge);
+  };
+  if (range.lo > -infinity) add(true, range.lo);
+  if (range.hi < infinity) add(false, range.hi);
+  return out;
+}
+
+/// Positive where the edge is kept.
+PoseForm kept(const Edge& edge, const PoseForm& u) {
+  return !edge.at ? u : edge.least ? u - *edge.at : *edge.at - u;
 }
 
 FormVector centroid_of(const Triple& t) {
@@ -33,37 +43,57 @@ FormVector centroid_of(const Triple& t) {
 
 PoseCuts::PoseCuts(const Geometry& g, const WorkspaceDomain& domain, const InternalPointRule& rule,
                    const WorkspaceCriteria& criteria, const Configuration& home)
-    : geometry_(g),
-      criteria_(criteria),
-      rule_(rule),
-      home_(g, home, Vec3::Zero()),
-      some_(domain.archetype == Archetype::reachable) {
+    : geometry_(g), criteria_(criteria), rule_(rule), some_(domain.archetype == Archetype::reachable) {
   for (const Mat3& q : domain.rotations) rotations_.push_back(rotation_columns(q));
-  if (criteria.legs)
+  if (criteria.legs) {
+    std::vector<Interval> ranges;
     for (int k = 0; k < 9; ++k)
-      if (criteria.legs->low[k] > 0.0 || std::isfinite(criteria.legs->high[k])) all_ |= bit(legs_first + k);
-  const auto cones = [&](const std::optional<ConeLimit>& limit, bool platform) {
-    if (!limit || !(limit->angle < std::numbers::pi)) return;  // no angle is greater
-    all_ |= bits(platform ? platform_first : base_first, legs_at_body);
-    (platform ? platform_home_ : base_home_).emplace(g, home, limit->axis);
-    (platform ? least_platform_cosine_ : least_base_cosine_) = PoseForm::of(cos(Interval(limit->angle)));
-  };
-  cones(criteria.base_cone, false);
-  cones(criteria.platform_cone, true);
-  if (criteria.leg_clearance) {
-    const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(g);
-    for (int pair = 0; pair < leg_pairs; ++pair)
-      if (!exempt[at_index(pair)]) all_ |= bit(pairs_first + pair);
+      ranges.emplace_back(criteria.legs->low[k] > 0.0 ? criteria.legs->low[k] : -infinity, criteria.legs->high[k]);
+    add(*leg_length_limit().pose, FormHome(g, home, Vec3::Zero()), ranges);
   }
-  if (criteria.singularity_free) {
-    all_ |= bits(signs_first, 3);
-    const FormPose at_home = form_pose(home);
-    for (int d = 0; d < 3; ++d)
-      if (!(lower(determinant_numerator(FormLook(g, at_home, home_), d)) > 0.0))
+  const std::array<bool, leg_pairs> exempt = pairs_sharing_a_joint(g, criteria.exempt);
+  for (const bool pairs : {false, true})
+    for (const PoseCriterion& c : criteria_besides_legs(criteria)) {
+      const PoseRow* row = c.row->pose;
+      if (row == nullptr || row->pairs != pairs) continue;
+      const bool no_limit = c.row->info.kind == LimitKind::angle && c.high >= std::numbers::pi;  // none is greater
+      std::vector<Interval> ranges(at_index(row->items), Interval(c.low, no_limit ? infinity : c.high));
+      for (int item = 0; pairs && item < row->items; ++item)
+        if (exempt[at_index(item)]) ranges[at_index(item)] = Interval::whole();
+      add(*row, FormHome(g, home, c.axis), ranges);
+      if (row->on_the_way) require_kept(rows_.back(), home, c.row->info.name);
+    }
+  if (criteria.condition_number) condition_ = add_bit();
+}
+
+int PoseCuts::add_bit() {
+  if (bits_ == 64) throw InvalidArgument("criteria", "more than 64 numbers with a limit", "fewer limits");
+  all_ |= bit(bits_);
+  return bits_++;
+}
+
+void PoseCuts::add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges) {
+  rows_.push_back({&row, home, {}});
+  for (const Interval& range : ranges) {
+    const bool open = range.lo == -infinity && range.hi == infinity;
+    rows_.back().items.push_back(
+        {open ? -1 : add_bit(), range.lo, row.pairs ? std::vector<Edge>{} : edges_of(row, range)});
+  }
+}
+
+void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const {
+  const FormPose at_home = form_pose(home);
+  const FormLook look(geometry_, at_home, cuts.home);
+  for (int item = 0; item < cuts.row->items; ++item)
+    for (const Edge& edge : cuts.items[at_index(item)].edges)
+      if (!(lower(kept(edge, u_of(cuts, look, item))) > 0.0))
         throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
-                              "a regular one with singularity_free");
-  }
-  if (criteria.condition_number) all_ |= bit(condition_first);
+                              "a regular one with " + name);
+}
+
+PoseForm PoseCuts::u_of(const RowCuts& cuts, const FormLook& look, int item) {
+  const bool whole = cuts.items[at_index(item)].edges.front().at.has_value();
+  return whole ? cuts.row->form(look, item) : cuts.row->numerator(look, item);
 }
 
 FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
@@ -82,15 +112,12 @@ FormPose PoseCuts::pose(const PositionBox& box, std::size_t rotation) const {
   return out;
 }
 
-bool PoseCuts::decided(const PoseForm& f, Criteria which, Found& found) {
+bool PoseCuts::decided(const PoseForm& f, Found& found) {
   if (!is_known(f)) {
     put({}, found);
     return false;
   }
-  if (lower(f) > 0.0) {
-    found.open &= ~which;
-    return true;
-  }
+  if (lower(f) > 0.0) return true;
   if (upper(f) < 0.0) {
     found.violated = true;
     return true;
@@ -103,52 +130,30 @@ void PoseCuts::put(const Cut& cut, Found& found) {
   found.cuts.push_back(cut);
 }
 
-void PoseCuts::look_at_legs(const FormPose& pose, Found& found) const {
-  const FormLook look(geometry_, pose, home_);
-  for (int k = 0; k < 9; ++k) {
-    if (!(found.open & bit(legs_first + k))) continue;
-    const PoseForm squared = leg_length_row.form(look, k);
-    const double low = criteria_.legs->low[k], high = criteria_.legs->high[k];
-    bool both = true;
-    if (low > 0.0) both = decided(squared - PoseForm::of(square(Interval(low))), 0, found) && both;
-    if (std::isfinite(high)) both = decided(PoseForm::of(square(Interval(high))) - squared, 0, found) && both;
-    if (found.violated) return;
-    if (both) found.open &= ~bit(legs_first + k);
+void PoseCuts::look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const {
+  const FormLook look(geometry_, pose, cuts.home);
+  for (int item = 0; item < cuts.row->items && !found.violated; ++item) {
+    const auto& [place, low, edges] = cuts.items[at_index(item)];
+    if (place < 0 || !(found.open & bit(place))) continue;
+    bool all = !cuts.row->pairs || look_at_pair(leg_pair_forms(look, item), low, found);
+    if (!edges.empty()) {
+      const PoseForm u = u_of(cuts, look, item);
+      for (const Edge& edge : edges) all = decided(kept(edge, u), found) && all;
+    }
+    if (all && !found.violated) found.open &= ~bit(place);
   }
 }
 
-void PoseCuts::look_at_cones(const FormPose& pose, bool platform, Found& found) const {
-  const int first = platform ? platform_first : base_first;
-  if (!(found.open & bits(first, legs_at_body))) return;
-  const FormLook look(geometry_, pose, platform ? *platform_home_ : *base_home_);
-  const PoseRow& row = platform ? platform_cone_row : base_cone_row;
-  for (int k = 0; k < legs_at_body && !found.violated; ++k)
-    if (found.open & bit(first + k))
-      decided(row.form(look, k) - (platform ? least_platform_cosine_ : least_base_cosine_), bit(first + k), found);
-}
-
-void PoseCuts::look_at_clearance(const FormPose& pose, Found& found) const {
-  const FormLook look(geometry_, pose, home_);
-  const double distance = *criteria_.leg_clearance;
-  for (int pair = 0; pair < leg_pairs; ++pair) {
-    const Criteria which = bit(pairs_first + pair);
-    if (!(found.open & which)) continue;
-    const LegPairForms legs = leg_pair_forms(look, pair);
-    Cut apart;
-    if (all_apart(legs, distance, apart)) {
-      found.open &= ~which;
-      continue;
-    }
-    put(apart, found);
-    const PoseForm lack = PoseForm::of(square(Interval(distance))) - squared_distance_above(legs);
-    if (!is_known(lack)) continue;
-    if (lower(lack) > 0.0) {
-      found.violated = true;
-      return;
-    }
-    // Less than the distance apart where lack > 0: slope . t below.
-    put({{-lack.a[0], -lack.a[1], -lack.a[2]}, -infinity, ninedof::detail::below(lack.c - lack.r)}, found);
-  }
+bool PoseCuts::look_at_pair(const LegPairForms& legs, double distance, Found& found) {
+  Cut apart;
+  if (all_apart(legs, distance, apart)) return true;
+  put(apart, found);
+  const PoseForm lack = PoseForm::of(square(Interval(distance))) - squared_distance_above(legs);
+  if (!is_known(lack)) return false;
+  if (lower(lack) > 0.0) found.violated = true;
+  // Less than the distance apart where lack > 0: slope . t below.
+  else put({{-lack.a[0], -lack.a[1], -lack.a[2]}, -infinity, ninedof::detail::below(lack.c - lack.r)}, found);
+  return false;
 }
 
 bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) {
@@ -177,19 +182,13 @@ bool PoseCuts::all_apart(const LegPairForms& legs, double distance, Cut& apart) 
   return false;
 }
 
-void PoseCuts::look_at_signs(const FormPose& pose, Found& found) const {
-  const FormLook look(geometry_, pose, home_);
-  for (int d = 0; d < 3 && !found.violated; ++d)
-    if (found.open & bit(signs_first + d)) decided(determinant_numerator(look, d), bit(signs_first + d), found);
-}
-
 void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
-  if (!(found.open & bit(condition_first))) return;
+  if (condition_ < 0 || !(found.open & bit(condition_))) return;
   Moves unused;
   const forms::ConditionSplit split = forms::split_by_condition(
       forms::split_gram(geometry_, criteria_.characteristic_length, pose, unused), *criteria_.condition_number);
   if (split.everywhere) {
-    found.open &= ~bit(condition_first);
+    found.open &= ~bit(condition_);
     return;
   }
   if (!is_known(split.excess)) {
@@ -206,11 +205,8 @@ void PoseCuts::look_at_condition(const FormPose& pose, Found& found) const {
 PoseCuts::Found PoseCuts::look(const PositionBox& box, std::size_t rotation, Criteria open, bool cheap_ones) const {
   const FormPose at = pose(box, rotation);
   Found found{open, false, {}};
-  look_at_legs(at, found);
-  if (!found.violated) look_at_cones(at, false, found);
-  if (!found.violated) look_at_cones(at, true, found);
-  if (!found.violated) look_at_signs(at, found);
-  if (!found.violated) look_at_clearance(at, found);
+  for (const RowCuts& row : rows_)
+    if (!found.violated) look_at(row, at, found);
   if (!found.violated && !cheap_ones) look_at_condition(at, found);
   return found;
 }

@@ -6,8 +6,8 @@
 
 #include "conditioning/forms/gram.hpp"
 #include "limits/leg_clearance.hpp"
-#include "limits/pose_row.hpp"
 #include "ninedof/workspace/certified.hpp"
+#include "workspace/criteria/limits.hpp"
 
 namespace ninedof::certified {
 
@@ -20,7 +20,13 @@ struct Cut {
   double forbidden = -std::numeric_limits<double>::infinity();
 };
 
-/// One bit for each criterion that is not proved yet.
+/// A side of a limit of an item, as one of u: at least or at most that; none is 0.
+struct Edge {
+  bool least;
+  std::optional<PoseForm> at;
+};
+
+/// One bit for each number with a limit that is not proved to be kept yet.
 using Criteria = std::uint64_t;
 
 struct PositionBox {
@@ -49,13 +55,29 @@ class PoseCuts {
   PositionBox reached() const;
 
  private:
-  void look_at_legs(const FormPose& pose, Found& found) const;
-  void look_at_cones(const FormPose& pose, bool platform, Found& found) const;
-  void look_at_clearance(const FormPose& pose, Found& found) const;
-  void look_at_signs(const FormPose& pose, Found& found) const;
+  /// A limit at a pose: of each item its bit, -1 without a limit, its least number and what that says of u.
+  struct RowCuts {
+    struct Item {
+      int bit;
+      double low;
+      std::vector<Edge> edges;  ///< none of pairs of legs
+    };
+    const PoseRow* row;
+    FormHome home;
+    std::vector<Item> items;
+  };
+  int add_bit();
+  void add(const PoseRow& row, const FormHome& home, const std::vector<Interval>& ranges);
+  /// Throws InvalidArgument unless a limit is proved to hold at home.
+  void require_kept(const RowCuts& cuts, const Configuration& home, const std::string& name) const;
+  /// u of an item, or its numerator where that is enough.
+  static PoseForm u_of(const RowCuts& cuts, const FormLook& look, int item);
+  void look_at(const RowCuts& cuts, const FormPose& pose, Found& found) const;
+  /// Returns whether the legs are at least the distance apart in all of the box.
+  static bool look_at_pair(const LegPairForms& legs, double distance, Found& found);
   void look_at_condition(const FormPose& pose, Found& found) const;
-  /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether the criterion is decided.
-  static bool decided(const PoseForm& f, Criteria bit, Found& found);
+  /// The poses where f > 0 are allowed, those where f < 0 are not. Returns whether that is decided.
+  static bool decided(const PoseForm& f, Found& found);
   static void put(const Cut& cut, Found& found);
   /// Whether two legs are at least the distance apart in all of the box; else where they are.
   static bool all_apart(const LegPairForms& legs, double distance, Cut& apart);
@@ -64,11 +86,10 @@ class PoseCuts {
   Geometry geometry_;
   WorkspaceCriteria criteria_;
   InternalPointRule rule_;
-  FormHome home_;
   bool some_;  // one allowed rotation is enough
   std::vector<std::array<FormVector, 3>> rotations_;  // by columns
-  std::optional<FormHome> base_home_, platform_home_;  // with the axes of cones
-  PoseForm least_base_cosine_, least_platform_cosine_;
+  std::vector<RowCuts> rows_;  // the cheap ones first
+  int bits_ = 0, condition_ = -1;
   Criteria all_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limits/table.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/interval.hpp"
@@ -41,7 +42,9 @@ void require_held(const Question& q, int exponent) {
   if (q.criteria.legs)
     for (const Vec9* ends : {&q.criteria.legs->low, &q.criteria.legs->high})
       for (const double x : *ends) require_held("leg_limits", x, exponent);
-  if (q.criteria.leg_clearance) require_held("leg_clearance", *q.criteria.leg_clearance, exponent);
+  for (const Limit& limit : q.criteria.limits)
+    if (limit_row(limit.name).info.kind == LimitKind::length)
+      for (const double x : {limit.low, limit.high}) require_held(limit.name.c_str(), x, exponent);
   require_held("characteristic_length", q.criteria.characteristic_length, exponent);
   require_held("home", q.home.position, exponent);
   require_held("home", q.home.internal_point, exponent);
@@ -72,7 +75,9 @@ Question scaled(const Question& q, int exponent) {
   const auto length = [&](double x) { return std::ldexp(x, exponent); };
   if (out.criteria.legs)
     for (Vec9* ends : {&out.criteria.legs->low, &out.criteria.legs->high}) *ends = ends->unaryExpr(length);
-  if (out.criteria.leg_clearance) out.criteria.leg_clearance = length(*out.criteria.leg_clearance);
+  for (Limit& limit : out.criteria.limits)
+    if (limit_row(limit.name).info.kind == LimitKind::length)
+      for (double* x : {&limit.low, &limit.high}) *x = length(*x);
   out.criteria.characteristic_length = length(out.criteria.characteristic_length);
   out.home.position = times(q.home.position, exponent);
   out.home.internal_point = times(q.home.internal_point, exponent);

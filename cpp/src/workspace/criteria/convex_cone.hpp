@@ -28,12 +28,13 @@ class ConvexCone {
 
   /// The distance of v from the nearest vector on the boundary, negative where v is not allowed.
   double clear(const Vec3& v) const {
-    const double inside = angle_ - cone_angle(v, axis_), right = 0.5 * std::numbers::pi;
+    const double inside = angle_ - from_axis(v), right = 0.5 * std::numbers::pi;
     const double distance = v.norm() * std::sin(std::clamp(inside, -right, right));
     return allows_ ? distance : -distance;
   }
 
  private:
+  double from_axis(const Vec3& v) const { return cone_angle({v.x(), v.y(), v.z()}, {axis_.x(), axis_.y(), axis_.z()}); }
   /// The corners decide, since the cone is convex.
   bool holds_box(const Vec3& centre, const Vec3& half, double slack) const {
     for (int k = 0; k < 8; ++k) {
@@ -47,7 +48,7 @@ class ConvexCone {
 
   /// Whether a plane separates the cone from the box: that which the cone touches nearest to the centre.
   bool misses_box(const Vec3& centre, const Vec3& half, double slack) const {
-    const double outside = cone_angle(centre, axis_) - angle_;
+    const double outside = from_axis(centre) - angle_;
     if (!(outside > 0.0)) return false;
     Vec3 normal = centre.normalized();
     if (outside < 0.5 * std::numbers::pi) {

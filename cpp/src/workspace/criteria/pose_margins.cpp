@@ -7,6 +7,7 @@
 #include "math/numbers.hpp"
 #include "ninedof/batch/batch.hpp"
 #include "ninedof/limits/numbers.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/singularity/singularity.hpp"
 
 namespace ninedof {
@@ -54,7 +55,8 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
       chart_(domain),
       placement_(g, rule, criteria),
       size_(size_of(g)),
-      share_joint_(pairs_sharing_a_joint(g)) {
+      exempt_(pairs_sharing_a_joint(g, criteria.exempt)),
+      limits_(criteria_besides_legs(criteria)) {
   set_ = domain.archetype == Archetype::reachable || domain.archetype == Archetype::inclusive;
   if (home) {
     home_ = *home;
@@ -71,45 +73,50 @@ Margins::Margins(const Geometry& g, const WorkspaceDomain& domain, const Interna
   home_points_ = posed_points(g_, home_);
   const PerMechanism at_home = singularity_margins(g, home_);
   signs_ = {at_home.n < 0.0 ? -1.0 : 1.0, at_home.b < 0.0 ? -1.0 : 1.0, at_home.c < 0.0 ? -1.0 : 1.0};
+  list_groups();
+}
 
+void Margins::list_groups() {
   // One margin for each leg and each cone: a minimum of several would have kinks between the points of a cell.
   const auto groups = [&](long count, double scale) {
+    if (pose_groups_ + count >= most_groups)
+      throw InvalidArgument("criteria", "more than " + std::to_string(most_groups - 1) + " margins", "fewer limits");
     for (long n = 0; n < count; ++n) scale_[at_index(pose_groups_++)] = scale;
   };
-  if (criteria.legs)
+  if (criteria_.legs)
     for (int leg = 0; leg < (placement_.searched() ? 3 : 9); ++leg)
-      if (criteria.legs->low[leg] > 0.0 || std::isfinite(criteria.legs->high[leg])) limited_legs_.push_back(leg);
+      if (criteria_.legs->low[leg] > 0.0 || std::isfinite(criteria_.legs->high[leg])) limited_legs_.push_back(leg);
   groups(std::ssize(limited_legs_), size_);
+  // Legs and cones have bounds over cells. Where O is searched for its legs have none.
+  std::vector<std::size_t> with_bounds;
+  for (std::size_t n = 0; n < limited_legs_.size(); ++n) with_bounds.push_back(n);
   if (placement_.searched()) groups(1, size_);
-  if (criteria.base_cone) groups(6, 1.0);
-  if (criteria.platform_cone) groups(6, 1.0);
-  if (criteria.leg_clearance) groups(1, size_);
-  if (criteria.condition_number) groups(1, 1.0);
-  if (criteria.singularity_free) groups(3, 1.0);
-  groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
-  // The first margins, of legs and cones, have bounds. Where O is searched for its legs have none.
   std::vector<BodyCones> cones;
-  for (const bool platform : {false, true}) {
-    const std::optional<ConeLimit>& cone = platform ? criteria.platform_cone : criteria.base_cone;
-    if (!cone || placement_.searched()) continue;
-    BodyCones body{platform, cone->angle, {}};
-    const PointLook at_home_look(home_points_, home_points_, cone->axis);
+  for (const PoseCriterion& c : limits_) {
+    const PoseRow* row = c.row->pose;
+    const bool sign = c.row->info.kind == LimitKind::sign;
+    looks_at_signs_ |= sign;
+    looks_at_points_ |= row != nullptr && !sign;
+    const int first = pose_groups_;
+    groups(row == nullptr || row->pairs ? 1 : row->items, c.row->info.kind == LimitKind::length ? size_ : 1.0);
+    if (row == nullptr || row->cone_body < 0 || placement_.searched()) continue;
+    BodyCones body{row->cone_body == 1, c.high, {}};
     for (int k = 0; k < legs_at_body; ++k) {
-      const Xyz<double> axis = at_home_look.axis(platform, k);
+      const Xyz<double> axis = PointLook(home_points_, home_points_, c.axis).axis(body.platform, k);
       body.axis[at_index(k)] = {axis.x, axis.y, axis.z};
+      with_bounds.push_back(at_index(first + k));
     }
     cones.push_back(body);
   }
-  const std::size_t first = limited_legs_.size() + legs_at_body * cones.size();
-  bounds_.emplace(g_, domain_, chart_, placement_, criteria.legs.value_or(LegLimits{}), limited_legs_, cones);
-  all_bounded_ = pose_groups_ == static_cast<int>(first);
+  groups_ = set_ ? (pose_groups_ > 0 ? 1 : 0) : pose_groups_ + (chart_.has_region() ? 1 : 0);
+  bounds_.emplace(g_, domain_, chart_, placement_, criteria_.legs.value_or(LegLimits{}), limited_legs_, cones);
+  all_bounded_ = std::cmp_equal(with_bounds.size(), pose_groups_);
   if (set_) {
+    for (std::size_t n = 0; n < with_bounds.size(); ++n) all_bounded_ = all_bounded_ && !bounds_->constant(n);
     bounded_[0] = all_bounded_;
-    for (std::size_t n = 0; n < first; ++n) bounded_[0] = bounded_[0] && !bounds_->constant(n);
-    all_bounded_ = bounded_[0];
     return;
   }
-  for (std::size_t n = 0; n < first; ++n) bounded_[n] = !bounds_->constant(n);
+  for (std::size_t n = 0; n < with_bounds.size(); ++n) bounded_[with_bounds[n]] = !bounds_->constant(n);
   if (chart_.has_region()) bounded_[at_index(groups_ - 1)] = true;
 }
 
@@ -138,7 +145,7 @@ void Margins::judge(Block& b, const Vec3* x, long count, std::size_t r, const Be
   if (criteria_.legs) batch::leg_lengths(g_, c, b.length.data());
   if (!placement_.searched())
     batch::condition_numbers(g_, c, {&criteria_.characteristic_length, 0}, Norm::two, b.kappa.data());
-  if (criteria_.singularity_free) batch::singularity_margins(g_, c, b.det.data());
+  if (looks_at_signs_) batch::singularity_margins(g_, c, b.det.data());
   for (long k = 0; k < count; ++k) out[k] = judge_one(b, k);
 }
 
@@ -146,47 +153,58 @@ PointMargins Margins::judge_one(const Block& b, long k) const {
   PointMargins m;
   double legs = infinity;
   std::size_t next = 0;
-  const auto put = [&](double margin, int which) {
-    m.margin[next] = margin;
-    m.limit[next++] = static_cast<std::uint8_t>(which);
-  };
   for (const int leg : limited_legs_) {
     const double length = b.length[Block::size(9 * k + leg)];
     const double above = length - criteria_.legs->low[leg], below = criteria_.legs->high[leg] - length;
-    put(std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
+    m.put(next++, std::min(above, below), above < below ? limit::leg_low + leg : limit::leg_high + leg);
     legs = std::min({legs, above, below});
   }
   // Only whether there is an admissible O is known. It was not searched for where an external leg breaks its limits.
-  if (placement_.searched())
-    put(b.found[Block::size(k)] || legs < 0.0 ? scale_[next] : -scale_[next], limit::internal_point);
-  const Configuration c = b.at(k);
-  PosedPoints here;
-  if (criteria_.base_cone || criteria_.platform_cone || criteria_.leg_clearance) here = posed_points(g_, c);
-  const auto put_cones = [&](const std::optional<ConeLimit>& cone, const PoseRow& row, int first) {
-    for (int item = 0; cone && item < row.items; ++item)
-      put(cone->angle - row.number(PointLook(here, home_points_, cone->axis), item), first + item);
-  };
-  put_cones(criteria_.base_cone, base_cone_row, limit::base_cone);
-  put_cones(criteria_.platform_cone, platform_cone_row, limit::platform_cone);
-  if (criteria_.leg_clearance) {
-    const Closest closest = closest_legs(here.at, share_joint_);
-    put(std::min(closest.distance, 10.0 * scale_[next]) - *criteria_.leg_clearance,
-        limit::clearance + std::max(closest.pair, 0));
+  if (placement_.searched()) {
+    m.put(next, b.found[Block::size(k)] || legs < 0.0 ? scale_[next] : -scale_[next], limit::internal_point());
+    ++next;
   }
+  PosedPoints here;
+  if (looks_at_points_) here = posed_points(g_, b.at(k));
   m.condition_number = b.kappa[Block::size(k)];
-  // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
-  if (criteria_.condition_number) {
-    const double margin = *criteria_.condition_number / m.condition_number - 1.0;
+  for (const PoseCriterion& c : limits_) put_limit(c, b, k, here, m, next);
+  return m;
+}
+
+void Margins::put_limit(const PoseCriterion& c, const Block& b, long k, const PosedPoints& here, PointMargins& m,
+                        std::size_t& next) const {
+  const PoseRow* row = c.row->pose;
+  if (row == nullptr) {
+    // bound / kappa - 1: the slope of log(bound / kappa) at the boundary, and finite at a singularity.
+    const double margin = c.high / m.condition_number - 1.0;
     // Without an admissible O there is no condition number; that is the limit then, and not this.
     const double none = placement_.searched() ? 1.0 : -1.0;
-    put(std::isnan(margin) ? none : margin, limit::condition_number);
+    return m.put(next++, std::isnan(margin) ? none : margin, c.name);
   }
-  if (criteria_.singularity_free)
-    for (int d = 0; d < 3; ++d) {
-      const double margin = signs_[at_index(d)] * b.det[Block::size(3 * k + d)];
-      put(margin == 0.0 ? barely_outside : margin, limit::determinants + d);
+  if (c.row->info.kind == LimitKind::sign) {  // the kernel has the determinants of a block
+    for (int d = 0; d < row->items; ++d) {
+      const double margin = signs_[at_index(d)] * b.det[Block::size(3 * k + d)] - c.low;
+      m.put(next++, margin == 0.0 ? barely_outside : margin, c.name + d);
     }
-  return m;
+    return;
+  }
+  const PointLook look(here, home_points_, c.axis);
+  if (!row->pairs) {
+    for (int item = 0; item < row->items; ++item) {
+      const double number = row->number(look, item);
+      m.put(next++, std::min(number - c.low, c.high - number), c.name + item);
+    }
+    return;
+  }
+  double least = infinity;
+  int closest = 0;
+  for (int pair = 0; pair < row->items; ++pair)
+    if (const double distance = exempt_[at_index(pair)] ? infinity : row->number(look, pair); distance < least) {
+      least = distance;
+      closest = pair;
+    }
+  m.put(next, std::min(least, 10.0 * scale_[next]) - c.low, c.name + closest);
+  ++next;
 }
 
 void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::stop_token& stop,
@@ -197,8 +215,7 @@ void Margins::evaluate(const Vec3* x, long count, PointMargins* out, const std::
     judge(b, x, count, 0, best, out);
     if (!chart_.has_region()) return;
     for (long k = 0; k < count; ++k) {
-      out[k].margin[at_index(groups_ - 1)] = chart_.region_margin(x[k]);
-      out[k].limit[at_index(groups_ - 1)] = limit::region;
+      out[k].put(at_index(groups_ - 1), chart_.region_margin(x[k]), limit::region());
     }
     return;
   }

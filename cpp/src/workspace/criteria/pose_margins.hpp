@@ -6,6 +6,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "robot/leg_pairs.hpp"
 #include "workspace/chart.hpp"
 #include "workspace/criteria/cell_bounds.hpp"
 #include "workspace/criteria/limits.hpp"
@@ -13,8 +14,8 @@
 
 namespace ninedof {
 
-/// Those of all criteria and of the region. The search for O has one where six of the legs have none.
-constexpr int most_groups = limit::sum_before(limit::margins_of) + 1;
+/// Room for the margins of a pose and of the region: of each item of a criterion, and one for all pairs of legs.
+constexpr int most_groups = 32;
 
 /// The margins of one point. It is allowed if every margin is at least zero.
 struct PointMargins {
@@ -22,6 +23,10 @@ struct PointMargins {
   std::array<std::uint8_t, most_groups> limit{};  ///< index of each margin in limit_names()
   double condition_number = 0.0;
 
+  void put(std::size_t group, double value, int number) {
+    margin[group] = value;
+    limit[group] = static_cast<std::uint8_t>(number);
+  }
   bool allowed(int groups) const {
     for (int g = 0; g < groups; ++g)
       if (!(margin[at_index(g)] >= 0.0)) return false;
@@ -75,6 +80,10 @@ class Margins {
 
  private:
   struct Block;
+  /// Lists the margins of a pose and those that have bounds over cells.
+  void list_groups();
+  void put_limit(const PoseCriterion& c, const Block& b, long k, const PosedPoints& here, PointMargins& m,
+                 std::size_t& next) const;
   void judge(Block& b, const Vec3* x, long count, std::size_t r, const BestAt& best, PointMargins* out) const;
   PointMargins judge_one(const Block& b, long k) const;
 
@@ -87,12 +96,13 @@ class Margins {
   Configuration home_;
   Vec3 home_at_;
   PosedPoints home_points_;
-  std::array<bool, leg_pairs> share_joint_;
+  std::array<bool, leg_pairs> exempt_;
   std::vector<int> limited_legs_;
+  std::vector<PoseCriterion> limits_;  ///< besides those of the legs
   std::array<double, 3> signs_{};
   std::array<double, most_groups> scale_{};  // of each group of one pose
   int pose_groups_ = 0, groups_ = 0;
-  bool set_ = false, all_bounded_ = false;
+  bool set_ = false, all_bounded_ = false, looks_at_points_ = false, looks_at_signs_ = false;
   std::optional<CellBounds> bounds_;
   std::array<bool, most_groups> bounded_{};
 };

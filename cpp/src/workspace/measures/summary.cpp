@@ -60,14 +60,14 @@ std::vector<double> percentiles(std::vector<std::pair<double, double>> values, c
 Surface surface_of(const Octree& tree, CellLattice& lattice, const Margins& margins, bool first_piece_alone,
                    int resolution) {
   Surface out;
-  out.area.assign(limit::count, 0.0);
+  out.area.assign(limit::count(), 0.0);
   std::vector<Cell> cut;
   for (const Leaf& leaf : tree.leaves) {
     if (!leaf.counts(first_piece_alone)) continue;
     if (leaf.inside != 255) cut.push_back(leaf.cell);
     const Chart& chart = margins.chart();
     // The ball of a rotation chart has its own margin; for tilt and torsion only the ends of the torsion are faces.
-    out.area[limit::box] += face_area(leaf, lattice.size(leaf.cell.level), resolution, chart.first_wall());
+    out.area[limit::box()] += face_area(leaf, lattice.size(leaf.cell.level), resolution, chart.first_wall());
   }
   const std::vector<NinePoints> points = lattice.points_of(cut);
   std::vector<CutCell::Piece> pieces;

@@ -108,7 +108,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
                            map.home_allowed, control.stop);
 
   Surface surface;
-  surface.area.assign(limit::count, 0.0);
+  surface.area.assign(limit::count(), 0.0);
   double undecided = 0.0;
   map.volume = 0.0;
   const std::size_t stride[] = {1, at_index(n), at_index(n) * at_index(n)};
@@ -122,7 +122,7 @@ void map_by_grid(const Margins& m, const WorkspaceSettings& settings, bool first
       for (const int way : {-1, 1}) {
         const double area = size.prod() / size[axis];
         if (at[axis] == (way < 0 ? 0U : static_cast<std::uint32_t>(n - 1))) {
-          if (axis >= m.chart().first_wall()) surface.area[limit::box] += area;
+          if (axis >= m.chart().first_wall()) surface.area[limit::box()] += area;
           continue;
         }
         Leaf& other = leaves[way < 0 ? c - stride[axis] : c + stride[axis]];

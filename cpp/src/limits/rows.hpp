@@ -1,0 +1,50 @@
+#pragma once
+/// The rows of the table of limits, in its order.
+
+#include <array>
+
+#include "limits/table.hpp"
+
+namespace ninedof {
+
+inline constexpr SpreadRow leg_ratio_row{true, false}, stroke_ratio_row{true, true}, stroke_row{false, true};
+
+/// Name, kind, sides; unit besides "length", option besides `of` and `at`, low side if none is given, whether it
+/// compares poses.
+inline constexpr std::array known_limits = [] {
+  using enum LimitKind;
+  using enum LimitSides;
+  using enum SolverMargin;
+  const auto of_pose = [](const ConstraintInfo& info, SolverMargin solver, const PoseRow& row) {
+    return LimitRow{info, solver, &row, nullptr, nullptr};
+  };
+  const auto of_design = [](const ConstraintInfo& info, SolverMargin solver, const DesignRow& row) {
+    return LimitRow{info, solver, nullptr, &row, nullptr};
+  };
+  const auto of_poses = [](const ConstraintInfo& info, const SpreadRow& row) {
+    return LimitRow{info, row.ratio ? logarithm : linear, nullptr, nullptr, &row};
+  };
+  return std::array{
+      of_design({"radius_ratio", ratio, both}, logarithm, radius_ratio_row),
+      of_poses({"leg_ratio", ratio, both}, leg_ratio_row),
+      of_poses({"stroke_ratio", ratio, only_high, {}, "", 0.0, true}, stroke_ratio_row),
+      of_design({"zs_fraction", ratio, both}, logarithm, zs_fraction_row),
+      of_poses({"stroke", length, only_high, Unit::zp, "", 0.0, true}, stroke_row),
+      of_pose({"leg_length", length, both, Unit::zp}, logarithm, leg_length_row),
+      of_pose({"external_length", length, both, Unit::zp}, logarithm, external_length_row),
+      of_pose({"upper_length", length, both, Unit::zp}, logarithm, upper_length_row),
+      of_pose({"lower_length", length, both, Unit::zp}, logarithm, lower_length_row),
+      of_design({"height", length, both}, logarithm, height_row),
+      of_design({"footprint", length, both}, logarithm, footprint_row),
+      of_design({"joint_height", length, only_high, Unit::radius}, linear, joint_height_row),
+      of_design({"joint_spacing", length, only_low, Unit::radius}, linear, joint_spacing_row),
+      LimitRow{{"leg_limits", length, both}},
+      of_pose({"base_cone", angle, only_high, {}, "axis"}, linear, base_cone_row),
+      of_pose({"platform_cone", angle, only_high, {}, "axis"}, linear, platform_cone_row),
+      of_pose({"leg_clearance", length, only_low, Unit::zp, "radius"}, linear, leg_clearance_row),
+      LimitRow{{"condition_number", ratio, only_high}},
+      of_pose({"singularity_free", sign, only_low, {}, "steps", 1e-3}, plain, singularity_free_row),
+  };
+}();
+
+}  // namespace ninedof
