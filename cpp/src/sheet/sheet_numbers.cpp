@@ -49,8 +49,9 @@ void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* o
   const auto nine = [&out](const Vec9& numbers) { Eigen::Map<Vec9>{out} = numbers; };
   if (group < limits_.size()) {
     limits_[group].at(c, out);
-    for (std::size_t pair = 0; groups_[group].size == 21 && pair < 21; ++pair)
-      if (q.exempt[pair]) out[pair] = infinity;
+    if (limit_row(name).pose->pairs)
+      for (std::size_t pair = 0; pair < q.exempt.size(); ++pair)
+        if (q.exempt[pair]) out[pair] = infinity;
   } else if (name == "speed") {
     nine(largest_leg_rates(g, c, *q.motion));
   } else if (name == "acceleration") {

@@ -224,7 +224,7 @@ TEST_SUITE("field") {
     std::ranges::fill(full.cells.fraction, 1.0);
     std::ranges::fill(full.cells.state, CellState::inside);
     const WorkspaceSection edge = section_of(full, field_of(full), 0, 0.1);
-    CHECK(std::ranges::count(edge.limit, static_cast<std::int16_t>(limit::box)) > 40);
+    CHECK(std::ranges::count(edge.limit, static_cast<std::int16_t>(limit::box())) > 40);
     CHECK(section_of(full, field_of(full), 0, 400.0).fraction == std::vector<double>(edge.fraction.size(), 0.0));
   }
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "ninedof/domains/region.hpp"
 #include "ninedof/limits/limits.hpp"
 #include "ninedof/math/control.hpp"
 #include "ninedof/math/interval.hpp"
-#include "ninedof/domains/region.hpp"
 #include "ninedof/proof/point_rule.hpp"
 #include "ninedof/robot/configuration.hpp"
 #include "ninedof/robot/geometry.hpp"

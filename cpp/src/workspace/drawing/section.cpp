@@ -69,7 +69,7 @@ class Boundary {
       limit = cell.limit;
     }
     const bool face = ((x - low_).abs().min((x - high_).abs()) <= step_).any();
-    return face && least > 1.0 ? static_cast<std::int16_t>(limit::box) : limit;
+    return face && least > 1.0 ? static_cast<std::int16_t>(limit::box()) : limit;
   }
 
  private:
