@@ -464,6 +464,14 @@ def certified_workspace(
     home: tuple[_Floats, _Floats, _Floats] | None,
     progress: _Progress | None,
 ) -> dict[str, Any]: ...
+def region_share(
+    g: Geometry,
+    home: tuple[_Floats, _Floats, _Floats],
+    criteria: Mapping[str, Any],
+    region: Mapping[str, Any],
+    count: int,
+    /,
+) -> tuple[float, int, tuple[str, ...]]: ...
 def spread_rotations(count: int, angle: float) -> _Floats: ...
 
 class PlatformMotion:

@@ -1,9 +1,11 @@
 #include "ninedof/workspace/workspace.hpp"
 
+#include "ninedof/workspace/region_share.hpp"
 #include "support/columns.hpp"
 #include "support/interruptible.hpp"
 #include "support/map_audit.hpp"
 #include "support/module.hpp"
+#include "support/region.hpp"
 #include "support/workspace_question.hpp"
 
 namespace ninedof::python {
@@ -89,6 +91,12 @@ void bind_workspace(py::module_& m) {
                 map.status = WorkspaceStatus::stopped;
                 return true;
               }));
+        });
+  m.def("region_share",
+        [](const Geometry& g, const py::object& home, const py::dict& criteria, const py::dict& region, long count) {
+          const RegionShare found =
+              region_share(g, home_from(home).value(), criteria_from(criteria), region_from(region), count);
+          return py::make_tuple(found.share, found.poses, py::tuple(py::cast(found.passed)));
         });
   m.def("spread_rotations", [](int count, double angle) {
     const std::vector<Mat3> rotations = spread_rotations(count, angle);

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ninedof import _core
-from ninedof.conditioning.conditioning import condition_number
-from ninedof.design.limit_numbers import CONES, apart, clearances, limit_numbers
 from ninedof.design.region import Region
 from ninedof.design.region_outline import extent
-from ninedof.design.region_stack import configurations_at, samples
-from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arrays import Floats
+from ninedof.workspace.criteria import criteria_of
 from ninedof.workspace.study_criteria import EASE
 
 COUNT = 10_000  # even poses, and as many toward the boundary
@@ -38,31 +33,9 @@ def region_share(
     region: Region, g: Geometry, home: Configuration, criteria: Mapping[str, Any], characteristic_length: float
 ) -> RegionShare:
     """Return how much of a region keeps the criteria of a workspace, with its tilts, O as the region has it."""
-    c = configurations_at(region, home, samples(region, COUNT))[1]
-    allowed, passed = np.ones(len(c.position), dtype=bool), []
-    for name, keeps in _kept(g, c, home, criteria, characteristic_length):
-        allowed &= keeps
-        if not keeps.all():
-            passed.append(name)
-    return RegionShare(float(allowed[:COUNT].mean()), len(allowed), tuple(passed))
-
-
-def _kept(
-    g: Geometry, c: Configuration, home: Configuration, criteria: Mapping[str, Any], length: float
-) -> Iterator[tuple[str, Any]]:
-    for name, limit in criteria.items():
-        if name == "leg_limits":
-            lengths = leg_lengths(g, c)
-            yield name, ((lengths >= limit[0]) & (lengths <= limit[1])).all(axis=1)
-        elif name in CONES:
-            most, axis = (limit["max"], limit["axis"]) if isinstance(limit, Mapping) else (limit, ())
-            yield name, (limit_numbers(name, g, c, home, axis) <= most).all(axis=1)
-        elif name == "leg_clearance":
-            yield name, clearances(g, c, apart(g)).min(axis=1) >= limit
-        elif name == "condition_number":
-            yield name, condition_number(g, c, length) <= limit
-        elif name == "singularity_free" and limit:
-            yield name, (limit_numbers(name, g, c, home) > 0.0).all(axis=1)
+    at_home = (home.position, home.rotation, home.internal_point)
+    asked = criteria_of(criteria, characteristic_length)
+    return RegionShare(*_core.region_share(g, at_home, asked, region.for_core(), COUNT))
 
 
 def leg_ranges_over(region: Region, g: Geometry, home: Configuration) -> tuple[Floats, Floats]:

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.design.region_stack import configurations_at, poses_at, samples
+from ninedof.design.region_stack import configurations_at, poses_at
 from ninedof.export.model import model_of
 from ninedof.optimize.exchange import search
 from ninedof.optimize.pieces import Pieces
@@ -97,12 +97,10 @@ def test_no_random_pose_is_worse(region):
     for name, margin in there.evaluate(design.variables).margins.items():
         assert margin >= margins[name] - 1e-9
     assert found.region.looked_at > 4000
-    kappa = nd.condition_number(
-        g,
-        configurations_at(design.study.objective.region, c[0], samples(design.study.objective.region, 2000)[:2000])[1],
-        1.5,
-    )
-    assert found.mean_condition_number == found.region.mean == pytest.approx(kappa.mean())
+    even = random_poses(design.study.objective.region, 9000, np.random.default_rng(2), on_boundary=0.0)
+    kappa = nd.condition_number(g, posed(design.study, even).evaluate(design.variables).configurations[1:], 1.5)
+    error = float(kappa.std()) / 9000**0.5 + found.region.mean_error
+    assert found.mean_condition_number == found.region.mean == pytest.approx(kappa.mean(), abs=6.0 * error)
 
 
 def test_a_second_maximum_far_from_the_worst_of_the_sample():
@@ -122,23 +120,14 @@ def test_the_sheet_agrees_with_the_search_of_the_optimizer(boxed):
 @pytest.mark.parametrize("region", REGIONS)
 def test_configurations_are_those_of_the_core(region):
     design = result(region)
-    at = samples(nd.Region(**region), 40)
-    near, c = configurations_at(nd.Region(**region), design.configuration, at)
-    assert np.allclose(near, at, atol=1e-12)  # a sample is in the region
+    given = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 6)) * nd.Region(**region).reach
+    at, c = configurations_at(nd.Region(**region), design.configuration, given)
     core = posed(design.study, poses_at(nd.Region(**region), at)).evaluate(design.variables).configurations[1:]
     for name in ("position", "rotation", "internal_point"):
         assert np.allclose(getattr(c, name), getattr(core, name), atol=1e-12)
     outside = configurations_at(nd.Region(**region), design.configuration, 10.0 * at)[0]
     reach = np.array(nd.Region(**region).reach)
     assert (np.abs(outside) <= reach + 1e-12).all()
-
-
-def test_the_even_half_of_a_sample_is_even():
-    at = samples(nd.Region(ball=2.0, tilt=0.5, yaw=1.0), 20_000)[:20_000]
-    assert np.allclose(at.mean(axis=0), 0.0, atol=2e-3)
-    assert np.mean(np.linalg.norm(at[:, :3], axis=1) ** 2) == pytest.approx(0.6 * 4.0, rel=2e-3)  # of a ball
-    assert np.mean(np.linalg.norm(at[:, 3:5], axis=1) ** 2) == pytest.approx(0.5 * 0.25, rel=2e-3)  # of a disc
-    assert np.mean(at[:, 5] ** 2) == pytest.approx(1.0 / 3.0, rel=2e-3)
 
 
 def test_words_and_plain_values(boxed):
