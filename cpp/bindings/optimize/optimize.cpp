@@ -174,7 +174,8 @@ py::dict worst_with_placing(const Problem& problem, const py::dict& region, cons
     places.push_back({Vec6::Map(at.data()), Vec3::Map(shift.data())});
   }
   const PlacedWorst found = interruptible(py::none(), [&](const Control& control) {
-    return search_region_placed(problem, r, variables, goal, places, {samples, seed, threads, 1e-5}, control);
+    return search_region_placed(problem, r, variables, goal, places,
+                                {.samples = samples, .seed = seed, .threads = threads}, control);
   });
   py::list ends;
   for (const PlacedEnd& end : found.ends) {

@@ -36,7 +36,10 @@ void bind_workspace_field(py::module_& m) {
         interruptible(py::none(), [&](const Control& control) { return field_of(map, most, control.stop); });
     return py::make_tuple(axes_of(field.fraction), values_of(field.fraction), values_of(field.condition_number));
   });
-  m.def("workspace_surface", [](const py::object& field) { return points_and_faces(surface_of(field_from(field))); });
+  m.def("workspace_surface", [](const py::object& field) {
+    const WorkspaceField all = field_from(field);
+    return points_and_faces(interruptible(py::none(), [&](const Control&) { return surface_of(all); }));
+  });
   m.def("cell_section", [](const py::object& cells, const Ends& ends, int fixed, double at, int pixels) {
     const WorkspaceMap map = map_from(cells, ends);
     return tuple_of(interruptible(

@@ -1,6 +1,7 @@
 #include "ninedof/workspace/statistics.hpp"
 
 #include "support/cell_map.hpp"
+#include "support/interruptible.hpp"
 #include "support/module.hpp"
 
 namespace ninedof::python {
@@ -35,7 +36,10 @@ void bind_workspace_statistics(py::module_& m) {
   m.def("workspace_poses", [](const Geometry& g, const py::dict& domain, const std::string& kind, double fraction,
                               const Array& point, const py::object& cells, const std::pair<Array, Array>& ends,
                               bool first_piece_alone) {
-    return poses_of(g, domain_from(domain), rule_from(kind, fraction, point), map_from(cells, ends), first_piece_alone);
+    const WorkspaceDomain within = domain_from(domain);
+    const InternalPointRule rule = rule_from(kind, fraction, point);
+    const WorkspaceMap map = map_from(cells, ends);
+    return interruptible(py::none(), [&](const Control&) { return poses_of(g, within, rule, map, first_piece_alone); });
   });
 }
 

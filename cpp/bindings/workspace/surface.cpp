@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "support/columns.hpp"
+#include "support/interruptible.hpp"
 #include "support/module.hpp"
 #include "support/raster.hpp"
 
@@ -30,13 +31,16 @@ QuadSurface surface_from(const py::object& surface) {
 
 void bind_workspace_surface(py::module_& m) {
   m.def("surface_net", [](const Axes& axes, const Array& values, double level, double outside) {
-    return points_and_faces(surface_net(raster_from(axes, values), level, outside));
+    const auto raster = raster_from(axes, values);
+    return points_and_faces(
+        interruptible(py::none(), [&](const Control&) { return surface_net(raster, level, outside); }));
   });
   m.def("surface_normals",
         [](const py::object& surface) { return array_from(surface_normals(surface_from(surface))); });
   m.def("enclosed_volume", [](const py::object& surface) { return enclosed_volume(surface_from(surface)); });
   m.def("smoothed_points", [](const py::object& surface, int rounds) {
-    return array_from(smoothed_points(surface_from(surface), rounds));
+    const auto given = surface_from(surface);
+    return array_from(interruptible(py::none(), [&](const Control&) { return smoothed_points(given, rounds); }));
   });
 }
 

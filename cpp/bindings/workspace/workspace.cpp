@@ -94,8 +94,12 @@ void bind_workspace(py::module_& m) {
         });
   m.def("region_share",
         [](const Geometry& g, const py::object& home, const py::dict& criteria, const py::dict& region, long count) {
-          const RegionShare found =
-              region_share(g, home_from(home).value(), criteria_from(criteria), region_from(region), count);
+          const Configuration at_home = home_from(home).value();
+          const WorkspaceCriteria asked = criteria_from(criteria);
+          const Region over = region_from(region);
+          const RegionShare found = interruptible(py::none(), [&](const Control& control) {
+            return region_share(g, at_home, asked, over, count, control);
+          });
           return py::make_tuple(found.share, found.poses, py::tuple(py::cast(found.passed)));
         });
   m.def("spread_rotations", [](int count, double angle) {

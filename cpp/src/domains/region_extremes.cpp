@@ -13,7 +13,7 @@
 namespace ninedof {
 namespace {
 
-constexpr long block = 512;  // of samples
+constexpr long blocks = 64;  // of samples
 // Parts of the region. A descent begins from the worst sample of a part, so that no two begin next to each other.
 constexpr std::size_t parts = 64;
 constexpr long fewest_descents = 6, most_descents = 24;  // of a number; the most where there are many samples
@@ -48,7 +48,7 @@ class Lowest {
   std::vector<MetNumber> first(std::size_t number, std::size_t count) const {
     std::vector<MetNumber> out;
     for (std::size_t part = 0; part < parts; ++part)
-      if (std::isfinite(at(part, number).value)) out.push_back(at(part, number));
+      if (at(part, number).value < infinity) out.push_back(at(part, number));
     std::ranges::stable_sort(out, {}, &MetNumber::value);
     out.resize(std::min(out.size(), count));
     return out;
@@ -62,7 +62,7 @@ class Lowest {
 Lowest sampled(const Region& region, const Make& make, const std::vector<int>& groups, const RegionSettings& settings,
                const Control& control) {
   const auto numbers = static_cast<std::size_t>(std::accumulate(groups.begin(), groups.end(), 0));
-  const long blocks = (settings.samples + block - 1) / block;
+  const long block = (settings.samples + blocks - 1) / blocks;
   std::vector<std::unique_ptr<Lowest>> of_block(at_index(blocks));
   parallel_for(blocks, 1, settings.threads, [&](long first, long) {
     const std::unique_ptr<PoseNumbers> pose = make();

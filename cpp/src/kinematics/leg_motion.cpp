@@ -25,7 +25,8 @@ Velocity velocity_of(const Geometry& g, const Configuration& c, InternalMotion i
 }
 
 /// The accelerations of the internal legs for an acceleration of O, as columns; a leg of no length has none.
-Mat63 by_internal_point(const Geometry& g, const Configuration& c) {
+Mat63 by_internal_point(const Geometry& g, const Configuration& c, InternalMotion internal) {
+  if (internal != InternalMotion::least) return Mat63::Zero();  // nobody asks
   const Mat93 all = null_motion(g, c);
   return all.bottomRows<6>().unaryExpr([](double x) { return std::isnan(x) ? 0.0 : x; });
 }
@@ -65,7 +66,7 @@ Vec9 leg_rates(const Geometry& g, const Configuration& c, InternalMotion interna
 }
 
 Vec9 leg_accelerations(const Geometry& g, const Configuration& c, InternalMotion internal, const TwistMotion& motion) {
-  return accelerations_of(g, c, internal, motion, by_internal_point(g, c));
+  return accelerations_of(g, c, internal, motion, by_internal_point(g, c, internal));
 }
 
 Vec9 largest_leg_rates(const Geometry& g, const Configuration& c, const PlatformMotion& motion) {
@@ -78,7 +79,7 @@ Vec9 largest_leg_rates(const Geometry& g, const Configuration& c, const Platform
 Vec9 largest_leg_accelerations(const Geometry& g, const Configuration& c, const PlatformMotion& motion) {
   const double v = motion.linear_speed, w = motion.angular_speed;
   const Eigen::Index first = w > 0.0 ? 0 : 3, last = v > 0.0 ? 6 : 3;
-  const Mat63 by_o = by_internal_point(g, c);
+  const Mat63 by_o = by_internal_point(g, c, motion.internal);
   const auto at = [&](const Vec6& twist) {
     return accelerations_of(g, c, motion.internal, {twist, Vec6::Zero()}, by_o);
   };

@@ -1,9 +1,11 @@
 #include "ninedof/limits/numbers.hpp"
 
 #include "limits/table.hpp"
+#include "math/numbers.hpp"
 #include "robot/leg_pairs.hpp"
 
 namespace ninedof {
+
 std::vector<std::string> limits_of_poses() {
   std::vector<std::string> out;
   for (const LimitRow& row : limit_rows())
@@ -25,8 +27,9 @@ std::vector<std::string> limit_parts(const std::string& name) {
   return out;
 }
 
-LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis)
-    : row_(pose_row("limit", name)), geometry_(g), home_(posed_points(g, home)), axis_(axis) {}
+LimitNumbers::LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis,
+                           const std::array<bool, 21>& exempt)
+    : row_(pose_row("limit", name)), geometry_(g), home_(posed_points(g, home)), axis_(axis), exempt_(exempt) {}
 
 int LimitNumbers::items() const {
   return row_.items;
@@ -35,7 +38,8 @@ int LimitNumbers::items() const {
 void LimitNumbers::at(const Configuration& pose, double* out) const {
   const PosedPoints here = posed_points(geometry_, pose);
   const PointLook look(here, home_, axis_);
-  for (int item = 0; item < row_.items; ++item) out[item] = row_.number(look, item);
+  for (int item = 0; item < row_.items; ++item)
+    out[item] = row_.pairs && exempt_[at_index(item)] ? infinity : row_.number(look, item);
 }
 
 std::array<bool, 21> pairs_sharing_a_joint(const Geometry& g, const std::array<bool, 21>& among) {

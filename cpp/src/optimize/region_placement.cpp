@@ -173,6 +173,9 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
 std::function<PlacedEnd(const Vec6& at)> placer(const Problem& problem, const Region& region,
                                                 const Eigen::VectorXd& variables, const PlacementGoal& goal,
                                                 const std::vector<Vec3>& known) {
+  problem.validate();
+  region.validate();
+  require_full("variables", problem, variables);
   struct Placer {
     Region region;
     PlacementGoal goal;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "limits/table.hpp"
-#include "math/numbers.hpp"
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/robot/legs.hpp"
 
@@ -24,7 +23,7 @@ WorstEnd worst_end(const std::string& limit) {
 
 SheetNumbers::SheetNumbers(const SheetQuestion& question) : question_(question) {
   for (const auto& [name, axis] : question_.limits) {
-    limits_.emplace_back(name, question_.geometry, question_.neutral, axis);
+    limits_.emplace_back(name, question_.geometry, question_.neutral, axis, question_.exempt);
     groups_.push_back({name, limits_.back().items(), worst_end(name)});
   }
   using enum WorstEnd;
@@ -49,9 +48,6 @@ void SheetNumbers::evaluate(std::size_t group, const Configuration& c, double* o
   const auto nine = [&out](const Vec9& numbers) { Eigen::Map<Vec9>{out} = numbers; };
   if (group < limits_.size()) {
     limits_[group].at(c, out);
-    if (limit_row(name).pose->pairs)
-      for (std::size_t pair = 0; pair < q.exempt.size(); ++pair)
-        if (q.exempt[pair]) out[pair] = infinity;
   } else if (name == "speed") {
     nine(largest_leg_rates(g, c, *q.motion));
   } else if (name == "acceleration") {

@@ -16,6 +16,7 @@ namespace {
 constexpr int turns = 24;      // directions of the greatest tilt, at each corner
 constexpr double same = 1e-7;  // of the region: nearer poses are one
 constexpr long mean_parts = 8;
+constexpr double placed_last_step = 1e-4;  // of descents where O is placed at every step
 
 /// Numbers of a sheet, each the worse the lower: one that is worst at both ends comes twice, the second time negative.
 /// The lengths of the external legs are a group of their own.
@@ -85,15 +86,17 @@ void take_mean(const SheetQuestion& q, const Region& region, const std::function
                const RegionSettings& settings, const Control& control, SheetRegion& out) {
   const long count = std::max(settings.samples / 2, 1L);
   Eigen::VectorXd values = Eigen::VectorXd::Constant(count, infinity);
+  out.mean = out.mean_error = infinity;
+  if (!q.characteristic_length) return;
+  out.poses += count;
   parallel_for(count, 64, settings.threads, [&](long first, long last) {
     if (control.stop.stop_requested()) return;
     const PlacedAt placed = placing ? placing() : [&](const Vec6& at) { return region.configuration(at, q.neutral); };
-    for (long n = first; n < last && q.characteristic_length; ++n)
+    for (long n = first; n < last; ++n)
       values[n] = condition_number(q.geometry, placed(even_sample(region, n, settings.seed)), *q.characteristic_length);
   });
   if (control.stop.stop_requested()) throw Stopped{};
   out.mean = values.mean();
-  out.mean_error = infinity;
   const long parts = std::min(mean_parts, count);
   if (parts < 2 || !values.allFinite()) return;
   Eigen::VectorXd means(parts);
@@ -114,7 +117,9 @@ SheetRegion sheet_over_region(const SheetQuestion& question, const Region& regio
     return std::make_unique<Numbers>(sheet, question.geometry, question.neutral, region,
                                      placing ? placing() : PlacedAt());
   };
-  const RegionExtremes found = region_extremes(region, make, settings, control);
+  RegionSettings search = settings;
+  if (placing) search.last_step = std::max(search.last_step, placed_last_step);
+  const RegionExtremes found = region_extremes(region, make, search, control);
   SheetRegion out;
   out.poses = found.poses;
   std::vector<Vec6> worst;

@@ -49,6 +49,8 @@ void require_limit(const Limit& limit) {
   limit.validate();
 }
 
+}  // namespace
+
 void require_criteria(const WorkspaceCriteria& c) {
   require_length("characteristic_length", c.characteristic_length);
   if (c.legs) {
@@ -60,8 +62,6 @@ void require_criteria(const WorkspaceCriteria& c) {
   if (c.condition_number && !(*c.condition_number >= 1.0))
     throw InvalidArgument("condition_number", format_number(*c.condition_number), "at least 1");
 }
-
-}  // namespace
 
 void require_question(const WorkspaceDomain& domain, const InternalPointRule& rule, const WorkspaceCriteria& criteria,
                       const std::optional<Configuration>& home) {

@@ -9,4 +9,7 @@ namespace ninedof {
 void require_question(const WorkspaceDomain& domain, const InternalPointRule& rule, const WorkspaceCriteria& criteria,
                       const std::optional<Configuration>& home);
 
+/// The same for criteria alone.
+void require_criteria(const WorkspaceCriteria& criteria);
+
 }  // namespace ninedof

@@ -230,10 +230,9 @@ def sheet(
 
     Extremes are those over the listed poses, the neutral one included; between the poses nothing is looked at. Of the
     result of a region study they are those over the region: a dense sample is looked at, with descents from the worst
-    of it for every number of the sheet. Where O is placed anew at every pose, the sample has 2000 even poses and as
-    many toward the boundary, O is at each where the worst of the index and the limits is least, and descents follow the
-    lengths of the legs alone. There O may jump from one place to another, and an internal leg with it: its extremes are
-    those that were found.
+    of it for every number of the sheet. Where O is placed anew at every pose, the sample has 4000 poses, O is at each
+    where the worst of the index and the limits is least, and descents follow the lengths of the legs alone. There O may
+    jump from one place to another, and an internal leg with it: its extremes are those that were found.
 
     Parameters
     ----------
@@ -271,7 +270,7 @@ def sheet(
         base axes: (0, 0, -9.81) by default gives newtons for kilograms, in any unit of length. The weight is added to
         every load, and is a load alone where none is given.
     samples : int
-        Even poses of the region, and as many toward its boundary; 10000 by default.
+        Half of the poses of the sample of a region, and even poses for the mean; 10000 by default.
     unit : str, optional
         Name of the length unit; that of the study or the design file by default. With one, times are in seconds: the
         speed of a leg is labelled mm/s. The unit of forces is the caller's and has no name.

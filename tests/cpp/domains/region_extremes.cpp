@@ -47,7 +47,7 @@ double least_of(const Region& region, const Vec6& slope) {
 }  // namespace
 
 TEST_SUITE("region_extremes") {
-  TEST_CASE("the least of a region") {
+  TEST_CASE("the least of a region, the same on any number of threads") {
     Random random(5);
     for (int k = 0; k < cases(24); ++k) {
       Region region;
@@ -69,6 +69,28 @@ TEST_SUITE("region_extremes") {
       CHECK(again.poses == found.poses);
       CHECK(again.least(2).value == found.least(2).value);
     }
+  }
+
+  TEST_CASE("a number that is minus infinity at a pose is the least") {
+    class Singular : public Known {
+      using Known::Known;
+      void go(const Vec6& at) override {
+        Known::go(at);
+        bad_ = at[0] > 0.9;
+      }
+      void evaluate(int group, double* out) override {
+        Known::evaluate(group, out);
+        if (bad_) *out = -infinity;
+      }
+      bool bad_ = false;
+    };
+    Region region;
+    region.size = Vec3(1, 1, 1);
+    const auto make = [] { return std::make_unique<Singular>(Vec6::Ones(), Vec6::Zero()); };
+    const RegionExtremes found = region_extremes(region, make, {1000, 0, 2});
+    CHECK(found.least(0).value == -infinity);
+    CHECK(found.least(0).at[0] > 0.9);
+    CHECK(found.least(2).value == doctest::Approx(0.0));
   }
 
   TEST_CASE("no descent where none is worth while, a stop, and bad settings") {

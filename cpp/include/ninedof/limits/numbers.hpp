@@ -27,8 +27,10 @@ std::vector<std::string> limit_parts(const std::string& name);
 /// determinants, positive on the side of the neutral pose.
 class LimitNumbers {
  public:
-  /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction.
-  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis = Vec3::Zero());
+  /// `axis` of a cone: in the frame of its body, zero for the leg's own neutral direction. Pairs of legs that are
+  /// `exempt` have an infinite distance.
+  LimitNumbers(const std::string& name, const Geometry& g, const Configuration& home, const Vec3& axis = Vec3::Zero(),
+               const std::array<bool, 21>& exempt = {});
   int items() const;
   /// `out` has room for them.
   void at(const Configuration& pose, double* out) const;
@@ -38,6 +40,7 @@ class LimitNumbers {
   Geometry geometry_;
   PosedPoints home_;
   Vec3 axis_;
+  std::array<bool, 21> exempt_;
 };
 
 /// Every pair of legs.

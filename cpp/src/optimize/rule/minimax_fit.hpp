@@ -26,8 +26,8 @@ class MinimaxFit {
   void lower(double smoothing);
 
  private:
-  /// The smoothed worst row near the unknowns, of `bend` the lower half: these are the x, y and z coefficients of all terms, in zp, then the
-  /// middles.
+  /// The smoothed worst row near the unknowns, of `bend` the lower half: these are the x, y and z coefficients of all
+  /// terms, in zp, then the middles.
   struct Model {
     double value;
     Eigen::VectorXd gradient;

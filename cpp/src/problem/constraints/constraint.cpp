@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace ninedof {
+
 ShownMargin share_of_limit(Side side, double logarithm) {
   const double sign = side == Side::high ? -1.0 : 1.0;
   return {sign * std::expm1(sign * logarithm), std::exp(sign * logarithm)};

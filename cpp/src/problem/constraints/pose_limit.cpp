@@ -1,4 +1,5 @@
-/// A limit at every pose, and where its row says so at home and on the way there. Declared in problem/constraints/constraint.hpp.
+/// A limit at every pose, and where its row says so at home and on the way there.
+/// Declared in problem/constraints/constraint.hpp.
 
 #include <algorithm>
 

@@ -87,8 +87,10 @@ void PoseCuts::require_kept(const RowCuts& cuts, const Configuration& home, cons
   for (int item = 0; item < cuts.row->items; ++item)
     for (const Edge& edge : cuts.items[at_index(item)].edges)
       if (!(lower(kept(edge, u_of(cuts, look, item))) > 0.0))
-        throw InvalidArgument("home", "a configuration that rounding cannot tell from a singular one",
-                              "a regular one with " + name);
+        throw InvalidArgument("home",
+                              edge.at ? "a configuration that passes a limit of " + name
+                                      : "a configuration that rounding cannot tell from a singular one",
+                              edge.at ? "one that keeps it" : "a regular one with " + name);
 }
 
 PoseForm PoseCuts::u_of(const RowCuts& cuts, const FormLook& look, int item) {
