@@ -30,7 +30,7 @@ TEST_SUITE("region_share") {
     CHECK(found.poses == 40'000);
     CHECK(found.passed == std::vector<std::string>{"leg_limits"});
     criteria.legs->high[0] = 2.0;
-    CHECK(region_share(g, c, criteria, region, 1000).share == 1.0);
+    CHECK(region_share(g, c, criteria, region, 10'000).share == 1.0);
   }
 
   TEST_CASE("limits of the table, the condition number, the side of home") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 #include "ninedof/conditioning/conditioning.hpp"
 #include "ninedof/domains/region_sample.hpp"
@@ -93,7 +94,7 @@ RegionShare region_share(const Geometry& g, const Configuration& home, const Wor
   if (control.stop.stop_requested()) throw Stopped{};
   RegionShare out;
   out.poses = 2 * count;
-  for (const long some : kept) out.share += static_cast<double>(some) / static_cast<double>(count);
+  out.share = static_cast<double>(std::accumulate(kept.begin(), kept.end(), 0L)) / static_cast<double>(count);
   for (std::size_t k = 0; k < judge.names.size(); ++k)
     if (std::ranges::any_of(passed, [k](const std::vector<bool>& some) { return some[k]; }))
       out.passed.push_back(judge.names[k]);
