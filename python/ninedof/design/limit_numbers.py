@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ninedof import _core
 from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
@@ -50,16 +48,3 @@ def exempt_pairs(g: Geometry, study: Study | None = None) -> list[bool]:
 def apart(g: Geometry, study: Study | None = None) -> list[int]:
     """Return the indices of the pairs of legs that are to keep a distance: those that are not exempt."""
     return [k for k, meet in enumerate(exempt_pairs(g, study)) if not meet]
-
-
-def clearances(g: Geometry, c: Configuration, pairs: Sequence[int]) -> Floats:
-    """Return the distances of the axes of pairs of legs, shape (n, pairs)."""
-    return limit_numbers("leg_clearance", g, c, c[0])[:, pairs]
-
-
-def least_clearance(g: Geometry, c: Configuration, pairs: Sequence[int]) -> tuple[float, int, tuple[str, str]]:
-    """Return the least distance over a stack of poses, its pose and its pair."""
-    found = clearances(g, c, pairs)
-    pose, pair = np.unravel_index(int(np.argmin(found)), found.shape)
-    one, other = sorted(PARTS["leg_clearance"][pairs[int(pair)]].split("-"))  # "l3-l1" as l1 and l3
-    return float(found[pose, pair]), int(pose), (one, other)

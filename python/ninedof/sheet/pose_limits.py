@@ -10,7 +10,7 @@ import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.leg_limits import SPREADS
-from ninedof.design.limit_numbers import PARTS, apart, clearances, limit_numbers
+from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
@@ -99,7 +99,7 @@ def _values(
 ) -> Iterator[tuple[str, Floats]]:
     """Yield the numbers that a constraint limits at each pose, by leg or determinant; none for limits of the design."""
     if name == "leg_clearance":
-        yield "", clearances(g, c, apart(g, study)).min(axis=1, initial=math.inf)
+        yield "", limit_numbers(name, g, c, neutral)[:, apart(g, study)].min(axis=1, initial=math.inf)
     elif name in PARTS:
         yield from zip(PARTS[name], limit_numbers(name, g, c, neutral, axis).T, strict=True)
     elif name in SPREADS:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design.limit_numbers import apart, least_clearance
+from ninedof.design.limit_numbers import PARTS
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
@@ -334,7 +334,7 @@ def sheet(
         ),
         condition_number=_worst(kappa),
         mean_condition_number=float(kappa.mean()) if look is None else look.mean,
-        clearance=Clearance(*least_clearance(g, c, apart(g, study))),
+        clearance=_clearance(found["leg_clearance"]),
         determinants=determinants,
         nearest_singularity=min(determinants, key=lambda name: determinants[name].value),
         singularities=near_singularities(g, c, motion.internal),
@@ -382,6 +382,13 @@ def _worst(values: Floats) -> Extreme:
 def _least(values: Floats) -> Extreme:
     at = int(np.argmin(values))
     return Extreme(float(values[at]), at)
+
+
+def _clearance(distances: Floats) -> Clearance:
+    """Return the least of distances at poses, shape (n, pairs), infinite for pairs that may meet."""
+    pose, pair = divmod(int(np.argmin(distances)), distances.shape[1])
+    one, other = sorted(PARTS["leg_clearance"][pair].split("-"))  # "l3-l1" as l1 and l3
+    return Clearance(float(distances[pose, pair]), pose, (one, other))
 
 
 def _determinants(g: Geometry, c: Configuration) -> dict[str, Determinant]:

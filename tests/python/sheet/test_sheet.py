@@ -17,7 +17,7 @@ import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.posed import chosen_poses
-from ninedof.design.limit_numbers import PARTS, apart, least_clearance
+from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
 from ninedof.report.sheet_part import sheet_part
 from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_words import pose_words
@@ -159,9 +159,10 @@ def test_joints_that_coincide_in_one_design_collide_where_a_study_limits_the_dis
     sides = {"a1": (0.0, 1.0), "a2": 5.8, "b1": 2.9, "b2": 0.0, "zp": 4.0, "zs": 2.4, "theta_z": 0.0}
     for limits in ({}, {"leg_clearance": {"min": 0.1}}):
         free, fixed = (nd.Study(variables=sides | {"a1": a1}, constraints=limits) for a1 in ((0.0, 1.0), 0.0))
-        g = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0)
-        assert (least_clearance(g, nd.Configuration.neutral([4.0], 2.4), apart(g, free))[0] > 0.5) == (not limits)
-        assert least_clearance(g, nd.Configuration.neutral([4.0], 2.4), apart(g, fixed))[0] > 0.5
+        g, home = nd.Geometry.hexagonal(a1=0.0, a2=5.8, b1=2.9, b2=0.0), nd.Configuration.neutral([4.0], 2.4)
+        distances = limit_numbers("leg_clearance", g, home, home[0])
+        assert (distances[:, apart(g, free)].min() > 0.5) == (not limits)
+        assert distances[:, apart(g, fixed)].min() > 0.5
 
 
 def test_a_crossed_singularity_is_said():
