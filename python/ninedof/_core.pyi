@@ -187,7 +187,7 @@ def distance_to_singularity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, direction: _Floats, most: float, threads: int, /
 ) -> _Floats: ...
 
-# Motions are (9, 3); distance, code of the mechanism, direction (3,), pose.
+# Motions are (9, 3); distance, code of the mechanism, direction (3,), pose, the motion (9,) that leads there.
 def nearest_singularity(
     g: Geometry, p: _Floats, q: _Floats, s: _Floats, motions: _Floats, most: float, directions: int, threads: int, /
 ) -> _Nearest: ...
@@ -412,7 +412,7 @@ class RuleTask:
         problem: Problem,
         variables: Sequence[float],
         log_index: float,
-        ranges: Sequence[tuple[str, Sequence[float], Sequence[float], float]],
+        ranges: Sequence[_Range],
         known: Sequence[Sequence[float]],
         /,
     ) -> None: ...

@@ -11,7 +11,6 @@ from ninedof import _core
 from ninedof.design.limit_numbers import CONES, PARTS, exempt_pairs
 from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.pose import Pose
-from ninedof.design.region import Region
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import configurations_at, poses_at
 from ninedof.design.study import Study
@@ -100,7 +99,8 @@ def look_over(
     Where O is placed anew at every pose, descents follow the lengths of the legs: those of the external legs do not
     depend on O, those of the others take O placed at every step. Of the other numbers it is the worst of the sample.
     """
-    region: Region = study.objective.region  # type: ignore[assignment]
+    region = study.objective.region
+    assert region is not None
     given = None if placing is None else placing.for_core()
     samples = 2 * (count if placing is None else min(count, PLACED))
     at, poses, mean, error = _core.sheet_over_region(question, region.for_core(), samples, given)
