@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/slsqp.hpp"
 #include "ninedof/math/error.hpp"
 #include "optimize/verdict.hpp"
 
@@ -30,6 +31,10 @@ Result interrupted(Result result) {
 }
 
 }  // namespace
+
+std::string solver_version() {
+  return slsqp_version();
+}
 
 void Settings::validate() const {
   const int least = warm.empty() ? 1 : 0;

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
+#include "math/slsqp.hpp"
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/optimize/region_placement.hpp"
 #include "optimize/minimax/placed_pose.hpp"
-#include "optimize/minimax/slsqp.hpp"
 #include "optimize/verdict.hpp"
 #include "problem/constraints/constraint.hpp"
 

@@ -70,7 +70,7 @@ def plant(files: Mapping[str, str], lines: Mapping[str, str]) -> dict[str, str]:
     [
         (LEGS, '#include "ninedof/kinematics/velocity.hpp"', "upward cpp/include/ninedof/kinematics/velocity.hpp"),
         ("src/robot/geometry.cpp", "#include <ninedof/workspace/workspace.hpp>", "upward cpp/include/ninedof/work"),
-        ("src/conditioning/conditioning.cpp", '#include "optimize/minimax/slsqp.hpp"', "upward cpp/src/optimize"),
+        ("src/conditioning/conditioning.cpp", '#include "optimize/minimax/subproblem.hpp"', "upward cpp/src/optimize"),
         ("include/ninedof/math/types.hpp", '#include "ninedof/math/rotation.hpp"', "circular"),
         (f"src/{SYMMETRIC}.cpp", '#include "ninedof/kinematics/velocity.hpp"', "cpp: not independent of velocity"),
         (f"include/ninedof/{SYMMETRIC}.hpp", '#include "ninedof/robot/legs.hpp"', ".cpp: not independent of legs"),

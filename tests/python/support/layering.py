@@ -40,7 +40,7 @@ CPP_INDEPENDENT = {
 }
 
 # A library behind one source file, and what must not appear in cpp/include or cpp/src at all.
-ONLY_IN = {"nlopt": "cpp/src/optimize/minimax/slsqp.cpp"}
+ONLY_IN = {"nlopt": "cpp/src/math/slsqp.cpp"}
 NOWHERE = {"pybind11", "Python.h", "iostream"}
 
 # --- Python -----------------------------------------------------------------------------------------------------------

@@ -7,9 +7,9 @@
 
 #include <functional>
 
+#include "math/slsqp.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
-#include "optimize/minimax/slsqp.hpp"
 
 namespace ninedof {
 

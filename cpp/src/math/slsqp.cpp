@@ -1,17 +1,14 @@
-#include "optimize/minimax/slsqp.hpp"
+#include "math/slsqp.hpp"
 
 #include <nlopt.h>
 
 #include <exception>
 #include <memory>
 #include <new>
-#include <string>
-
-#include "ninedof/optimize/optimize.hpp"
 
 namespace ninedof {
 
-std::string solver_version() {
+std::string slsqp_version() {
   int major = 0, minor = 0, bugfix = 0;
   ::nlopt_version(&major, &minor, &bugfix);
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(bugfix);
@@ -19,7 +16,7 @@ std::string solver_version() {
 
 namespace {
 
-constexpr double constraint_tolerance = 1e-10;
+constexpr double slsqp_slack = 1e-10;  // of a constraint
 
 /// NLopt asks for objective and constraints one after the other at the same point; both are computed at once.
 struct Session {
@@ -73,7 +70,7 @@ Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpS
   nlopt_set_upper_bounds(opt.get(), nlp.high.data());
   nlopt_set_min_objective(opt.get(), objective, &session);
   // With a tolerance of zero NLopt would return the start: iterates satisfy constraints up to rounding only.
-  const Eigen::VectorXd slack = Eigen::VectorXd::Constant(nlp.constraints, constraint_tolerance);
+  const Eigen::VectorXd slack = Eigen::VectorXd::Constant(nlp.constraints, slsqp_slack);
   if (nlp.constraints > 0)
     nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(nlp.constraints), constraints, &session,
                                      slack.data());

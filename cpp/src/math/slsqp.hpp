@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 
 namespace ninedof {
 
@@ -28,5 +29,8 @@ struct SlsqpSettings {
 
 /// The last point SLSQP proposed as its answer.
 Eigen::VectorXd slsqp(const Nlp& nlp, const Eigen::VectorXd& start, const SlsqpSettings& settings);
+
+/// The version of NLopt, such as "2.7.1".
+std::string slsqp_version();
 
 }  // namespace ninedof
