@@ -17,18 +17,23 @@ Vector shortened(const Vector& v, double longest) {
   return length > longest ? Vector(v * (longest / length)) : v;
 }
 
+/// A point of a path, and its derivative by t.
+struct PathPoint {
+  Vec3 at, slope;
+};
+
 /// The point of a path through its corners, t from 0 to 1 by arc length.
-Vec3 along(const std::vector<Vec3>& corners, double t) {
+PathPoint along(const std::vector<Vec3>& corners, double t) {
   double length = 0.0;
   for (std::size_t k = 1; k < corners.size(); ++k) length += (corners[k] - corners[k - 1]).norm();
   double left = t * length;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     const Vec3 way = corners[k] - corners[k - 1];
     const double step = way.norm();
-    if (left <= step && step > 0.0) return corners[k - 1] + left / step * way;
+    if (left <= step && step > 0.0) return {corners[k - 1] + left / step * way, length / step * way};
     left -= step;
   }
-  return corners.back();
+  return {corners.back(), Vec3::Zero()};
 }
 
 }  // namespace
@@ -57,12 +62,23 @@ Vec6 Region::nearest(Vec6 at) const {
 Pose Region::pose(const Vec6& at) const {
   Pose out;
   out.in_zp = in_zp;
-  out.position = shape == Shape::path ? along(corners, 0.5 * (1.0 + at[0])) : Vec3(at.head<3>());
+  out.position = shape == Shape::path ? along(corners, 0.5 * (1.0 + at[0])).at : Vec3(at.head<3>());
   if (shifted) out.internal = out.position;
   const Vec3 turn(at[3], at[4], 0.0), about_z(0.0, 0.0, at[5]);
   if (at[5] == 0.0) out.rotation = turn;
   else if (turn.isZero(0.0)) out.rotation = about_z;
   else out.rotation = log_rotation(exp_rotation(turn) * exp_rotation(about_z));
+  return out;
+}
+
+PoseSlopes Region::slopes(const Vec6& at) const {
+  PoseSlopes out;
+  if (shape == Shape::path) out.position.col(0) = 0.5 * along(corners, 0.5 * (1.0 + at[0])).slope;
+  else out.position.leftCols<3>().setIdentity();
+  if (shifted) out.internal = out.position;
+  const Vec3 tilted(at[3], at[4], 0.0);
+  out.turn.middleCols<2>(3) = turn_by_vector(tilted).leftCols<2>();
+  out.turn.col(5) = exp_rotation(tilted).col(2);  // the yaw comes before the tilt, about an axis that it turns
   return out;
 }
 

@@ -19,6 +19,16 @@ Mat3 exp_rotation(const Vec3& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
+Mat3 turn_by_vector(const Vec3& w) {
+  // 1 + (1 - cos a) / a^2 [w] + (a - sin a) / a^3 [w]^2, both factors without cancellation near 0.
+  const double square = w.squaredNorm(), angle = std::sqrt(square), half = 0.5 * angle;
+  const double part = half > 0.0 ? std::sin(half) / half : 1.0, first = 0.5 * part * part;
+  const double second = angle > 0.1 ? (angle - std::sin(angle)) / (square * angle)
+                                    : 1.0 / 6.0 - square / 120.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0));
+  const Mat3 cross = skew(w);
+  return Mat3::Identity() + first * cross + second * cross * cross;
+}
+
 Vec3 log_rotation(const Mat3& q) {
   Eigen::Vector4d wxyz = quaternion_from_rotation(q);
   const Vec3 v = wxyz.tail<3>();

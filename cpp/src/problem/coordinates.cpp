@@ -118,6 +118,16 @@ Coordinates Coordinates::plain(const Problem& problem) {
   return c;
 }
 
+Coordinates Coordinates::fixed(const Problem& problem, const Eigen::VectorXd& variables) {
+  Coordinates c = plain(problem);
+  c.fixed_ = variables;
+  c.free_.clear();
+  c.round_.clear();
+  c.low_.resize(0);
+  c.high_.resize(0);
+  return c;
+}
+
 bool Coordinates::scaled(int variable) const {
   const VariableKind kind = all_[at_index(variable)].kind;
   return !plain_ && (kind == VariableKind::length || kind == VariableKind::coordinate);

@@ -24,6 +24,9 @@ class Coordinates {
   /// Every variable unscaled and without bounds, to evaluate single designs. Has no starts and no order.
   static Coordinates plain(const Problem& problem);
 
+  /// Every variable fixed there: no coordinates at all, to evaluate one design at many poses.
+  static Coordinates fixed(const Problem& problem, const Eigen::VectorXd& variables);
+
   int size() const { return static_cast<int>(free_.size()); }
   const Eigen::VectorXd& low() const { return low_; }
   const Eigen::VectorXd& high() const { return high_; }

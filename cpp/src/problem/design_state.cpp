@@ -1,12 +1,25 @@
 #include "problem/design_state.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "limits/table.hpp"
 #include "ninedof/math/rotation.hpp"
 
 namespace ninedof {
+namespace {
+
+/// The derivatives of a pose at a fraction of its displacement, where the platform has turned by exp(fraction phi).
+PoseSlopes at_fraction(const PoseSlopes& whole, double fraction, double size, const Vec3& phi) {
+  PoseSlopes out{fraction * size * whole.position, whole.turn, fraction * size * whole.internal};
+  if (fraction != 1.0)
+    out.turn = fraction * turn_by_vector(fraction * phi) * turn_by_vector(phi).inverse() * whole.turn;
+  return out;
+}
+
+}  // namespace
+
 std::vector<PoseSpec> pose_specs(const Problem& problem, const Coordinates& coordinates) {
   std::vector<PoseSpec> specs{{}};
   for (std::size_t k = 0; k < problem.objective.poses.size(); ++k) {
@@ -53,11 +66,18 @@ void DesignState::set(const DesignFamily& family, const Coordinates& c, const St
 }
 
 void DesignState::set_poses(const std::vector<PoseSpec>& specs) {
-  for (std::size_t k = 0; k < specs.size(); ++k) set_pose(specs[k], poses[k]);
+  moves_ = std::ranges::any_of(specs, [](const PoseSpec& spec) { return spec.slopes.has_value(); });
+  for (std::size_t k = 0; k < specs.size(); ++k) place(specs[k], poses[k]);
   set_extremes();
 }
 
-void DesignState::set_pose(const PoseSpec& spec, PoseState& out) const {
+void DesignState::set_pose(int k, const PoseSpec& spec) {
+  moves_ = moves_ || spec.slopes;
+  place(spec, poses[at_index(k)]);
+  set_extremes();
+}
+
+void DesignState::place(const PoseSpec& spec, PoseState& out) const {
   const Pose& pose = spec.pose;
   const double f = spec.fraction;
   const double size = pose.in_zp ? blueprint.zp : 1.0;
@@ -82,6 +102,8 @@ void DesignState::set_pose(const PoseSpec& spec, PoseState& out) const {
   out.legs = nine_legs(out.at);
   out.fraction = f;
   out.coordinate = spec.coordinate;
+  out.moves = spec.slopes.has_value();
+  if (out.moves) out.by_at = at_fraction(*spec.slopes, f, size, pose.rotation);
 }
 
 void DesignState::set_extremes() {
@@ -104,7 +126,7 @@ void DesignState::set_length(const StudyLength& study_length, int coordinate) {
     characteristic_length = study_length.value;
     return;
   }
-  length_gradient.setZero(columns_);
+  length_gradient.setZero(columns());
   if (study_length.choice == Choice::free || study_length.kind == LengthKind::optimal) {
     if (coordinate >= 0) length_gradient[coordinate] = slopes_[coordinate];
     return;
@@ -152,7 +174,7 @@ void DesignState::set_natural_length(const PoseState& home) {
   for (std::size_t k = 0; k < point_count; ++k)
     turning.point[k] = 0.5 * characteristic_length * (turning.point[k] / rotation - shifting.point[k] / translation);
   turning.length = 0.0;
-  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(columns_);
+  Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(columns());
   add(0, turning, gradient);
   length_gradient = gradient;
 }
@@ -163,6 +185,7 @@ void DesignState::add_joint(int joint, const Vec3& g, Row out) const {
 
 void DesignState::add_turn(int k, const Vec3& g, Row out) const {
   add_jet(g.dot(pose(k).twist_axis), row_theta_z, out);
+  if (pose(k).moves) add_at(g, pose(k).by_at.turn, out);
 }
 
 void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
@@ -170,12 +193,14 @@ void DesignState::add_point(int k, int point, const Vec3& g, Row out) const {
   if (point == point_s) {
     add_zs(g.z(), out);
     add_zp(g.dot(v.s_by_zp), out);
+    if (v.moves) add_at(g, v.by_at.internal, out);
     for (int axis = 0; axis < 3; ++axis)
       if (v.coordinate[at_index(axis)] >= 0) out[v.coordinate[at_index(axis)]] += v.fraction * blueprint.zp * g[axis];
     return;
   }
   if (point < 6) return add_joint(point, g, out);
   add_zp(g.dot(v.p_by_zp), out);
+  if (v.moves) add_at(g, v.by_at.position, out);
   if (point == point_p) return;
   add_joint(point, v.rotation.transpose() * g, out);
   add_turn(k, (v.at[at_index(point)] - v.at[point_p]).cross(g), out);
@@ -189,7 +214,7 @@ void DesignState::add_leg(int k, int leg, double g, Row out) const {
 }
 
 void DesignState::add_length(double g, Row out) const {
-  if (length_gradient.size() > 0) out += g * length_gradient;
+  if (length_gradient.size() > 0) out.head(length_gradient.size()) += g * length_gradient;
 }
 
 void DesignState::add(int k, const PointGradient& g, Row out) const {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "ninedof/conditioning/sensitivity.hpp"
+#include "ninedof/domains/region.hpp"
 #include "ninedof/robot/points.hpp"
 #include "problem/coordinates.hpp"
 
@@ -21,6 +23,7 @@ struct PoseSpec {
   double fraction = 1.0;                        ///< of the displacement from the neutral configuration
   std::array<int, 3> offset{-1, -1, -1};        ///< full variables that move s, or -1
   std::array<int, 3> coordinate{-1, -1, -1};    ///< free coordinates behind them
+  std::optional<PoseSlopes> slopes{};  ///< where derivatives by the coordinates of the pose in a region are wanted
 };
 
 /// The neutral pose, the poses of the objective, and poses between them for singularity_free.
@@ -32,6 +35,8 @@ struct PoseState : PosedPoints {
   Vec3 p_by_zp, s_by_zp;
   double fraction;
   std::array<int, 3> coordinate;
+  bool moves = false;  ///< whether these are known: the derivatives of `slopes` at the fraction
+  PoseSlopes by_at;
 };
 
 /// A leg at a pose, the longest or shortest of some.
@@ -47,6 +52,8 @@ class DesignState {
 
   /// The same design at other poses, as many as before. Those of the neutral configuration must come first.
   void set_poses(const std::vector<PoseSpec>& specs);
+  /// The same of one pose.
+  void set_pose(int k, const PoseSpec& spec);
 
   Eigen::VectorXd x;  ///< full variables
   Blueprint blueprint;
@@ -59,7 +66,8 @@ class DesignState {
 
   /// The evaluated poses: those of the objective, or the neutral one where there are none.
   int first_pose = 0, pose_count = 1;
-  Eigen::Index columns() const { return columns_; }
+  /// The free coordinates and, where a pose has slopes, six columns more: the coordinates of the pose in its region.
+  Eigen::Index columns() const { return columns_ + (moves_ ? 6 : 0); }
   const PoseState& pose(int k) const { return poses[at_index(k)]; }
 
   /// Over the evaluated poses: of all legs, and the pose where each is longest and shortest.
@@ -86,11 +94,15 @@ class DesignState {
   void set_length(const StudyLength& length, int coordinate);
   void set_natural_length(const PoseState& home);
   double trial_length() const { return std::max(blueprint.zp, 1e-150); }
-  void set_pose(const PoseSpec& spec, PoseState& out) const;
+  void place(const PoseSpec& spec, PoseState& out) const;
+  void add_at(const Vec3& g, const PoseSlopes::Columns& slopes, Row out) const {
+    out.segment<6>(columns_) += g.transpose() * slopes;
+  }
   void set_extremes();
 
   Rows jet_;  ///< Blueprint::gradient by free coordinate, up to the last that the family depends on
   Eigen::Index columns_ = 0;  ///< the free coordinates; those of internal points, of which there may be many, are last
+  bool moves_ = false;  ///< whether a pose has slopes
   Eigen::VectorXd slopes_;
   std::vector<int> column_;  ///< free coordinate behind each of the family's variables, or -1
 };

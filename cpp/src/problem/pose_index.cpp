@@ -15,6 +15,18 @@ double multiplicity(bool closed, int k) {
   return closed && k >= AxisPoint::transverse_max ? 2.0 : 1.0;
 }
 
+/// The place of the largest of some singular values, and of the smallest.
+int largest(const PoseSpectrum& s, std::span<const int> of) {
+  return *std::ranges::max_element(of, {}, [&](int k) { return s.log_sigma[k]; });
+}
+int smallest(const PoseSpectrum& s, std::span<const int> of) {
+  return *std::ranges::min_element(of, {}, [&](int k) { return s.log_sigma[k]; });
+}
+
+bool vanished(double sigma) {
+  return !(sigma > tiny);
+}
+
 /// log |J'|_F |J'^+|_F and its derivatives with respect to the logarithms of the singular values.
 double frobenius(const PoseSpectrum& s, std::array<double, 6>& slope) {
   const int count = s.closed ? 4 : 6;
@@ -42,19 +54,39 @@ void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool de
   const PoseState& at = v.pose(pose);
   out.closed = false;
   out.general = spectrum(at.at, at.legs, v.characteristic_length);
-  const auto gone = [&](int k) { return !(out.general.sigma[k] > tiny); };
-  for (int k = 0; k < 6; ++k) out.log_sigma[k] = std::log(!gone(k) ? out.general.sigma[k] : k == 0 ? 1.0 : tiny);
+  const Vec6& sigma = out.general.sigma;
+  for (int k = 0; k < 6; ++k) out.log_sigma[k] = std::log(!vanished(sigma[k]) ? sigma[k] : k == 0 ? 1.0 : tiny);
   out.gradient.resize(6, v.columns());
   if (!derivatives) return;
   out.gradient.setZero();
-  for (int k = 0; k < 6; ++k) {
-    const double sigma = out.general.sigma[k];
-    if (gone(k)) continue;
-    PointGradient g = zero_gradient();
-    add_spectrum_gradient(at.at, at.legs, out.general, k, k, 0.5 / (sigma * sigma), g);
-    v.add(pose, g, out.gradient.row(k));
-  }
+  for (int k = 0; k < 6; ++k) add_log_sigma(v, pose, out, k, 1.0, out.gradient.row(k));
   if (!out.gradient.allFinite()) out.gradient.setZero();  // so near a singularity that squares under- or overflow
+}
+
+void add_log_sigma(const DesignState& v, int pose, const PoseSpectrum& s, int k, double scale, Row out) {
+  if (s.closed) {
+    out += scale * s.gradient.row(k);
+    return;
+  }
+  const double sigma = s.general.sigma[k];
+  if (vanished(sigma)) return;
+  PointGradient g = zero_gradient();
+  add_spectrum_gradient(v.pose(pose).at, v.pose(pose).legs, s.general, k, k, scale * 0.5 / (sigma * sigma), g);
+  v.add(pose, g, out);
+}
+
+double add_index(Index index, const DesignState& v, int pose, const PoseSpectrum& s, Row out) {
+  if (index == Index::frobenius) {
+    std::array<double, 6> slope{};
+    const double value = frobenius(s, slope);
+    for (int k = 0; k < (s.closed ? 4 : 6); ++k) add_log_sigma(v, pose, s, k, slope[at_index(k)], out);
+    return value;
+  }
+  const int top = largest(s, tops_of(s.closed)), bottom = smallest(s, bottoms_of(s.closed));
+  add_log_sigma(v, pose, s, top, 1.0, out);
+  if (index == Index::speed) return s.log_sigma[top];
+  add_log_sigma(v, pose, s, bottom, -1.0, out);
+  return s.log_sigma[top] - s.log_sigma[bottom];
 }
 
 void closed_spectrum(const DesignFamily& family, const DesignState& v, const PoseSpec& spec, Machine machine,

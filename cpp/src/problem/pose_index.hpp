@@ -31,6 +31,12 @@ void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool de
 void closed_spectrum(const DesignFamily& family, const DesignState& v, const PoseSpec& spec, Machine machine,
                      PoseSpectrum& out);
 
+/// Adds `scale` times the derivatives of log_sigma[k], whether or not the spectrum has its gradient.
+void add_log_sigma(const DesignState& v, int pose, const PoseSpectrum& s, int k, double scale, Row out);
+
+/// The logarithm of the index of a pose; adds its derivatives, of the largest row alone.
+double add_index(Index index, const DesignState& v, int pose, const PoseSpectrum& s, Row out);
+
 /// Number of rows of a pose.
 int index_rows(Index index, bool closed);
 

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "ninedof/domains/region_sample.hpp"
+#include "ninedof/math/rotation.hpp"
 #include "support/support.hpp"
 
 using namespace ninedof;
@@ -93,5 +94,30 @@ TEST_SUITE("region") {
       CHECK((c.rotation - turn * neutral.rotation).norm() < 1e-14);
       CHECK((c.internal_point - neutral.internal_point - (shifted ? moved : Vec3(0, 0, 0))).norm() < 1e-14);
     }
+  }
+
+  TEST_CASE("the slopes of a pose against difference quotients") {
+    constexpr double h = 1e-5;
+    for (const Region::Shape shape : shapes)
+      for (const bool shifted : {true, false})
+        for (const double angle : {0.5, 2.5}) {
+          Region region = region_of(shape);
+          region.shifted = shifted;
+          region.tilt = angle;
+          for (long n = 0; n < 200; ++n) {
+            const Vec6 at = n == 0 ? Vec6(Vec6::Zero()) : even_sample(region, n, 11);
+            if (shape == Region::Shape::path && std::abs(at[0] - 0.5) < 1e-3) continue;  // at the corner
+            const PoseSlopes slopes = region.slopes(at);
+            const Mat3 here = exp_rotation(region.pose(at).rotation);
+            for (int k = 0; k < 6; ++k) {
+              const Pose up = region.pose(at + h * Vec6::Unit(k)), down = region.pose(at - h * Vec6::Unit(k));
+              CHECK(((up.position - down.position) / (2.0 * h) - slopes.position.col(k)).norm() < 1e-9);
+              CHECK(((up.internal - down.internal) / (2.0 * h) - slopes.internal.col(k)).norm() < 1e-9);
+              const Vec3 turn = log_rotation(exp_rotation(up.rotation) * here.transpose()) -
+                                log_rotation(exp_rotation(down.rotation) * here.transpose());
+              CHECK((turn / (2.0 * h) - slopes.turn.col(k)).norm() < 1e-8);
+            }
+          }
+        }
   }
 }

@@ -155,6 +155,19 @@ TEST_SUITE("rotation") {
     }
   }
 
+  TEST_CASE("how a rotation turns as its vector changes, against difference quotients") {
+    Random random(7);
+    for (const double angle : all_angles)
+      for (int n = 0; n < 20; ++n) {
+        constexpr double h = 1e-5;
+        const Vec3 w = angle * random.matrix<Vec3>().normalized(), dw = random.matrix<Vec3>().normalized();
+        const Mat3 back = exp_rotation(w).transpose();
+        const Vec3 turn = log_rotation(exp_rotation(w + h * dw) * back) - log_rotation(exp_rotation(w - h * dw) * back);
+        CHECK((turn / (2.0 * h) - turn_by_vector(w) * dw).norm() < 1e-9);
+        CHECK((turn_by_vector(w) * w - w).norm() <= 1e-14 * w.norm());
+      }
+  }
+
   TEST_CASE("invalid rotations are rejected by name") {
     CHECK(refuses("quaternion", [] { rotation_from_quaternion({0, 0, 0, 0}); }));
     CHECK(refuses("quaternion", [] { rotation_from_quaternion({1, not_a_number, 0, 0}); }));

@@ -8,6 +8,14 @@
 
 namespace ninedof {
 
+/// Derivatives of a pose by its six coordinates in a region.
+struct PoseSlopes {
+  using Columns = Eigen::Matrix<double, 3, 6>;
+  Columns position = Columns::Zero();  ///< of the shift of p
+  Columns turn = Columns::Zero();      ///< turns of the platform about base axes
+  Columns internal = Columns::Zero();  ///< of the shift of s
+};
+
 struct Region {
   enum class Shape {
     box,       ///< `size` has its half edges
@@ -29,6 +37,8 @@ struct Region {
   /// The nearest coordinates in the region.
   Vec6 nearest(Vec6 at) const;
   Pose pose(const Vec6& at) const;
+  /// The derivatives of `pose`; at a corner of a path those of the way that ends there.
+  PoseSlopes slopes(const Vec6& at) const;
   /// That pose of a design.
   Configuration configuration(const Vec6& at, const Configuration& neutral) const;
 

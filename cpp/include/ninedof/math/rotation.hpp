@@ -13,6 +13,9 @@ Mat3 skew(const Vec3& v);
 /// Rotation by |w| radians about w. Exact to rounding for every |w|, 0 included.
 Mat3 exp_rotation(const Vec3& w);
 
+/// How exp_rotation(w) turns as w changes: by turn_by_vector(w) dw about base axes (left Jacobian of SO(3)).
+Mat3 turn_by_vector(const Vec3& w);
+
 /// The rotation vector w with exp_rotation(w) = Q and |w| <= pi. Accurate to rounding near 0; the axis of a half turn
 /// is one of the two possible ones.
 Vec3 log_rotation(const Mat3& q);

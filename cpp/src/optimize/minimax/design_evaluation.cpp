@@ -17,28 +17,49 @@ ConditionPair condition_pair(const PoseSpectrum& s, int row) {
   return {tops[at_index(row) / bottoms.size()], bottoms[at_index(row) % bottoms.size()]};
 }
 
+/// The pose of an evaluated spectrum, an index of DesignState::poses.
+int pose_of_spectrum(const PreparedProblem& p, const DesignState& state, int spectrum) {
+  return spectrum < p.evaluated_poses() ? state.first_pose + spectrum : 0;
+}
+
+void evaluate_spectrum(const PreparedProblem& p, int k, bool derivatives, DesignEvaluation& out) {
+  const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
+  const int pose = pose_of_spectrum(p, out.state, k);
+  PoseSpectrum& s = out.spectra[at_index(k)];
+  if (p.closed[at_index(k)]) closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
+  else general_spectrum(out.state, pose, s, derivatives);
+}
+
+/// Singular values of one spectrum, for a row that is evaluated alone.
+const PoseSpectrum& spectrum_alone(const PreparedProblem& p, int k, DesignEvaluation& out) {
+  out.spectra.resize(at_index(p.evaluated_spectra()));
+  evaluate_spectrum(p, k, false, out);
+  return out.spectra[at_index(k)];
+}
+
+/// A margin whose singular values, if it has any, are known.
+double margin_of(const PreparedProblem& p, const DesignEvaluation& design, int k) {
+  const auto [constraint, row] = p.margins[at_index(k)];
+  double out;
+  if (constraint < 0) {
+    const PoseSpectrum& s = design.spectra[at_index(-1 - constraint)];
+    const auto [top, bottom] = condition_pair(s, row);
+    out = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
+  } else out = p.constraints[at_index(constraint)]->margin(design.state, row);
+  return out > worst_margin ? out : worst_margin;
+}
+
 void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, DesignEvaluation& out) {
   const auto count = static_cast<Eigen::Index>(p.margins.size());
   out.margins.resize(count);
-  out.margin_gradient.resize(count, p.coordinates.size());
-  const auto spectrum_of = [&](int constraint) -> const PoseSpectrum& {
-    return out.spectra[at_index(-1 - constraint)];
-  };
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto [constraint, row] = p.margins[at_index(k)];
-    if (constraint < 0) {
-      const PoseSpectrum& s = spectrum_of(constraint);
-      const auto [top, bottom] = condition_pair(s, row);
-      out.margins[k] = std::log(p.condition_limit(-1 - constraint)) - (s.log_sigma[top] - s.log_sigma[bottom]);
-    } else out.margins[k] = p.constraints[at_index(constraint)]->margin(out.state, row);
-    if (!(out.margins[k] > worst_margin)) out.margins[k] = worst_margin;
-  }
+  out.margin_gradient.resize(count, out.state.columns());
+  for (Eigen::Index k = 0; k < count; ++k) out.margins[k] = margin_of(p, out, static_cast<int>(k));
   const auto differentiate = [&](Eigen::Index k) {
     const auto [constraint, row] = p.margins[at_index(k)];
     out.margin_gradient.row(k).setZero();
     if (out.margins[k] <= worst_margin) return;
     if (constraint < 0) {
-      const PoseSpectrum& s = spectrum_of(constraint);
+      const PoseSpectrum& s = out.spectra[at_index(-1 - constraint)];
       const auto [top, bottom] = condition_pair(s, row);
       out.margin_gradient.row(k) = s.gradient.row(bottom) - s.gradient.row(top);
     } else p.constraints[at_index(constraint)]->add_gradient(out.state, row, out.margin_gradient.row(k));
@@ -58,17 +79,13 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
 }
 
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection) {
-  const Eigen::Index n = p.coordinates.size();
   const int poses = p.evaluated_poses();
-  const Machine machine = p.problem.objective.index == Index::six_legged ? Machine::six_legged : Machine::nine_legged;
   out.spectra.resize(at_index(p.evaluated_spectra()));
   out.objective_rows.resize(p.rows);
-  out.row_gradient.resize(p.rows, n);
+  out.row_gradient.resize(p.rows, out.state.columns());
   for (int k = 0; k < p.evaluated_spectra(); ++k) {
-    PoseSpectrum& s = out.spectra[at_index(k)];
-    const int pose = k < poses ? out.state.first_pose + k : 0;
-    if (p.closed[at_index(k)]) closed_spectrum(*p.family, out.state, p.pose_specs[at_index(pose)], machine, s);
-    else general_spectrum(out.state, pose, s, selection == nullptr || selection->spectra[at_index(k)]);
+    evaluate_spectrum(p, k, selection == nullptr || selection->spectra[at_index(k)], out);
+    const PoseSpectrum& s = out.spectra[at_index(k)];
     if (k >= poses) continue;
     if (out.smoothing > 0.0 && p.has_kinks() && !s.closed)
       fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.objective_rows,
@@ -80,6 +97,37 @@ void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSel
   out.log_objective = p.objective(out.levels);
 
   evaluate_margins(p, selection, out);
+}
+
+double evaluate_margin(const PreparedProblem& p, DesignEvaluation& out, int k, Row gradient) {
+  const auto [constraint, row] = p.margins[at_index(k)];
+  gradient.setZero();
+  if (constraint < 0) {
+    const int which = -1 - constraint, pose = pose_of_spectrum(p, out.state, which);
+    const PoseSpectrum& s = spectrum_alone(p, which, out);
+    const auto [top, bottom] = condition_pair(s, row);
+    add_log_sigma(out.state, pose, s, bottom, 1.0, gradient);
+    add_log_sigma(out.state, pose, s, top, -1.0, gradient);
+  }
+  const double margin = margin_of(p, out, k);
+  if (constraint >= 0 && margin > worst_margin)
+    p.constraints[at_index(constraint)]->add_gradient(out.state, row, gradient);
+  if (!gradient.allFinite()) gradient.setZero();  // at a singularity
+  return margin;
+}
+
+double evaluate_index(const PreparedProblem& p, DesignEvaluation& out, int pose, Row gradient) {
+  gradient.setZero();
+  const PoseSpectrum& s = spectrum_alone(p, pose, out);
+  const double index = add_index(p.problem.objective.index, out.state, out.state.first_pose + pose, s, gradient);
+  if (!gradient.allFinite()) gradient.setZero();
+  return index;
+}
+
+int pose_of_margin(const PreparedProblem& p, const DesignState& state, int k) {
+  const auto [constraint, row] = p.margins[at_index(k)];
+  return constraint < 0 ? pose_of_spectrum(p, state, -1 - constraint)
+                        : p.constraints[at_index(constraint)]->pose_of(state, row);
 }
 
 double order_violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y) {

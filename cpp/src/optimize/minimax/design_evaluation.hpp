@@ -30,6 +30,16 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
 /// The same for a design whose state is set.
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection = nullptr);
 
+/// One margin of a design whose state is set, and its derivatives in `gradient`. Nothing else is computed but the
+/// singular values, where it is one of them.
+double evaluate_margin(const PreparedProblem& p, DesignEvaluation& out, int k, Row gradient);
+
+/// The same of the logarithm of the index at an evaluated pose.
+double evaluate_index(const PreparedProblem& p, DesignEvaluation& out, int pose, Row gradient);
+
+/// The pose that a margin looks at besides home, an index of DesignState::poses.
+int pose_of_margin(const PreparedProblem& p, const DesignState& state, int k);
+
 /// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
 double violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);
 

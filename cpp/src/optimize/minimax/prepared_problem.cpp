@@ -41,6 +41,9 @@ PreparedProblem::PreparedProblem(const Problem& given, double size_limit)
 PreparedProblem::PreparedProblem(const Problem& given)
     : PreparedProblem(given, Coordinates::plain(given), Purpose::evaluate) {}
 
+PreparedProblem::PreparedProblem(const Problem& given, const Eigen::VectorXd& variables)
+    : PreparedProblem(given, Coordinates::fixed(given, variables), Purpose::evaluate) {}
+
 PreparedProblem::PreparedProblem(const Problem& given, Coordinates solved, Purpose purpose)
     : problem(given),
       family(&design_family(given.family)),

@@ -33,6 +33,8 @@ struct PreparedProblem {
   PreparedProblem(const Problem& problem, double size_limit);
   /// For the evaluation of single designs: all variables unscaled, all margins kept.
   explicit PreparedProblem(const Problem& problem);
+  /// The same for one design: no variable is free, and set_state takes no coordinates.
+  PreparedProblem(const Problem& problem, const Eigen::VectorXd& variables);
 
   Problem problem;
   const DesignFamily* family;

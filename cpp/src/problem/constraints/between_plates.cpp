@@ -23,7 +23,7 @@ class BetweenPlates : public Constraint {
   }
   SolverMargin form() const override { return SolverMargin::plain; }
   int items(Side) const override { return 2 * static_cast<int>(poses_.size()); }
-  int pose(const DesignState& v, int item) const { return v.first_pose + poses_[at_index(item / 2)]; }
+  int pose(const DesignState& v, int item) const override { return v.first_pose + poses_[at_index(item / 2)]; }
   static Vec3 below(const PoseState& at) { return at.at[point_p] - at.at[point_s]; }
 
   double value(const DesignState& v, Side, int item) const override {

@@ -29,6 +29,8 @@ class Constraint {
   double margin(const DesignState& v, int row) const;
   void add_gradient(const DesignState& v, int row, Row out) const;
   Side side_of(int row) const { return item_of(row).first; }
+  /// The pose that a row looks at besides home, an index of DesignState::poses.
+  int pose_of(const DesignState& v, int row) const { return pose(v, item_of(row).second); }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
   ShownMargin shown(int row, double margin) const {
     return form() == SolverMargin::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};
@@ -63,6 +65,8 @@ class Constraint {
   virtual SolverMargin form() const { return SolverMargin::logarithm; }
   /// Number of margins of a side.
   virtual int items(Side side) const = 0;
+  /// The pose of an item; of those that look at all poses or at none, the first.
+  virtual int pose(const DesignState& v, int) const { return first_pose(v); }
   /// The limited value. The second adds `scale` times its derivatives.
   virtual double value(const DesignState&, Side, int) const { return 0.0; }
   virtual void add_value_gradient(const DesignState&, Side, int, double, Row) const {}

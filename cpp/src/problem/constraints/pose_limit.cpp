@@ -24,7 +24,7 @@ class PoseLimit : public Constraint {
   int items(Side) const override { return row_.pose->items * poses_; }
   int part(int item) const { return item % row_.pose->items; }
   /// The neutral pose comes first where the way is looked at.
-  int pose(const DesignState& v, int item) const {
+  int pose(const DesignState& v, int item) const override {
     return (row_.on_the_way() ? 0 : first_pose(v)) + item / row_.pose->items;
   }
   bool exempt(int item) const { return row_.pose->pairs && exempt_[at_index(part(item))]; }
