@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "domains/region_descent.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
@@ -17,8 +18,7 @@ constexpr long blocks = 64;  // of samples
 // Parts of the region. A descent begins from the worst sample of a part, so that no two begin next to each other.
 constexpr std::size_t parts = 64;
 constexpr long fewest_descents = 6, most_descents = 24;  // of a number; the most where there are many samples
-constexpr double first_step = 0.2;                       // of a descent, in parts of the region
-constexpr long most_evaluations = 2000;                  // of a descent
+constexpr double same_pose = 1e-7;                       // in parts of the region
 
 using Make = std::function<std::unique_ptr<PoseNumbers>()>;
 
@@ -84,52 +84,46 @@ Lowest sampled(const Region& region, const Make& make, const std::vector<int>& g
   return out;
 }
 
-/// Lowers one number by moves both ways, and along the way that a round of moves has led: a ridge need not follow one
-/// of the moves. A step is doubled where it helps and halved where none does.
-class Descent {
- public:
-  Descent(PoseNumbers& pose, const Region& region, int group, int number, int size)
-      : pose_(pose), region_(region), group_(group), number_(at_index(number)), values_(at_index(size)) {}
+/// How many samples a number descends from.
+std::size_t starts_of(const RegionSettings& settings) {
+  if (settings.most_starts > 0) return static_cast<std::size_t>(settings.most_starts);
+  return static_cast<std::size_t>(std::clamp(settings.samples / 4000, fewest_descents, most_descents));
+}
 
-  long run(MetNumber& met, double last_step, const std::stop_token& stop) {
-    least_decrease_ = last_step * last_step;
-    for (double step = first_step; step >= last_step && count_ < most_evaluations; step *= 0.5)
-      for (bool lower = true; lower && count_ < most_evaluations && !stop.stop_requested();) {
-        const Vec6 before = met.at;
-        lower = false;
-        for (int move = 0; move < region_moves; ++move)
-          for (const double side : {1.0, -1.0})
-            for (double length = step; length < 2.0; length *= 2.0) {
-              if (!takes(region_moved(region_, met.at, move, side * length), met)) break;
-              lower = true;
-            }
-        const Vec6 way = met.at - before;
-        for (double length = 1.0; lower && length < 1e6; length *= 2.0)
-          if (!takes(met.at + length * way, met)) break;
-      }
-    return count_;
+/// The known poses where a number is near its least.
+std::vector<MetNumber> near_least(const std::vector<Vec6>& known, const Eigen::MatrixXd& values, Eigen::Index number,
+                                  double highest) {
+  std::vector<MetNumber> out;
+  for (std::size_t n = 0; n < known.size(); ++n)
+    if (const double value = values(number, static_cast<Eigen::Index>(n)); value <= highest)
+      out.push_back({value, known[n]});
+  return out;
+}
+
+/// Every number at the known poses, a column each.
+Eigen::MatrixXd at_known(PoseNumbers& pose, const std::vector<Vec6>& known, const std::vector<int>& groups) {
+  const auto numbers = std::accumulate(groups.begin(), groups.end(), 0);
+  Eigen::MatrixXd out(numbers, static_cast<Eigen::Index>(known.size()));
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    pose.go(known[n]);
+    double* column = out.col(static_cast<Eigen::Index>(n)).data();
+    for (std::size_t g = 0; g < groups.size(); column += groups[g++]) pose.evaluate(static_cast<int>(g), column);
   }
+  return out;
+}
 
- private:
-  bool takes(const Vec6& to, MetNumber& met) {
-    const Vec6 next = region_.nearest(to);
-    if ((next - met.at).isZero(0.0)) return false;
-    pose_.go(next);
-    pose_.evaluate(group_, values_.data());
-    ++count_;
-    if (!(values_[number_] < met.value - least_decrease_ * (1.0 + std::abs(met.value)))) return false;
-    met = {values_[number_], next};
-    return true;
+/// Of ends at one pose, the lowest.
+void drop_repeated(const Region& region, std::vector<MetNumber>& ends) {
+  const Vec6 apart = same_pose * region.reach();
+  std::vector<MetNumber> out;
+  for (const MetNumber& end : ends) {
+    const auto same = std::ranges::find_if(
+        out, [&](const MetNumber& other) { return ((end.at - other.at).cwiseAbs().array() <= apart.array()).all(); });
+    if (same == out.end()) out.push_back(end);
+    else if (end.value < same->value) *same = end;
   }
-
-  PoseNumbers& pose_;
-  const Region& region_;
-  int group_;
-  std::size_t number_;
-  std::vector<double> values_;
-  double least_decrease_ = 0.0;  // of a smooth number at its least
-  long count_ = 0;
-};
+  ends = std::move(out);
+}
 
 }  // namespace
 
@@ -144,30 +138,34 @@ RegionExtremes region_extremes(const Region& region, const Make& make, const Reg
   const std::unique_ptr<PoseNumbers> shape = make();
   const std::vector<int> groups = shape->groups();
   const Lowest lowest = sampled(region, make, groups, settings, control);
+  std::vector<Vec6> known;
+  for (const Vec6& at : settings.known) known.push_back(region.nearest(at));
+  const Eigen::MatrixXd values = at_known(*shape, known, groups);
 
   RegionExtremes out;
-  out.poses = settings.samples;
-  std::vector<std::pair<int, int>> place;  // of each number: its group, and its place there
+  std::vector<NumberPlace> place;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    for (int k = 0; k < groups[g]; ++k) place.emplace_back(static_cast<int>(g), k);
-  const auto descents = static_cast<std::size_t>(std::clamp(settings.samples / 4000, fewest_descents, most_descents));
+    for (int k = 0; k < groups[g]; ++k) place.push_back({static_cast<int>(g), k, groups[g]});
   std::vector<double> least;
   for (std::size_t k = 0; k < place.size(); ++k) {
-    out.ends.push_back(lowest.first(k, descents));
+    out.ends.push_back(lowest.first(k, starts_of(settings)));
     least.push_back(out.ends.back().empty() ? infinity : out.ends.back().front().value);
+    for (const double value : values.row(static_cast<Eigen::Index>(k))) least.back() = std::min(least.back(), value);
   }
   const std::vector<double> below = shape->worthwhile(least);
   std::vector<long> counts(place.size(), 0);
-  parallel_for(static_cast<long>(place.size()), 1, settings.threads, [&](long k, long) {
+  parallel_for(static_cast<long>(place.size()), 1, settings.threads, [&](long n, long) {
     const std::unique_ptr<PoseNumbers> pose = make();
-    const auto [group, number] = place[at_index(k)];
-    for (MetNumber& met : out.ends[at_index(k)])
-      if (met.value < below[at_index(k)])
-        counts[at_index(k)] +=
-            Descent(*pose, region, group, number, groups[at_index(group)]).run(met, settings.last_step, control.stop);
+    const std::size_t k = at_index(n);
+    std::vector<MetNumber>& ends = out.ends[k];
+    for (const MetNumber& met : near_least(known, values, static_cast<Eigen::Index>(k), least[k] + settings.near))
+      ends.push_back(met);
+    for (MetNumber& met : ends)
+      if (met.value < below[k]) counts[k] += descend(*pose, region, place[k], settings.last_step, control.stop, met);
+    drop_repeated(region, ends);
   });
   if (control.stop.stop_requested()) throw Stopped{};
-  out.poses = std::accumulate(counts.begin(), counts.end(), out.poses);
+  out.poses = std::accumulate(counts.begin(), counts.end(), settings.samples + static_cast<long>(known.size()));
   return out;
 }
 

@@ -24,8 +24,8 @@ Problem with_one_pose(Problem problem) {
 class OnePose : public PoseNumbers {
  public:
   OnePose(const Problem& problem, const Region& region, const Eigen::VectorXd& variables)
-      : region_(region), p_(with_one_pose(problem)), specs_(p_.pose_specs) {
-    p_.set_state(variables, design_.state);
+      : region_(region), p_(with_one_pose(problem), variables), specs_(p_.pose_specs) {
+    p_.set_state({}, design_.state);
     none_.spectra.assign(at_index(p_.evaluated_spectra()), false);
   }
 
@@ -36,13 +36,41 @@ class OnePose : public PoseNumbers {
   }
 
   void go(const Vec6& at) override {
-    for (std::size_t k = 1; k < specs_.size(); ++k) specs_[k].pose = region_.pose(at);
+    for (std::size_t k = 1; k < specs_.size(); ++k) {
+      specs_[k].pose = region_.pose(at);
+      specs_[k].slopes.reset();
+    }
     design_.state.set_poses(specs_);
   }
   void evaluate(int, double* out) override {
     evaluate_rows(p_, design_, &none_);
     const Vec9 lengths = design_.state.pose(1).legs.length / design_.state.unit;
     Eigen::Map<Eigen::VectorXd>(out, margins() + 1 + 18) << design_.margins, -design_.log_objective, lengths, -lengths;
+  }
+  /// Of pairs of singular values the largest and the smallest alone.
+  bool smooth(int, int number) const override {
+    if (number >= margins()) return true;
+    const auto [constraint, row] = p_.margins[at_index(number)];
+    return constraint >= 0 || row == 0;
+  }
+  double slopes(int, int number, const Vec6& at, Vec6& by_at) override {
+    const int pose = number < margins() ? pose_of_margin(p_, design_.state, number) : 1;
+    if (pose > 0) go_with_slopes(pose, at);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(design_.state.columns());
+    double value;
+    if (number < margins()) value = evaluate_margin(p_, design_, number, row);
+    else if (number == margins()) {
+      value = -evaluate_index(p_, design_, 0, row);
+      row = -row;
+    } else {
+      const int leg = (number - margins() - 1) % 9;
+      const double sign = number - margins() - 1 < 9 ? 1.0 : -1.0;
+      value = sign * design_.state.pose(1).legs.length[leg] / design_.state.unit;
+      design_.state.add_leg(1, leg, sign / design_.state.unit, row);
+    }
+    if (row.size() == 6) by_at = row.transpose();
+    else by_at.setZero();  // of the design or at home
+    return value;
   }
   /// The least margin is stated whatever it is.
   std::vector<double> worthwhile(const std::vector<double>& sampled) const override {
@@ -59,6 +87,13 @@ class OnePose : public PoseNumbers {
   }
 
  private:
+  void go_with_slopes(int pose, const Vec6& at) {
+    PoseSpec& spec = specs_[at_index(pose)];
+    spec.pose = region_.pose(at);
+    spec.slopes = region_.slopes(at);
+    design_.state.set_pose(pose, spec);
+  }
+
   const Region& region_;
   PreparedProblem p_;
   std::vector<PoseSpec> specs_;

@@ -1,0 +1,20 @@
+#pragma once
+/// One descent of one number over a region, from a pose.
+
+#include <stop_token>
+
+#include "ninedof/domains/region_extremes.hpp"
+
+namespace ninedof {
+
+/// A number among those of poses.
+struct NumberPlace {
+  int group, number;
+  int size;  ///< of the group
+};
+
+/// Lowers `met`, by the slopes of a smooth number, else by coordinates. Returns how many poses were looked at.
+long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, double last_step,
+             const std::stop_token& stop, MetNumber& met);
+
+}  // namespace ninedof
