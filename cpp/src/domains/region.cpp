@@ -17,23 +17,29 @@ Vector shortened(const Vector& v, double longest) {
   return length > longest ? Vector(v * (longest / length)) : v;
 }
 
-/// A point of a path, and its derivative by t.
+/// A point of a path, its derivative by t, and the t of the corners between which it lies.
 struct PathPoint {
-  Vec3 at, slope;
+  Vec3 at, slope = Vec3::Zero();
+  double from = 0.0, to = 1.0;
 };
 
-/// The point of a path through its corners, t from 0 to 1 by arc length.
+/// The point of a path through its corners, t from 0 to 1 by arc length; a corner belongs to the way that ends there.
 PathPoint along(const std::vector<Vec3>& corners, double t) {
   double length = 0.0;
   for (std::size_t k = 1; k < corners.size(); ++k) length += (corners[k] - corners[k - 1]).norm();
-  double left = t * length;
+  PathPoint out;
+  double left = t * length, done = 0.0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     const Vec3 way = corners[k] - corners[k - 1];
     const double step = way.norm();
-    if (left <= step && step > 0.0) return {corners[k - 1] + left / step * way, length / step * way};
+    if (step > 0.0)
+      out = {corners[k - 1] + left / step * way, length / step * way, done / length, (done + step) / length};
+    if (left <= step && step > 0.0) return out;
     left -= step;
+    done += step;
   }
-  return {corners.back(), Vec3::Zero()};
+  out.at = corners.back();
+  return out;
 }
 
 }  // namespace
@@ -80,6 +86,11 @@ PoseSlopes Region::slopes(const Vec6& at) const {
   out.turn.middleCols<2>(3) = turn_by_vector(tilted).leftCols<2>();
   out.turn.col(5) = exp_rotation(tilted).col(2);  // the yaw comes before the tilt, about an axis that it turns
   return out;
+}
+
+std::pair<double, double> Region::straight(double first) const {
+  const PathPoint point = along(corners, 0.5 * (1.0 + first));
+  return {2.0 * point.from - 1.0, 2.0 * point.to - 1.0};
 }
 
 Configuration Region::configuration(const Vec6& at, const Configuration& neutral) const {

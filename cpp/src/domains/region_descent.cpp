@@ -14,6 +14,11 @@ constexpr long most_evaluations = 2000;                  // of a descent
 constexpr SlsqpSettings ascent{.tolerance = 1e-15, .max_evaluations = 100};
 constexpr double stationary = 1e-5;  // of the slopes
 constexpr int most_rounds = 4;
+constexpr double corner_gap = 1e-13;  // from the corners of a path, where its slopes change
+// In parts of the region. By slopes an end is known to 1e-6 where its number is flat there, and then it is as low as the
+// others to 1e-13.
+constexpr double same_pose = 1e-5;
+constexpr double same_value = 1e-11;  // of ends in one flat place
 
 /// A number at poses.
 class Number {
@@ -109,6 +114,11 @@ class SmoothDescent {
     nlp.constraints = static_cast<Eigen::Index>(round_.size());
     nlp.low = Eigen::VectorXd::Constant(n, -1.0);
     nlp.high = -nlp.low;
+    if (region_.shape == Region::Shape::path) {
+      const auto [from, to] = region_.straight(met.at[0]);
+      nlp.low[0] = from + corner_gap;
+      nlp.high[0] = to - corner_gap;
+    }
     double steepest = 0.0;
     nlp.evaluate = [&](const Eigen::VectorXd& z, Nlp::Values& out) {
       Vec6 slopes;
@@ -175,8 +185,7 @@ long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, 
              const std::stop_token& stop, MetNumber& met) {
   Number number(pose, place);
   CoordinateDescent by_coordinates(number, region, last_step);
-  // A path has corners.
-  if (!number.smooth() || region.shape == Region::Shape::path) {
+  if (!number.smooth()) {
     by_coordinates.run(met, first_step, last_step, stop);
     return number.count();
   }
@@ -185,9 +194,28 @@ long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, 
     const double before = met.value;
     const bool settled = by_slopes.run(met, stop);
     if (settled && met.value < before) break;
-    // A kink, or a start that is stationary but need not be lowest around.
+    // A kink, a corner of a path, or a start that is stationary but need not be lowest around.
     if (!by_coordinates.run(met, probing_step, settled ? probing_step : last_step, stop)) break;
   }
+  return number.count();
+}
+
+long drop_repeated(PoseNumbers& pose, const Region& region, const NumberPlace& place, std::vector<MetNumber>& ends) {
+  Number number(pose, place);
+  const Vec6 apart = same_pose * region.reach();
+  const auto same = [&](const MetNumber& a, const MetNumber& b) {
+    if (((a.at - b.at).cwiseAbs().array() <= apart.array()).all()) return true;
+    const double room = same_value * (1.0 + std::abs(a.value));
+    if (!(std::abs(a.value - b.value) <= room)) return false;
+    return std::abs(number.at(region.nearest(0.5 * (a.at + b.at))) - a.value) <= room;
+  };
+  std::vector<MetNumber> out;
+  for (const MetNumber& end : ends) {
+    const auto other = std::ranges::find_if(out, [&](const MetNumber& kept) { return same(kept, end); });
+    if (other == out.end()) out.push_back(end);
+    else if (end.value < other->value) *other = end;
+  }
+  ends = std::move(out);
   return number.count();
 }
 

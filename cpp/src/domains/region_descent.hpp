@@ -1,5 +1,5 @@
 #pragma once
-/// One descent of one number over a region, from a pose.
+/// One descent of one number over a region, from a pose; and which ends of some are the same.
 
 #include <stop_token>
 
@@ -16,5 +16,9 @@ struct NumberPlace {
 /// Lowers `met`, by the slopes of a smooth number, else by coordinates. Returns how many poses were looked at.
 long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, double last_step,
              const std::stop_token& stop, MetNumber& met);
+
+/// Keeps the lowest of ends at one pose, and of those as low as each other between which the number does not change:
+/// the length of a leg may not depend on the tilt. Returns how many poses were looked at.
+long drop_repeated(PoseNumbers& pose, const Region& region, const NumberPlace& place, std::vector<MetNumber>& ends);
 
 }  // namespace ninedof

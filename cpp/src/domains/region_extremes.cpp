@@ -14,11 +14,10 @@
 namespace ninedof {
 namespace {
 
-constexpr long blocks = 64;  // of samples
+constexpr long samples_a_block = 512, most_blocks = 64;
 // Parts of the region. A descent begins from the worst sample of a part, so that no two begin next to each other.
 constexpr std::size_t parts = 64;
 constexpr long fewest_descents = 6, most_descents = 24;  // of a number; the most where there are many samples
-constexpr double same_pose = 1e-7;                       // in parts of the region
 
 using Make = std::function<std::unique_ptr<PoseNumbers>()>;
 
@@ -62,6 +61,8 @@ class Lowest {
 Lowest sampled(const Region& region, const Make& make, const std::vector<int>& groups, const RegionSettings& settings,
                const Control& control) {
   const auto numbers = static_cast<std::size_t>(std::accumulate(groups.begin(), groups.end(), 0));
+  // Few blocks of few samples: each keeps the lowest of every number in every part.
+  const long blocks = std::clamp(settings.samples / samples_a_block, 1L, most_blocks);
   const long block = (settings.samples + blocks - 1) / blocks;
   std::vector<std::unique_ptr<Lowest>> of_block(at_index(blocks));
   parallel_for(blocks, 1, settings.threads, [&](long first, long) {
@@ -95,7 +96,7 @@ std::vector<MetNumber> near_least(const std::vector<Vec6>& known, const Eigen::M
                                   double highest) {
   std::vector<MetNumber> out;
   for (std::size_t n = 0; n < known.size(); ++n)
-    if (const double value = values(number, static_cast<Eigen::Index>(n)); value <= highest)
+    if (const double value = values(number, static_cast<Eigen::Index>(n)); value < infinity && value <= highest)
       out.push_back({value, known[n]});
   return out;
 }
@@ -110,19 +111,6 @@ Eigen::MatrixXd at_known(PoseNumbers& pose, const std::vector<Vec6>& known, cons
     for (std::size_t g = 0; g < groups.size(); column += groups[g++]) pose.evaluate(static_cast<int>(g), column);
   }
   return out;
-}
-
-/// Of ends at one pose, the lowest.
-void drop_repeated(const Region& region, std::vector<MetNumber>& ends) {
-  const Vec6 apart = same_pose * region.reach();
-  std::vector<MetNumber> out;
-  for (const MetNumber& end : ends) {
-    const auto same = std::ranges::find_if(
-        out, [&](const MetNumber& other) { return ((end.at - other.at).cwiseAbs().array() <= apart.array()).all(); });
-    if (same == out.end()) out.push_back(end);
-    else if (end.value < same->value) *same = end;
-  }
-  ends = std::move(out);
 }
 
 }  // namespace
@@ -162,7 +150,7 @@ RegionExtremes region_extremes(const Region& region, const Make& make, const Reg
       ends.push_back(met);
     for (MetNumber& met : ends)
       if (met.value < below[k]) counts[k] += descend(*pose, region, place[k], settings.last_step, control.stop, met);
-    drop_repeated(region, ends);
+    counts[k] += drop_repeated(*pose, region, place[k], ends);
   });
   if (control.stop.stop_requested()) throw Stopped{};
   out.poses = std::accumulate(counts.begin(), counts.end(), settings.samples + static_cast<long>(known.size()));

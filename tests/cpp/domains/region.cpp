@@ -107,6 +107,10 @@ TEST_SUITE("region") {
           for (long n = 0; n < 200; ++n) {
             const Vec6 at = n == 0 ? Vec6(Vec6::Zero()) : even_sample(region, n, 11);
             if (shape == Region::Shape::path && std::abs(at[0] - 0.5) < 1e-3) continue;  // at the corner
+            if (shape == Region::Shape::path) {
+              const auto [from, to] = region.straight(at[0]);
+              CHECK((from <= at[0] && at[0] <= to && (from == 0.5 || to == 0.5)));
+            }
             const PoseSlopes slopes = region.slopes(at);
             const Mat3 here = exp_rotation(region.pose(at).rotation);
             for (int k = 0; k < 6; ++k) {

@@ -1,6 +1,7 @@
 #pragma once
 /// A continuous set of poses about the neutral one: every tilt and yaw at every position.
 
+#include <utility>
 #include <vector>
 
 #include "ninedof/domains/pose.hpp"
@@ -39,6 +40,8 @@ struct Region {
   Pose pose(const Vec6& at) const;
   /// The derivatives of `pose`; at a corner of a path those of the way that ends there.
   PoseSlopes slopes(const Vec6& at) const;
+  /// The first coordinates of the corners of a path between which one lies.
+  std::pair<double, double> straight(double first) const;
   /// That pose of a design.
   Configuration configuration(const Vec6& at, const Configuration& neutral) const;
 

@@ -54,8 +54,8 @@ struct MetNumber {
 
 struct RegionExtremes {
   /// For every number, in the order of the groups: the ends of the descents from the lowest of different parts of the
-  /// region, and the lowest of the sample where a descent is not worth while; of those at one pose, the lowest. None
-  /// where no pose has the number.
+  /// region, and the lowest of the sample where a descent is not worth while; of those at one pose, or in a place
+  /// where the number does not change, the lowest. None where no pose has the number.
   std::vector<std::vector<MetNumber>> ends;
   long poses = 0;  ///< looked at
 
