@@ -290,6 +290,7 @@ class Settings:
         threads: int = ...,
         max_evaluations: int = ...,
         warm: Sequence[Sequence[float]] | _Floats | None = ...,
+        time_limit: float = ...,
     ) -> None: ...
 
 class PointRule:
@@ -378,9 +379,6 @@ def search_region(
     problem: Problem, region: dict[str, Any], variables: Sequence[float], samples: int, seed: int, threads: int, /
 ) -> dict[str, Any]: ...
 def leg_ranges(problem: Problem, zp: float, lengths: _Floats, /) -> list[_Range]: ...
-def common_range(
-    problem: Problem, zp: float, lengths: _Floats, least: _Floats, most: _Floats, /
-) -> list[tuple[float, float]]: ...
 def search_region_placed(
     problem: Problem,
     region: dict[str, Any],
@@ -418,15 +416,15 @@ class RuleTask:
     ) -> None: ...
 
 def fit_rule(task: RuleTask, threads: int, phase: Callable[[str], object], /) -> PointRule: ...
-def optimize_placed(
-    problem: Problem,
-    given: Sequence[tuple[Sequence[float], Sequence[Sequence[float]]]],
-    starts: int,
-    seed: int,
-    threads: int,
-    /,
-) -> list[tuple[list[float], list[_Triple], float, float]]: ...
 def optimize(problem: Problem, settings: Settings, progress: _Progress | None, /) -> dict[str, Any]: ...
+def optimize_region(
+    problem: Problem,
+    region: dict[str, Any],
+    settings: Settings,
+    progress: _Progress | None,
+    phase: Callable[[str], object] | None,
+    /,
+) -> dict[str, Any]: ...
 def trace(problem: Problem, start: Sequence[float], formulation: str, /) -> tuple[list[float], dict[str, Any]]: ...
 def prove_optimum(
     study: Problem,

@@ -21,3 +21,4 @@ cmake -S "$work/outside" -B "$work/outside/build" -DCMAKE_PREFIX_PATH="$work/pre
 cmake --build "$work/outside/build"
 "$work/outside/build/outside"
 "$work/outside/build/certify"
+"$work/outside/build/optimize"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "ninedof/optimize/region_study.hpp"
 #include "ninedof/optimize/trace.hpp"
 #include "support/arrays.hpp"
 #include "support/interruptible.hpp"
@@ -58,6 +59,48 @@ py::dict fields_of(const Problem& problem, const Result& r) {
   out["runs_completed"] = r.runs_completed;
   out["interrupted"] = r.interrupted;
   return out;
+}
+
+/// Shift of p, rotation vector and shift of s.
+py::tuple fields_of(const Pose& pose) {
+  const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
+  return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal), pose.best_internal,
+                        pose.in_zp, pose.weight);
+}
+
+/// The fields of a RegionReport.
+py::dict fields_of(const RegionReport& r) {
+  py::list poses;
+  for (const Pose& pose : r.poses) poses.append(fields_of(pose));
+  py::dict out;
+  out["poses"] = poses;
+  out["rounds"] = r.rounds;
+  out["looked_at"] = r.looked_at;
+  out["objective"] = r.objective;
+  out["objective_at"] = fields_of(r.objective_at);
+  out["margin"] = r.margin;
+  out["limit"] = r.limit;
+  out["gain"] = r.gain;
+  py::list ranges;
+  for (Eigen::Index leg = 0; leg < 9 && r.leg_ranges; ++leg)
+    ranges.append(py::make_tuple(r.leg_ranges->low[leg], r.leg_ranges->high[leg]));
+  out["leg_ranges"] = py::tuple(ranges);
+  out["mean"] = py::none();
+  if (r.mean) {
+    py::dict mean;
+    mean["nodes"] = r.mean->nodes;
+    mean["quadrature"] = r.mean->quadrature;
+    mean["value"] = r.mean->value;
+    mean["error"] = r.mean->error;
+    mean["standard_error"] = r.mean->standard_error;
+    out["mean"] = mean;
+  }
+  return out;
+}
+
+Problem posed_problem(Problem problem, const std::vector<Pose>& poses) {
+  problem.objective.poses.insert(problem.objective.poses.end(), poses.begin(), poses.end());
+  return problem;
 }
 
 std::array<double, 6> numbers(const Vec6& at) {
@@ -125,17 +168,6 @@ std::vector<RangeEntry> ranges_about(const Problem& problem, double zp, const Ar
   return out;
 }
 
-/// (low, high) of each leg in all ranges and limits; nothing without ranges.
-std::vector<std::pair<double, double>> range_of_all(const Problem& problem, double zp, const Array& lengths,
-                                                    const Array& low, const Array& high) {
-  const std::vector<LegRange> ranges = leg_ranges(problem, zp, lengths_from(lengths));
-  if (ranges.empty()) return {};
-  const LegLimits all = common_range(ranges, {Vec9::Map(rows("low", low, 1, 9)), Vec9::Map(rows("high", high, 1, 9))});
-  std::vector<std::pair<double, double>> out;
-  for (Eigen::Index leg = 0; leg < 9; ++leg) out.emplace_back(all.low[leg], all.high[leg]);
-  return out;
-}
-
 /// Coordinates of the poses, shape (n, 6), and the shifts of s in zp that are best there, shape (n, 3).
 py::tuple places_in_region(const Problem& problem, const py::dict& region, const std::vector<double>& x,
                            double log_index, const std::vector<RangeEntry>& ranges,
@@ -190,29 +222,6 @@ py::dict worst_with_placing(const Problem& problem, const py::dict& region, cons
   return out;
 }
 
-using PlacedEntry = std::tuple<std::vector<double>, std::vector<std::array<double, 3>>>;
-
-/// For each design (variables without poses, shifts of s in zp at each pose, logarithm of the index, violation).
-py::list placed_optima(const Problem& problem, const std::vector<PlacedEntry>& given, int starts, std::uint64_t seed,
-                       int threads) {
-  std::vector<PlacedDesign> designs;
-  for (const auto& [x, shifts] : given) {
-    designs.push_back({Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())), {}});
-    for (const auto& shift : shifts) designs.back().shifts.push_back(Vec3::Map(shift.data()));
-  }
-  const std::vector<PlacedDesign> found = interruptible(py::none(), [&](const Control& control) {
-    return optimize_placed(problem, designs, {starts, seed, threads}, control);
-  });
-  py::list out;
-  for (const PlacedDesign& design : found) {
-    py::list places;
-    for (const Vec3& s : design.shifts) places.append(py::make_tuple(s[0], s[1], s[2]));
-    out.append(py::make_tuple(std::vector<double>(design.variables.begin(), design.variables.end()), places,
-                              design.log_objective, design.violation));
-  }
-  return out;
-}
-
 }  // namespace
 
 void bind_optimize(py::module_& m) {
@@ -226,28 +235,42 @@ void bind_optimize(py::module_& m) {
   const Settings defaults;
   py::class_<Settings>(m, "Settings")
       .def(py::init([](int starts, std::uint64_t seed, int threads, int max_evaluations,
-                       const std::optional<Vectors>& warm) {
-             Settings settings{starts, seed, threads, max_evaluations, {}};
+                       const std::optional<Vectors>& warm, double time_limit) {
+             Settings settings{starts, seed, threads, max_evaluations, {}, time_limit};
              for (const std::vector<double>& x : warm ? *warm : Vectors())
                settings.warm.emplace_back(Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size())));
              return settings;
            }),
            py::kw_only(), py::arg("starts") = defaults.starts, py::arg("seed") = defaults.seed,
            py::arg("threads") = defaults.threads, py::arg("max_evaluations") = defaults.max_evaluations,
-           py::arg("warm") = py::none());
+           py::arg("warm") = py::none(), py::arg("time_limit") = defaults.time_limit);
   m.def("region_pose", &region_pose);
   m.def("region_poses", &region_poses);
   m.def("search_region", &worst_of_region);
   m.def("leg_ranges", &ranges_about);
-  m.def("common_range", &range_of_all);
   m.def("search_region_placed", &worst_with_placing);
-  m.def("optimize_placed", &placed_optima);
   m.def("place_in_region", &places_in_region);
   m.def("optimize", [](const Problem& problem, const Settings& settings, const py::object& progress) {
     const Result result = interruptible(
         progress, [&](const Control& control) { return optimize(problem, settings, control); },
         [](Result& r) { return r.interrupted = true; });
     return fields_of(problem, result);
+  });
+  m.def("optimize_region", [](const Problem& problem, const py::dict& region, const Settings& settings,
+                              const py::object& progress, const py::object& phase) {
+    const Region r = region_from(region);
+    RegionStudySettings s{settings};
+    const RegionResult found = interruptible(
+        progress,
+        [&](const WorkControl& control) {
+          if (!phase.is_none())
+            s.phase = [&](const std::string& words) { control.on_calling_thread([&] { phase(words); }); };
+          return optimize_region(problem, r, s, control);
+        },
+        [](RegionResult& f) { return f.result.interrupted = true; });
+    py::dict out = fields_of(posed_problem(problem, found.region.poses), found.result);
+    out["region"] = fields_of(found.region);
+    return out;
   });
   m.def("trace", [](const Problem& problem, const std::vector<double>& start, const std::string& formulation) {
     const Formulation f = formulation_from(formulation);

@@ -27,6 +27,7 @@ inline Region region_from(const py::dict& d) {
   out.tilt = d["tilt"].cast<double>();
   out.yaw = d["yaw"].cast<double>();
   out.shifted = d["shifted"].cast<bool>();
+  out.placed = d["placed"].cast<bool>();
   out.in_zp = d["in_zp"].cast<bool>();
   return out;
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr double first_step = 0.2, probing_step = 0.05;  // by coordinates, in parts of the region
 constexpr long most_evaluations = 2000;                  // of a descent
 constexpr SlsqpSettings ascent{.tolerance = 1e-15, .max_evaluations = 100};
+constexpr SlsqpSettings a_little{.tolerance = 1e-10, .max_evaluations = 25};
 constexpr double stationary = 1e-5;  // of the slopes
 constexpr int most_rounds = 4;
 constexpr double corner_gap = 1e-13;  // from the corners of a path, where its slopes change
@@ -97,7 +98,8 @@ class CoordinateDescent {
 /// Lowers a smooth number by SLSQP in the coordinates that are not fixed, in parts of the region.
 class SmoothDescent {
  public:
-  SmoothDescent(Number& number, const Region& region) : number_(number), region_(region), reach_(region.reach()) {
+  SmoothDescent(Number& number, const Region& region, const SlsqpSettings& settings)
+      : number_(number), region_(region), reach_(region.reach()), settings_(settings) {
     for (Eigen::Index k = 0; k < 6; ++k)
       if (reach_[k] > 0.0) free_.push_back(k);
     if (region.shape == Region::Shape::ball && region.size[0] > 0.0) round_.push_back({0, 1, 2});
@@ -130,7 +132,7 @@ class SmoothDescent {
       return true;
     };
     const Vec6 start = met.at.cwiseQuotient(reach_.cwiseMax(1e-300));
-    const MetNumber end = at(region_.nearest(from_parts(slsqp(nlp, to_parts(start), ascent))));
+    const MetNumber end = at(region_.nearest(from_parts(slsqp(nlp, to_parts(start), settings_))));
     if (end.value < met.value) met = end;
     return residual(met) <= stationary * steepest;
   }
@@ -175,6 +177,7 @@ class SmoothDescent {
   Number& number_;
   const Region& region_;
   Vec6 reach_;
+  SlsqpSettings settings_;
   std::vector<Eigen::Index> free_;
   std::vector<std::vector<Eigen::Index>> round_;
 };
@@ -189,7 +192,7 @@ long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, 
     by_coordinates.run(met, first_step, last_step, stop);
     return number.count();
   }
-  SmoothDescent by_slopes(number, region);
+  SmoothDescent by_slopes(number, region, ascent);
   for (int round = 0; round < most_rounds && !stop.stop_requested(); ++round) {
     const double before = met.value;
     const bool settled = by_slopes.run(met, stop);
@@ -197,6 +200,13 @@ long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, 
     // A kink, a corner of a path, or a start that is stationary but need not be lowest around.
     if (!by_coordinates.run(met, probing_step, settled ? probing_step : last_step, stop)) break;
   }
+  return number.count();
+}
+
+long descend_a_little(PoseNumbers& pose, const Region& region, const NumberPlace& place, const std::stop_token& stop,
+                      MetNumber& met) {
+  Number number(pose, place);
+  SmoothDescent(number, region, a_little).run(met, stop);
   return number.count();
 }
 

@@ -21,4 +21,8 @@ long descend(PoseNumbers& pose, const Region& region, const NumberPlace& place, 
 /// the length of a leg may not depend on the tilt. Returns how many poses were looked at.
 long drop_repeated(PoseNumbers& pose, const Region& region, const NumberPlace& place, std::vector<MetNumber>& ends);
 
+/// The same of a smooth number by a few steps, without a look around: nearly lowest, for a number that is dear.
+long descend_a_little(PoseNumbers& pose, const Region& region, const NumberPlace& place, const std::stop_token& stop,
+                      MetNumber& met);
+
 }  // namespace ninedof

@@ -18,8 +18,8 @@ constexpr std::size_t most_known = 4, at_once = 4;
 constexpr double most_give = 4.605170185988091;
 /// Conflicts that may turn out to be none before the search ends.
 constexpr int attempts = 4;
-/// Violation that counts as none, and difference of violations that counts as none.
-constexpr double satisfied = 1e-7, same_violation = 1e-5;
+/// Violation that counts as none.
+constexpr double satisfied = 1e-7;
 
 using Indices = std::vector<std::size_t>;
 
@@ -151,7 +151,7 @@ std::string sentence(Search& search, const Indices& conflict, bool poses) {
   if (further) ask(search.of(conflict));
   const bool several = conflict.size() > 1;
   std::string out = "no design found has " + listed(demanded, "and") + (several ? " together" : "");
-  if (poses) out += " in these poses";
+  if (poses) (out += ' ') += in_these_poses;
   if (!enough.empty()) out += "; the nearest found " + std::string(several ? "have " : "has ") + listed(enough, "or");
   if (!enough.empty() && several) out += " instead";
   if (further) out += "; other limits of the study are in conflict besides";
@@ -194,10 +194,12 @@ Conflict find_conflict(const Problem& problem, const std::vector<Eigen::VectorXd
     if (!confirmed) conflict = order;  // of all of them it remains true
     for (const std::size_t d : conflict)
       if (std::ranges::find(out.causes, demands[d].name) == out.causes.end()) out.causes.push_back(demands[d].name);
+    out.poses = search.study.poses(search.nearest(search.of(conflict)), search.of(conflict));
     if (!search.stopped()) out.reason = sentence(search, conflict, !problem.objective.poses.empty());
   }
   out.evaluations = search.evaluations;
-  if (search.stopped()) out = {.causes = {}, .reason = "", .allowed = {}, .evaluations = search.evaluations};
+  if (search.stopped())
+    out = {.causes = {}, .poses = {}, .reason = "", .allowed = {}, .evaluations = search.evaluations};
   return out;
 }
 

@@ -1,12 +1,18 @@
 #pragma once
 /// Which limits and bounds exclude each other where no design satisfies all.
 
+#include <string_view>
+
 #include "optimize/search_round.hpp"
 
 namespace ninedof {
 
+/// Where the reason is about poses; a study over a region says which.
+inline constexpr std::string_view in_these_poses = "in these poses";
+
 struct Conflict {
   std::vector<std::string> causes;  ///< names of limits and variables, each once
+  std::vector<int> poses;           ///< of the objective, where the nearest design violates them
   std::string reason;               ///< a sentence
   Eigen::VectorXd allowed;          ///< full variables of a design that satisfies all, if one was found after all
   long evaluations = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/slsqp.hpp"
+#include "math/time_limit.hpp"
 #include "ninedof/math/error.hpp"
 #include "optimize/verdict.hpp"
 
@@ -22,11 +23,13 @@ Eigen::VectorXd stretched(const PreparedProblem& p, const RoundBest& round, doub
   return x;
 }
 
-Result interrupted(Result result) {
+/// Stopped by the caller or by the clock.
+Result ended(Result result, bool interrupted) {
   result.status = Status::stopped;
-  result.interrupted = true;
-  result.reason = "interrupted after " + std::to_string(result.starts_done) + " starts; " +
-                  (result.candidates.empty() ? "no design yet" : "the best so far is returned");
+  result.interrupted = interrupted;
+  result.reason = interrupted ? "interrupted after " : "out of time after ";
+  result.reason += std::to_string(result.starts_done);
+  result.reason += result.candidates.empty() ? " starts; no design yet" : " starts; the best so far is returned";
   return result;
 }
 
@@ -39,12 +42,15 @@ std::string solver_version() {
 void Settings::validate() const {
   const int least = warm.empty() ? 1 : 0;
   if (starts < least) throw InvalidArgument("starts", std::to_string(starts), "at least " + std::to_string(least));
+  if (!(time_limit > 0.0)) throw InvalidArgument("time_limit", format_number(time_limit), "seconds, more than 0");
   if (max_evaluations < 1) throw InvalidArgument("max_evaluations", std::to_string(max_evaluations), "at least 1");
 }
 
-Result optimize(const Problem& problem, const Settings& settings, const Control& control) {
+Result optimize(const Problem& problem, const Settings& settings, const Control& caller) {
   problem.validate();
   settings.validate();
+  const TimeLimit limit(settings.time_limit, caller.stop);
+  const Control control{limit.stop(), caller.progress};
   for (const Eigen::VectorXd& x : settings.warm) require_full("warm", problem, x);
   Result result;
   if (detect_impossible_heights(problem, result)) return result;
@@ -87,11 +93,11 @@ Result optimize(const Problem& problem, const Settings& settings, const Control&
       if (!best_design || best->objective < best_design->objective) best_design = std::move(best);
     if (control.stop.stop_requested()) {
       if (result.candidates.empty() && best_design) result.candidates.push_back(*std::move(best_design));
-      return interrupted(std::move(result));
+      return ended(std::move(result), caller.stop.stop_requested());
     }
     if (size_limit == sizes.back() && round_bests.empty()) explain_failure(p, round, settings, control, result);
   }
-  if (control.stop.stop_requested()) return interrupted(std::move(result));
+  if (control.stop.stop_requested()) return ended(std::move(result), caller.stop.stop_requested());
   if (round_bests.empty()) return result;
   result.status = Status::optimal;
   result.reason = "feasible and stationary by our own checks";

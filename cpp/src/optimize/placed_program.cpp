@@ -18,7 +18,7 @@
 namespace ninedof {
 namespace {
 
-constexpr double program_tolerance = 1e-11;
+constexpr double program_tolerance = 1e-12;
 constexpr int program_evaluations = 300;
 constexpr int most_repeats = 3;
 constexpr double nearly_feasible = 1e-3, no_change = 1e-8;
@@ -49,6 +49,7 @@ class PlacedProgram {
     set(y);
     std::vector<PlacedPose::Outer> rows;
     evaluate(rows);
+    keep_best(y, rows);  // a stop may come before any other design
     Nlp nlp;
     nlp.variables = y.size();
     for (const auto& r : rows) nlp.constraints += r.value.size();
@@ -208,7 +209,8 @@ std::vector<PlacedDesign> optimize_placed(const Problem& problem, const std::vec
     const PlacedDesign start =
         k < first ? given[at_index(k)] : start_design(alone, poses, static_cast<int>(k - first), settings.seed);
     PlacedDesign end = PlacedProgram(alone, poses, start).solve(control);
-    for (int again = 0; again < most_repeats && end.violation < nearly_feasible; ++again) {
+    const auto stopped = [&] { return control.stop.stop_requested(); };
+    for (int again = 0; again < most_repeats && end.violation < nearly_feasible && !stopped(); ++again) {
       PlacedDesign next = PlacedProgram(alone, poses, end).solve(control);
       const bool settled = next.violation < nearly_feasible && next.violation >= -1.0 &&
                            std::abs(next.log_objective - end.log_objective) < no_change;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "domains/region_descent.hpp"
 #include "math/numbers.hpp"
 #include "ninedof/domains/region_sample.hpp"
 #include "ninedof/math/error.hpp"
@@ -16,25 +17,70 @@ namespace {
 constexpr long samples_a_task = 256;        // of samples
 constexpr long poses_a_task = 16;
 constexpr long rows_a_task = 64;
-constexpr double spare = 0.02;     // a sample with so much to spare is not looked at further
+constexpr double spare = 0.005;     // a sample with so much to spare is not looked at further
 constexpr double no_longer_held = 1e-7;    // excess from which O is placed from other starts too
 constexpr double apart = 0.2;      // of the region: samples nearer than that to a worse one begin no ascent
 constexpr std::size_t ascents = 32;  // from samples
-constexpr double first_move = 0.1, last_move = 1e-4;  // of an ascent, in parts of the region
-constexpr double least_rise = 1e-9;  // increase of an ascent's step
-constexpr long most_poses = 1500;    // of an ascent
+constexpr std::size_t placed_at_once = 128;  // samples
+constexpr std::size_t most_tried = 6;        // known places from which O is placed anew
+constexpr double little = 1e-3;     // weight of the slopes of a fit: few places are known at first
 
 struct Hot {
   Placed placed;
   double excess;
 };
 
+/// Minus the excess of a pose with O placed, which follows from pose to pose; its slopes by the envelope theorem.
+class PlacedNumber : public PoseNumbers {
+ public:
+  PlacedNumber(const Region& region, PlacedPose& pose, const Vec3& shift)
+      : region_(region), pose_(pose), shift_(shift), at_least_(shift) {}
+  std::vector<int> groups() const override { return {1}; }
+  bool smooth(int, int) const override { return true; }
+  void go(const Vec6& at) override { at_ = at; }
+  void evaluate(int, double* out) override {
+    Vec6 unused;
+    *out = slopes(0, 0, at_, unused);
+  }
+  double slopes(int, int, const Vec6& at, Vec6& by_at) override {
+    pose_.set_pose(region_.pose(at), region_.slopes(at));
+    const double value = -pose_.place(shift_, -infinity);
+    const PlacedPose::Outer found = pose_.least(shift_);
+    by_at = -found.by_at.row(0).transpose();
+    if (value < least_) {
+      least_ = value;
+      at_least_ = shift_;
+    }
+    return value;
+  }
+  /// O where the number was least.
+  const Vec3& at_least() const { return at_least_; }
+
+ private:
+  const Region& region_;
+  PlacedPose& pose_;
+  Vec6 at_ = Vec6::Zero();
+  Vec3 shift_, at_least_;
+  double least_ = infinity;
+};
+
 /// Places O from known places and from the shifted and held ones.
 class Placing {
  public:
   Placing(const Problem& problem, const Region& region, const Eigen::VectorXd& variables, const PlacementGoal& goal,
-          const std::vector<Placed>& known)
-      : region_(region), known_(known), pose_(problem, variables, goal) {}
+          const std::vector<Placed>& known, bool located = true)
+      : region_(region), known_(known), located_(located), pose_(problem, variables, goal) {
+    Eigen::Matrix<double, 7, 7> normal =
+        Eigen::Matrix<double, 7, 7>::Identity() * (little * static_cast<double>(known.size()));
+    Eigen::Matrix<double, 7, 3> right = Eigen::Matrix<double, 7, 3>::Zero();
+    for (const Placed& placed : known) {
+      Eigen::Matrix<double, 7, 1> row;
+      row << 1.0, parts(placed.at);
+      normal += row * row.transpose();
+      right += row * placed.shift.transpose();
+    }
+    if (!known.empty()) fit_ = normal.ldlt().solve(right);
+  }
 
   double near(Placed& placed, double enough) {
     pose_.set_pose(region_.pose(placed.at));
@@ -46,7 +92,7 @@ class Placing {
     const Pose pose = region_.pose(placed.at);
     pose_.set_pose(pose);
     std::vector<Vec3> starts{Vec3(Vec3::Zero()), Vec3(pose.position / (pose.in_zp ? 1.0 : pose_.zp()))};
-    for (const Placed& other : known_) starts.push_back(other.shift);
+    for (const Placed* other : nearest(placed.at)) starts.push_back(other->shift);
     for (Vec3& start : starts) {
       if (excess <= enough) break;
       const double found = pose_.place(start, enough);
@@ -55,6 +101,16 @@ class Placing {
       placed.shift = start;
     }
     return excess;
+  }
+
+  /// The known places nearest to a pose; there may be many, and O is much the same at most of them.
+  std::vector<const Placed*> nearest(const Vec6& at) const {
+    std::vector<const Placed*> out;
+    for (const Placed& other : known_) out.push_back(&other);
+    if (!located_) return out;
+    std::ranges::stable_sort(out, {}, [&](const Placed* other) { return distance(at, other->at); });
+    out.resize(std::min(out.size(), most_tried));
+    return out;
   }
 
   PlacedEnd end(const Placed& placed) {
@@ -70,41 +126,28 @@ class Placing {
     return out;
   }
 
-  /// The shift of the nearest known place.
+  /// Where O may be expected: the known places, fitted by a function that is linear in the pose.
   Vec3 guess(const Vec6& at) const {
-    const auto nearest =
-        std::ranges::min_element(known_, {}, [&](const Placed& other) { return distance(at, other.at); });
-    return nearest == known_.end() ? Vec3(Vec3::Zero()) : nearest->shift;
+    if (known_.empty()) return Vec3::Zero();
+    return fit_.topRows<1>().transpose() + fit_.bottomRows<6>().transpose() * parts(at);
   }
 
-  /// Raises the excess by moves of the pose both ways; a step is doubled where it helps and halved where none does.
-  double ascend(Placed& placed, double excess, double last, long& count) {
-    const long most = count + most_poses;
-    for (double step = first_move; step >= last && count < most; step *= 0.5) {
-      bool higher = true;
-      while (higher && count < most) {
-        higher = false;
-        for (int move = 0; move < region_moves; ++move)
-          for (const double side : {1.0, -1.0})
-            for (double length = step; length < 2.0; length *= 2.0) {
-              Placed next{region_.nearest(region_moved(region_, placed.at, move, side * length)), placed.shift};
-              if ((next.at - placed.at).isZero(0.0)) break;
-              const double threshold = excess + least_rise * (1.0 + std::abs(excess));
-              const double found = near(next, threshold);
-              ++count;
-              if (!(found > threshold)) break;
-              excess = found;
-              placed = next;
-              higher = true;
-            }
-      }
-    }
-    return excess;
+  /// Goes to where the excess is larger, from a pose with O to the next one with O a little farther.
+  double ascend(Placed& placed, double excess, const std::stop_token& stop, long& count) {
+    PlacedNumber number(region_, pose_, placed.shift);
+    MetNumber met{-excess, placed.at};
+    count += descend_a_little(number, region_, {0, 0, 1}, stop, met);
+    placed = {met.at, number.at_least()};
+    return near(placed, -infinity);
   }
 
  private:
+  Vec6 parts(const Vec6& at) const { return at.cwiseQuotient(region_.reach().cwiseMax(1e-300)); }
+
   const Region& region_;
   const std::vector<Placed>& known_;
+  bool located_;  // whether the poses of the known places are known too
+  Eigen::Matrix<double, 7, 3> fit_ = Eigen::Matrix<double, 7, 3>::Zero();
   PlacedPose pose_;
 };
 
@@ -129,14 +172,30 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
     for (long n = first * samples_a_task; n < std::min(settings.samples, (first + 1) * samples_a_task); ++n) {
       Placed placed{region_sample(region, n, settings.seed), Vec3::Zero()};
       placed.shift = placing.guess(placed.at);
-      double excess = placing.near(placed, -spare);
-      if (excess > no_longer_held) excess = placing.anew(placed, excess, -spare);
+      const double excess = placing.near(placed, -spare);
       if (excess > -spare) of_block[at_index(first)].push_back({placed, excess});
     }
   });
   stop_here();
   std::vector<Hot> hot;
   for (const std::vector<Hot>& some : of_block) hot.insert(hot.end(), some.begin(), some.end());
+  std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
+  // What passes from the nearest start may not from others. Of a poor design most samples pass: some of them are enough.
+  std::size_t done = 0;
+  while (done < hot.size() && hot[done].excess > no_longer_held) {
+    const auto count = static_cast<long>(std::min(hot.size() - done, placed_at_once));
+    parallel_for(count, 1, settings.threads, [&](long k, long) {
+      if (control.stop.stop_requested()) return;
+      Placing placing(problem, region, variables, goal, known);
+      Hot& sample = hot[done + at_index(k)];
+      sample.excess = placing.anew(sample.placed, sample.excess, -spare);
+    });
+    stop_here();
+    done += at_index(count);
+    const auto pass = std::count_if(hot.begin(), hot.begin() + static_cast<std::ptrdiff_t>(done),
+                                    [](const Hot& sample) { return sample.excess > no_longer_held; });
+    if (at_index(pass) >= ascents) hot.resize(done);
+  }
   std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
 
   const Placing distances(problem, region, variables, goal, known);
@@ -160,7 +219,7 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
     Hot start = starts[at_index(k)];
     if (at_index(k) < known.size()) start.excess = out.at_known[at_index(k)] = placing.near(start.placed, -infinity);
     Hot end = start;
-    end.excess = placing.ascend(end.placed, end.excess, last_move, counts[at_index(k)]);
+    end.excess = placing.ascend(end.placed, end.excess, control.stop, counts[at_index(k)]);
     if (end.excess > no_longer_held) end.excess = placing.anew(end.placed, end.excess, -infinity);
     out.ends[at_index(k)] = placing.end(end.excess > start.excess ? end.placed : start.placed);
   });
@@ -187,7 +246,7 @@ std::function<PlacedEnd(const Vec6& at)> placer(const Problem& problem, const Re
           goal(to),
           others(known.size()),
           plain(problem, region, variables, goal, none),
-          placing(problem, region, variables, goal, others) {
+          placing(problem, region, variables, goal, others, false) {
       for (std::size_t k = 0; k < known.size(); ++k) others[k].shift = known[k];
     }
   };

@@ -3,21 +3,13 @@
 #include <algorithm>
 
 #include "math/numbers.hpp"
-#include "optimize/minimax/design_evaluation.hpp"
+#include "optimize/region/design_at_poses.hpp"
 #include "problem/full_variables.hpp"
 
 namespace ninedof {
 namespace {
 
 constexpr double small = 0.1;  // margin from which a descent is not worth while, but for the least of all
-
-/// The problem with one pose, off the axis so that the closed form is not used.
-Problem with_one_pose(Problem problem) {
-  problem.objective.aggregate = Aggregate::worst;
-  problem.objective.poses = {{}};
-  problem.objective.poses.front().position = Vec3(1.0, 0.5, 0.0);
-  return problem;
-}
 
 /// Of one design: the margins of all limits, minus the logarithm of the index, and the length of each leg and its
 /// negative.
@@ -26,7 +18,7 @@ class OnePose : public PoseNumbers {
   OnePose(const Problem& problem, const Region& region, const Eigen::VectorXd& variables)
       : region_(region), p_(with_one_pose(problem), variables), specs_(p_.pose_specs) {
     p_.set_state({}, design_.state);
-    none_.spectra.assign(at_index(p_.evaluated_spectra()), false);
+    none_ = selection_of(p_);
   }
 
   int margins() const { return static_cast<int>(p_.margins.size()); }

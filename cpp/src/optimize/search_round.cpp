@@ -4,7 +4,10 @@
 #include <functional>
 
 #include "math/splitmix.hpp"
+#include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
+#include "ninedof/optimize/region_placement.hpp"
+#include "optimize/region/posed.hpp"
 
 namespace ninedof {
 namespace {
@@ -45,6 +48,37 @@ std::vector<std::size_t> ranked(const SearchRound& round) {
 Problem with_stated_internal_points(Problem problem) {
   for (Pose& pose : problem.objective.poses) pose.best_internal = false;
   return problem;
+}
+
+/// Whether the quick solver finds the optimum with O placed (see optimize_placed); with few poses SLSQP is as quick.
+bool places_quickly(const PreparedProblem& p) {
+  constexpr int few = 3;
+  const auto& poses = p.problem.objective.poses;
+  return p.problem.objective.aggregate == Aggregate::worst && p.problem.objective.index != Index::six_legged &&
+         std::ranges::count_if(poses, optimizes_internal_point) > few;
+}
+
+/// Each start is moved to where the quick solver ends from its design with O shifted.
+std::vector<Eigen::VectorXd> placed(const PreparedProblem& p, const std::vector<Eigen::VectorXd>& starts,
+                                    const Settings& s, const Control& control) {
+  const std::vector<Pose>& poses = p.problem.objective.poses;
+  std::vector<PlacedDesign> given;
+  for (const Eigen::VectorXd& y : starts) {
+    PlacedDesign design{own_variables(p.problem, p.coordinates.variables(y)), {}};
+    const double zp = design.variables[design_family(p.problem.family).index("zp")];
+    for (const Pose& pose : poses)
+      design.shifts.push_back(optimizes_internal_point(pose) ? Vec3(pose.position / (pose.in_zp ? 1.0 : zp))
+                                                             : Vec3(Vec3::Zero()));
+    given.push_back(std::move(design));
+  }
+  std::vector<Eigen::VectorXd> out;
+  try {
+    for (const PlacedDesign& end : optimize_placed(p.problem, given, {0, s.seed, s.threads}, control))
+      out.push_back(p.coordinates.coordinates(with_shifts(p.problem, end.variables, end.shifts)));
+  } catch (const Stopped&) {
+    return starts;
+  }
+  return out;
 }
 
 /// Solver coordinates from the full variables of the problem with stated internal points; offsets are 0.
@@ -122,6 +156,11 @@ std::vector<Eigen::VectorXd> promising_starts(const Batch& batch, double size_li
   }
   round.done += done;
   round.runs_abandoned += done - static_cast<int>(out.size());
+  // Of what was stopped here the best is all there is.
+  if (control.stop.stop_requested() && out.size() > at_index(warm)) {
+    round.runs.push_back(std::make_unique<LocalRun>(LocalRun{candidate_at(p, out[at_index(warm)])}));
+    round.from_start.push_back(true);
+  }
   return out;
 }
 
@@ -183,13 +222,19 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
                const Settings& s, const Control& control, Progress& progress, SearchRound& round) {
   RunSettings full_run{s.max_evaluations};
   if (s.starts == 0) full_run.restarts = 0;  // warm starts alone are near an optimum
+  const bool quick = places_quickly(p);
+  if (quick) full_run.restarts = 0;
   const Batch batch{p, s, round.batches++};
   round.warm += p.coordinates.size() > 0 ? batch.warm() : 0;
   const std::size_t before = round.runs.size();
   // Starts are expensive with many poses, or if the index has kinks that are smoothed.
   if ((p.objective_poses > 1 || p.has_kinks()) && p.coordinates.size() > 0) {
     progress.expect(full_run_count(batch.count() - batch.warm()));
-    const std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round);
+    std::vector<Eigen::VectorXd> chosen = promising_starts(batch, size_limit, control, progress, round);
+    if (quick) {
+      const std::vector<Eigen::VectorXd> cold(chosen.begin() + batch.warm(), chosen.end());
+      std::ranges::copy(placed(p, cold, s, control), chosen.begin() + batch.warm());
+    }
     run_all(p, chosen, true, full_run, s, control, round, &progress);
   } else {
     run_all(p, batch.count(), [&](int k) { return batch.start(k); }, true, full_run, s, control, &progress, round);
@@ -202,7 +247,8 @@ void run_batch(const PreparedProblem& p, double size_limit, const std::vector<Ei
   }
   if (p.coordinates.size() > 1 && s.starts > 1 && !starts_agree(round)) {
     const int count = extra_start_count(p, round.runs.size() - before);
-    run_all(p, recombined(p, s, round, count), false, full_run, s, control, round);
+    const std::vector<Eigen::VectorXd> starts = recombined(p, s, round, count);
+    run_all(p, quick ? placed(p, starts, s, control) : starts, false, full_run, s, control, round);
     round.recombined += count;
   }
   for (std::size_t k = before; k < round.runs.size(); ++k)

@@ -175,6 +175,7 @@ void explain_failure(const PreparedProblem& p, const SearchRound& round, const S
   if (conflict.allowed.size() == 0) {
     result.status = Status::infeasible;
     result.causes = std::move(conflict.causes);
+    result.cause_poses = std::move(conflict.poses);
     result.reason = std::move(conflict.reason);
     return;
   }

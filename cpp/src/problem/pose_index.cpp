@@ -56,9 +56,12 @@ void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool de
   out.general = spectrum(at.at, at.legs, v.characteristic_length);
   const Vec6& sigma = out.general.sigma;
   for (int k = 0; k < 6; ++k) out.log_sigma[k] = std::log(!vanished(sigma[k]) ? sigma[k] : k == 0 ? 1.0 : tiny);
-  out.gradient.resize(6, v.columns());
-  if (!derivatives) return;
-  out.gradient.setZero();
+  out.gradient.setZero(6, v.columns());
+  if (derivatives) differentiate_spectrum(v, pose, out);
+}
+
+void differentiate_spectrum(const DesignState& v, int pose, PoseSpectrum& out) {
+  out.gradient.setZero(6, v.columns());
   for (int k = 0; k < 6; ++k) add_log_sigma(v, pose, out, k, 1.0, out.gradient.row(k));
   if (!out.gradient.allFinite()) out.gradient.setZero();  // so near a singularity that squares under- or overflow
 }

@@ -26,6 +26,8 @@ std::span<const int> bottoms_of(bool closed);
 
 /// All six singular values of the nine-legged robot at a pose; without `derivatives` the gradient is not computed.
 void general_spectrum(const DesignState& v, int pose, PoseSpectrum& out, bool derivatives = true);
+/// The gradient afterwards.
+void differentiate_spectrum(const DesignState& v, int pose, PoseSpectrum& out);
 
 /// The four singular values of the closed form, at a pose on the axis.
 void closed_spectrum(const DesignFamily& family, const DesignState& v, const PoseSpec& spec, Machine machine,

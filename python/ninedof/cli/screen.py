@@ -21,6 +21,7 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+from rich.table import Column
 from rich.text import Text
 
 from ninedof.optimize.result import Result, Status
@@ -40,10 +41,15 @@ def status_of(code: object) -> int:
     return code if isinstance(code, int) else DONE if code is None else FAILED
 
 
-def exit_status(result: Result) -> int:
-    """Return the exit status of a command that optimizes."""
+def exit_status(result: Result, timed: bool = False) -> int:
+    """Return the exit status of a command that optimizes, within a time limit where it is `timed`.
+
+    A design with which the time ended is a result if it keeps its limits in all of the region.
+    """
     if result.interrupted:
         return INTERRUPTED
+    if timed and result.region is not None and result.region.keeps_limits:
+        return DONE
     return DONE if result.status == Status.OPTIMAL else NO_RESULT
 
 
@@ -126,9 +132,9 @@ class Screen:
         at_once: bool = False,
     ) -> Iterator[Bar]:
         """Show a bar from the first report on, or at once. Bad input raises before the first report: no bar then."""
-        parts = (
-            TextColumn(one, markup=False) if isinstance(one, str) else one for one in ("{task.description}", *columns)
-        )
+        # What the work is at may take several lines; the rest is short.
+        first = TextColumn("{task.description}", markup=False, table_column=Column(overflow="fold"))
+        parts = (first, *(TextColumn(one, markup=False) if isinstance(one, str) else one for one in columns))
         shown = Progress(*parts, console=self.progress_console)
         if at_once:
             shown.start()
@@ -176,6 +182,6 @@ class Bar:
     __call__ = show
 
     def phase(self, words: str) -> None:
-        """Say behind the title which part of the work is done."""
+        """Say behind the title which part of the work is done; the value was that of the part before it."""
         self._shown.start()
-        self._shown.update(self._task, description=one_line(f"{self._title}: {words}"))
+        self._shown.update(self._task, description=one_line(f"{self._title}: {words}"), value="")

@@ -164,11 +164,12 @@ class Objective:
         region = {} if self.region is None else {"region": self.region.to_dict()}
         return {"index": self.index, **changed, **poses, **region}
 
-    def for_core(self) -> dict[str, Any]:
-        """Return the objective as the core takes it."""
+    def for_core(self, over_region: bool = False) -> dict[str, Any]:
+        """Return the objective as the core takes it; of a region, that over the listed poses, or over the region."""
+        # Without the region a mean has no poses to be taken over.
         return {
             "index": self.index,
-            "aggregate": self.aggregate if self.region is None else "worst",  # the mean over a region is posed apart
+            "aggregate": self.aggregate if self.region is None or over_region else "worst",
             "weight": self.weight,
             **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
             "poses": [pose.for_core() for pose in self.poses],

@@ -167,6 +167,7 @@ class Region:
             "tilt": self.tilt,
             "yaw": self.yaw,
             "shifted": self.internal_point == "shifted",
+            "placed": self.internal_point == "best",
             "in_zp": self.unit == "zp",
         }
 

@@ -210,11 +210,12 @@ class Study:
         known_keys(where, given, [*names, *(name + DEG for name in self.angles)])
         return in_radians(where, given, self.angles)
 
-    def problem(self) -> _core.Problem:
-        """Return the study as the core's problem, validated there."""
+    def problem(self, over_region: bool = False) -> _core.Problem:
+        """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
         bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
         constraints = [limits.for_core(name, limit) for name, limit in limits.each(self.constraints)]
-        return _core.Problem(self.family, bounds, constraints, self.characteristic_length, self.objective.for_core())
+        objective = self.objective.for_core(over_region)
+        return _core.Problem(self.family, bounds, constraints, self.characteristic_length, objective)
 
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
         """Return objective, condition numbers, margins and exact gradients of one design.

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from time import perf_counter
 from typing import Any
 
 from ninedof import _core
 from ninedof.chunks.store import Store
 from ninedof.design.study import Study
-from ninedof.optimize.exchange import optimize_region
-from ninedof.optimize.exchange_placed import optimize_placed
 from ninedof.optimize.pieces import Pieces
+from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.result import Candidate, Result, Status, candidate_from, result_from
-from ninedof.optimize.rounds import Rounds
 from ninedof.optimize.warm import Warm, listed, warm_starts
 from ninedof.proof.optimum import GAPS, OptimumProof, left_out_of, prove_optimum
-from ninedof.support.arguments import choice, flag, instance, path_argument
+from ninedof.support.arguments import choice, flag, instance, number, path_argument, shown
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
@@ -37,6 +37,7 @@ def optimize(
     warm: Warm | Iterable[Warm] | None = None,
     *,
     certify: bool = False,
+    time_limit: float = math.inf,
     out: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Minimize the objective of a study: by default, the condition number.
@@ -56,8 +57,8 @@ def optimize(
     progress : callable, optional
         Called as progress(runs done, runs in all, best objective so far); infinite before a start has found a feasible
         design. A start is one run, or two where it is followed to its end after a short run. Runs in all grow where
-        more starts follow, and, over a region, with every round; they count the last round from the first. If it has a
-        method `phase`, that is called with a few words when a round begins.
+        more starts follow. If it has a method `phase`, that is called with a few words where a part of the work begins:
+        over a region, all starts and every round behind them, which are no runs.
     warm : Result, Candidate, mapping of names to values, or a sequence of them, optional
         Additional starts, tried first: a result of a similar study (its best four candidates), or a known design. They
         are moved inside the bounds.
@@ -65,10 +66,14 @@ def optimize(
         Whether to prove afterwards how much better a design of the study can be at most, see `prove_optimum`:
         `Result.lower_bound` and `Result.proof`. Of hexagons to 1e-12 in a second or two, of other symmetric designs to
         3 per cent in minutes.
+    time_limit : float
+        Seconds after which the search ends with the best design so far and status "stopped"; infinite by default. Of a
+        region study that design is then searched over the region once more, which takes a second or two longer: what
+        is left to gain near it is `Result.region.gain`. A proof does not count.
     out : path, optional
-        Folder that keeps what is finished, made if it is missing: of a region study every round, of any study the
-        result before its proof, and the proof. The same call with the same folder goes on there, however the last one
-        ended, and gives the same result.
+        Folder that keeps what is finished, made if it is missing: the result before its proof, and the proof. The same
+        call with the same folder goes on there, however the last one ended, and gives the same result. A study over a
+        region is one piece. What the time limit ended is not kept: the next call, with any limit, solves it anew.
 
     Returns
     -------
@@ -99,41 +104,47 @@ def optimize(
     if flag("certify", certify):
         left_out_of(study)  # raises where no proof is known, before the work
     given = listed(warm)
+    seconds = number("time_limit", time_limit)
+    if not seconds > 0.0:
+        raise ValueError(f"time_limit: got {shown(time_limit)}, expected seconds, more than 0")
     if out is not None:
         out = path_argument("out", out)
         warm_starts(study, given)  # raises, before there is a folder
     question = {"kind": "optimize", "study": study.to_dict(), "warm": [dict(one) for one in given], "proof": certify}
     with nullcontext() if out is None else Store(out, question, 1) as store:
         pieces = Pieces(store)
-        found = _optimized(study, count, progress, given, pieces)
+        found = _optimized(study, count, progress, given, pieces, seconds)
         return (
             found if not certify or found.best is None or found.interrupted else _proved(found, count, progress, pieces)
         )
 
 
 def _optimized(
-    study: Study, threads: int, progress: Progress | None, warm: Sequence[Mapping[str, float]], pieces: Pieces
+    study: Study,
+    threads: int,
+    progress: Progress | None,
+    warm: Sequence[Mapping[str, float]],
+    pieces: Pieces,
+    time_limit: float = math.inf,
 ) -> Result:
-    rounds = Rounds(progress, study.starts) if study.objective.region is not None and progress is not None else None
+    return pieces.result(study, lambda: _anew(study, threads, progress, warm, time_limit), time_limit)
 
-    def solve(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
-        return pieces.result(posed, lambda: anew(posed, starts, warm))
 
-    def anew(posed: Study, starts: int, warm: Warm | Iterable[Warm] | None) -> Result:
-        settings = _core.Settings(starts=starts, seed=study.seed, threads=threads, warm=warm_starts(posed, warm))
-        begin = perf_counter()
-        report = progress if rounds is None else rounds.begin(starts, len(posed.objective.poses))
-        found = _core.optimize(posed.problem(), settings, report)
-        if found["status"] == Status.INFEASIBLE and posed.unit:
-            found["reason"] += f" (lengths in {posed.unit})"
-        return result_from(posed, found | {"seconds": perf_counter() - begin})
-
-    region = study.objective.region
+def _anew(
+    study: Study, threads: int, progress: Progress | None, warm: Sequence[Mapping[str, float]], time_limit: float
+) -> Result:
+    how: dict[str, Any] = {"seed": study.seed, "threads": threads, "time_limit": time_limit}
+    settings = _core.Settings(starts=study.starts, warm=warm_starts(study, warm), **how)
+    begin, region = perf_counter(), study.objective.region
     if region is None:
-        return solve(study, study.starts, warm)
-    if region.internal_point == "best":
-        return optimize_placed(study, solve, warm, threads, pieces)
-    return optimize_region(study, solve, warm, threads, pieces)
+        found = _core.optimize(study.problem(), settings, progress)
+    else:
+        say = partial(phase, progress)
+        found = _core.optimize_region(study.problem(True), region.for_core(), settings, progress, say)
+        found["region"] = RegionReport.from_core(found["region"]) if found["candidates"] else None
+    if found["status"] == Status.INFEASIBLE and study.unit:
+        found["reason"] += f" (lengths in {study.unit})"
+    return result_from(study, found | {"seconds": perf_counter() - begin})
 
 
 def _proved(result: Result, threads: int, progress: Progress | None, pieces: Pieces) -> Result:

@@ -6,6 +6,7 @@ which gives the same result, bit for bit.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -15,7 +16,7 @@ import numpy as np
 
 from ninedof.chunks.store import Store
 from ninedof.design.study import Study
-from ninedof.optimize.result import Result, result_from
+from ninedof.optimize.result import Result, Status, result_from
 from ninedof.proof.optimum import OptimumProof
 from ninedof.support.files import Arrays
 from ninedof.support.json import decode, encode
@@ -30,22 +31,16 @@ class Pieces:
         """Begin with the pieces of a store; without one all are computed."""
         self._store, self._next = store, 0
 
-    def result(self, study: Study, compute: Callable[[], Result]) -> Result:
-        """Return the result of a study with poses; one that was interrupted is no piece."""
+    def result(self, study: Study, compute: Callable[[], Result], time_limit: float = math.inf) -> Result:
+        """Return the result of a study; one that was interrupted, or that the time limit ended, is no piece."""
         if (found := self._read()) is not None:
             return result_from(study, _data(found))
         result = compute()
-        if not result.interrupted:
+        if result.interrupted or (result.status == Status.STOPPED and result.seconds >= time_limit):
+            self._store = None  # nothing follows from it that is worth keeping
+        else:
             self._keep({KEPT: _bytes(result.to_dict())})
         return result
-
-    def plain(self, compute: Callable[[], Any]) -> Any:
-        """Return plain values: lists in place of tuples, whether they were kept or not."""
-        if (found := self._read()) is not None:
-            return _data(found)
-        text = encode(compute(), indent=None)
-        self._keep({KEPT: np.frombuffer(text.encode(), dtype=np.uint8)})
-        return decode(text)
 
     def proof(self, compute: Callable[[], OptimumProof]) -> OptimumProof:
         """Return a proof with its certificate."""

@@ -9,10 +9,11 @@ from typing import Any
 
 from ninedof.design.pose import Pose
 from ninedof.design.study import Study
-from ninedof.support.arguments import items, table
+from ninedof.support.arguments import Vector, items, table
 from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
 
+DENSE = 100_000  # poses of a dense search
 PASSED = 1e-7  # by which a limit or the index may be passed between the poses, relative
 
 
@@ -65,9 +66,17 @@ class RegionReport:
     """The name of that limit; "" without limits."""
     mean: RegionMean | None = None
     """Where the objective is a mean over the region."""
+    gain: float = math.inf
+    """By how much the objective could still fall near this design, relative and to first order: it cannot be less than
+    at these poses, and what passes a limit between them is paid for at its price."""
     leg_ranges: tuple[tuple[float, float], ...] = ()
     """Where O is placed at every pose and limits compare poses: the shortest and longest length of each leg (l, q, r)
     that O keeps in all of the region."""
+
+    @property
+    def keeps_limits(self) -> bool:
+        """Whether no limit is passed by more than 1e-7 of it, as far as a dense search of the region shows."""
+        return self.looked_at >= DENSE and self.margin >= -PASSED
 
     def posed(self, study: Study) -> Study:
         """Return a region study with its poses and these in the place of the region."""
@@ -112,12 +121,24 @@ class RegionReport:
         }
 
     @classmethod
+    def from_core(cls, data: Mapping[str, Any]) -> RegionReport:
+        """Return the report of a mapping as the core makes it."""
+        mean = None if data["mean"] is None else RegionMean(**data["mean"])
+        poses = tuple(_posed(pose) for pose in data["poses"])
+        return cls(**{**data, "poses": poses, "objective_at": _posed(data["objective_at"]), "mean": mean})
+
+    @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> RegionReport:
         """Return the report of a mapping as `to_dict` makes it."""
         found = entries_of(cls, data, "region", skipped=["poses", "objective_at"])
         listed = items("region.poses", data.get("poses"), "a list of poses")
         poses = tuple(_pose(f"region.poses[{k}]", pose) for k, pose in enumerate(listed))
         return cls(**found, poses=poses, objective_at=_pose("region.objective_at", data.get("objective_at")))
+
+
+def _posed(pose: tuple[Vector, Vector, Vector, bool, bool, float]) -> Pose:
+    position, rotation, internal, best, in_zp, weight = pose
+    return Pose(position, rotation, "best" if best else internal, "zp" if in_zp else "length", weight)
 
 
 def _pose(where: str, data: Any) -> Pose:

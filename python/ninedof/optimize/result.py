@@ -330,9 +330,11 @@ def candidate_from(problem: _core.Problem, data: Mapping[str, Any], where: str =
 
 
 def result_from(study: Study, data: Mapping[str, Any]) -> Result:
-    """Return the result of a mapping as the core (with `seconds`) or `Result.to_dict` makes it."""
+    """Return the result of a mapping as the core (with `seconds` and a RegionReport) or `Result.to_dict` makes it."""
     known = entries_of(Result, data, skipped=["status", "candidates", "study", "region", "proof"])
-    region = None if data.get("region") is None else RegionReport.from_dict(data["region"])
+    region = data.get("region")
+    if region is not None and not isinstance(region, RegionReport):
+        region = RegionReport.from_dict(region)
     problem = (study if region is None else region.posed(study)).problem()
     listed = items("candidates", data.get("candidates"), "a list of candidates")
     return Result(

@@ -45,7 +45,7 @@ class Sweep:
         self._store, self._optimized = store, 0
         self._solved, self.planned = 0, 0
 
-    def solve(self, limit: float | None, warm: Iterable[Result | None] = (), again: bool = False) -> Result:
+    def solve(self, limit: float | None, warm: Iterable[Result | None] = (), few: bool = False) -> Result:
         """Solve for one limit (None: no limit) and store the best result.
 
         Parameters
@@ -53,12 +53,12 @@ class Sweep:
         limit : float or None
         warm : results
             Their designs are additional starts.
-        again : bool
-            Whether the limit was solved before: then the starts are others, and fewer.
+        few : bool
+            Whether the starts are others and fewer: the limit was solved before, or is only looked at.
 
         """
         study = limited(self.study, self.against, limit)
-        if again:
+        if few:
             study = study.with_solver(max(1, study.starts // 4), study.seed + 1)
         known = [result for result in warm if result is not None and result.candidates]
         result, anew = self._result(study, known)
@@ -103,7 +103,7 @@ class Sweep:
         for k in reversed(range(len(limits))):
             self.solve(limits[k], self._beside(limits, k))
         for k in range(len(limits)):
-            self.solve(limits[k], self._beside(limits, k), again=True)
+            self.solve(limits[k], self._beside(limits, k), few=True)
 
     def between(self, low: float, high: float) -> float:
         """Solve for the geometric mean of two limits, starting from both designs; return it."""
@@ -116,7 +116,7 @@ class Sweep:
         best: tuple[float, Result] | None = None
         for limit in sorted(self.results):
             if best is not None and self._is_worse(limit, best[1]):
-                self.solve(limit, [best[1]], again=True)
+                self.solve(limit, [best[1]], few=True)
                 if self._is_worse(limit, best[1]):
                     self.results[limit] = _adopted(
                         best[1], limited(self.study, self.against, limit), self._words(best[0])

@@ -13,7 +13,7 @@ from ninedof.pareto.solving import Sweep
 MOST_OBJECTIVE = 3.0  # times the best objective: designs above it are ignored
 NEAR_LEAST = 1.002  # times the least condition number; at 1 only one design is left
 STEPS_DOWN = 12  # halvings
-BISECTIONS = 6
+BISECTIONS, IN_REGIONS = 6, 4  # a study over a region takes seconds
 
 
 def span(sweep: Sweep) -> tuple[float, float] | None:
@@ -95,12 +95,14 @@ def _tightest(sweep: Sweep, high: float, objective: float) -> float:
             bad = trial
             break
         good = trial
-    for _ in range(BISECTIONS if bad is not None else 0):
+    bisections = BISECTIONS if sweep.study.objective.region is None else IN_REGIONS
+    for _ in range(bisections if bad is not None else 0):
         trial = math.sqrt(good * (bad or good))
         good, bad = (trial, bad) if _is_useful(sweep, trial, good, objective) else (good, trial)
     return good
 
 
 def _is_useful(sweep: Sweep, limit: float, looser: float, objective: float) -> bool:
-    value = objective_of(sweep.solve(limit, [sweep.results[looser]]))
+    few = sweep.study.objective.region is not None  # seconds each, and the limit is not one of the front
+    value = objective_of(sweep.solve(limit, [sweep.results[looser]], few=few))
     return value <= MOST_OBJECTIVE * objective  # False for NaN, which means no design

@@ -115,7 +115,8 @@ def test_an_argument_forges_no_line(capsys, words):
     assert is_harmless(err)
 
 
-def test_all_that_consoles_print_is_text(capsys):
+def test_all_that_consoles_print_is_text(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")  # what is folded cannot be searched for
     screen = Screen(False)
     screen.print(EVIL)
     screen.print(bold(EVIL, EVIL))

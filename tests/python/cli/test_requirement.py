@@ -20,7 +20,7 @@ zp = [400.0, 560.0]
 zs = 320.0
 theta_z = 0.0
 [constraints]
-stroke_ratio = { max = 1.22 }
+stroke_ratio = { max = 1.217 }
 base_cone = { max_deg = 45.0 }
 leg_clearance = { min = 20.0 }
 [objective.region]
@@ -34,7 +34,7 @@ COMMANDS = (
     "sheet machine --mass 5",
     "path machine --circle 40",
     "workspace machine --tolerance 0.02 --resolution 8",
-    "pareto machine --value 1.225",
+    "pareto machine --value 1.22",
 )
 
 
@@ -86,7 +86,7 @@ def test_five_commands(folder, monkeypatch, capsys):
 
 def test_a_run_without_a_limit_of_price_needs_against(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
-    loose = MACHINE.replace("max = 1.22", "max = 2.0")
+    loose = MACHINE.replace("max = 1.217", "max = 2.0")
     (folder / "loose.toml").write_text(loose)
     for line, status in (("optimize loose.toml --no-figures --out loose", 0), ("pareto loose --out front", 2)):
         with pytest.raises(SystemExit) as end:

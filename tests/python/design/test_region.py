@@ -1,4 +1,4 @@
-"""Regions of poses: entries, files, and the poses of their coordinates. Studies over them are in test_exchange.py."""
+"""Regions of poses: entries, files, the poses of their coordinates. Studies are in optimize/test_region_study.py."""
 
 import math
 

@@ -1,20 +1,20 @@
 """Finished pieces of an optimization: a run that goes on behind them gives the same result, bit for bit."""
 
-import os
 import shutil
-import signal
 
 import pytest
+from interrupts import InterruptedPhase
 
 import ninedof as nd
 from ninedof import _core
 from ninedof.chunks import Store
 from ninedof.support.json import encode
 
-LONG = pytest.mark.skipif("NINEDOF_LONG" not in os.environ, reason="half a minute")
 REGION = {"box": [0.4, 0.0, 0.0]}
 VARIABLES = {"zp": (1.0, 6.0)}
 LIMITS = {"radius_ratio": {"max": 2.0}, "leg_ratio": {"max": 2.4}}
+PROVED = nd.Study(constraints={"radius_ratio": {"max": 2.0}, "leg_clearance": {"min": 0.1}}, starts=4)
+"""A proof leaves the clearance out: the study without it is solved too, from which the proof begins."""
 
 
 def study(rule):
@@ -23,99 +23,115 @@ def study(rule):
 
 
 def plain(result):
-    return encode({name: value for name, value in result.to_dict().items() if name != "seconds"})
+    """Everything but the times."""
+
+    def timeless(value):
+        return {name: timeless(x) for name, x in value.items() if name != "seconds"} if type(value) is dict else value
+
+    return encode(timeless(result.to_dict()))
+
+
+def optimize(asked, **options):
+    return nd.optimize(asked, certify=asked is PROVED, **options)
 
 
 class Killed(Exception):
     """Stands for the end of the process."""
 
 
-@pytest.fixture(scope="module", params=["shifted", pytest.param("best", marks=LONG)])
+@pytest.fixture(scope="module", params=["shifted", "best", "proved"])
 def whole(request, tmp_path_factory):
     """A study, its result without a folder, and the folder of a second run with all pieces."""
     folder = tmp_path_factory.mktemp("pieces") / "chunks"
-    asked = study(request.param)
-    return asked, nd.optimize(asked), nd.optimize(asked, out=folder), folder
+    asked = PROVED if request.param == "proved" else study(request.param)
+    return asked, optimize(asked), optimize(asked, out=folder), folder
+
+
+def count_calls(monkeypatch):
+    """Return a list to which every search and proof of the core adds its name."""
+    computed = []
+    for name in ("optimize", "optimize_region", "prove_optimum"):
+        call = getattr(_core, name)
+        monkeypatch.setattr(_core, name, lambda *given, call=call, name=name: computed.append(name) or call(*given))
+    return computed
 
 
 def test_pieces_change_nothing(whole):
-    _, without, kept, _ = whole
+    asked, without, kept, folder = whole
     assert plain(kept) == plain(without)
+    assert len(list(folder.glob("chunk-*"))) == (3 if asked is PROVED else 1)
 
 
 def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole, tmp_path, monkeypatch):
     """Killed as a piece is written: the piece is lost, those before it are not computed again."""
     asked, without, _, folder = whole
     count = len(list(folder.glob("chunk-*")))
-    assert count > 1
-    write, computed = Store.write, []
+    write = Store.write
 
     def killed(store, k, arrays):
         if k == count // 2:
             raise Killed
         write(store, k, arrays)
 
-    def counted(name):
-        call = getattr(_core, name)
-        monkeypatch.setattr(_core, name, lambda *arguments: computed.append(name) or call(*arguments))
-
     monkeypatch.setattr(Store, "write", killed)
     with pytest.raises(Killed):
-        nd.optimize(asked, out=tmp_path)
+        optimize(asked, out=tmp_path)
     monkeypatch.setattr(Store, "write", write)
-    for name in ("optimize", "optimize_placed", "search_region", "search_region_placed"):
-        counted(name)
-    assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
-    assert len(computed) == count - count // 2
-    assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
-    assert len(computed) == count - count // 2
+    computed = count_calls(monkeypatch)
+    for _ in range(2):
+        assert plain(optimize(asked, out=tmp_path)) == plain(without)
+        searches = [name for name in computed if name.startswith("optimize")]
+        assert len(searches) == 1  # of a proof, that without the clearance
 
 
-class Stopping:
-    """Presses Ctrl-C in a later round."""
-
-    def __init__(self, rounds):
-        self.left = rounds
-
-    def phase(self, _):
-        self.left -= 1
-
-    def __call__(self, *_):
-        if self.left < 0:
-            signal.raise_signal(signal.SIGINT)
+PHASES = {"shifted": "round 1, ", "best": "O placed, round 1, "}
 
 
-def test_after_ctrl_c_no_finished_round_and_no_search_is_done_again(whole, tmp_path, monkeypatch):
+def test_after_ctrl_c_what_is_finished_is_not_done_again(whole, tmp_path, monkeypatch):
+    """A study over a region is one piece: it begins anew."""
+    asked, without, _, _ = whole
+    if asked is PROVED:
+        with pytest.raises(KeyboardInterrupt):  # between two calls of the core
+            optimize(asked, out=tmp_path, progress=InterruptedPhase("proving"))
+    else:
+        bar = InterruptedPhase(PHASES[asked.objective.region.internal_point])
+        assert optimize(asked, out=tmp_path, progress=bar).interrupted
+    assert len(list(tmp_path.glob("chunk-*"))) == (2 if asked is PROVED else 0)
+    computed = count_calls(monkeypatch)
+    assert plain(optimize(asked, out=tmp_path)) == plain(without)
+    assert ("optimize_region" in computed) == (asked is not PROVED)
+    assert "optimize" not in computed
+
+
+def test_what_the_time_ended_is_not_kept(whole, tmp_path):
+    """The next call, with any limit, solves it anew; what is finished does not depend on the limit."""
     asked, without, _, folder = whole
-    stopped = nd.optimize(asked, out=tmp_path, progress=Stopping(1))
-    assert stopped.interrupted
-    finished, computed = len(list(tmp_path.glob("chunk-*"))), []
-    assert finished > 1
-    for name in ("optimize", "optimize_placed", "search_region", "search_region_placed"):
-        call = getattr(_core, name)
-        monkeypatch.setattr(_core, name, lambda *given, call=call: computed.append(call) or call(*given))
-    assert plain(nd.optimize(asked, out=tmp_path)) == plain(without)
-    assert len(computed) == len(list(folder.glob("chunk-*"))) - finished
+    ended = optimize(asked, out=tmp_path, time_limit=1e-9)
+    assert (ended.status, ended.interrupted) == ("stopped", False)
+    assert not list(tmp_path.glob("chunk-*"))
+    assert plain(optimize(asked, out=tmp_path, time_limit=600.0)) == plain(without)
+    assert plain(optimize(asked, out=folder, time_limit=1e-9)) == plain(without)
 
 
 def test_a_damaged_piece_is_computed_again(whole, tmp_path):
     asked, without, _, given = whole
     folder = shutil.copytree(given, tmp_path / "chunks")
-    piece = folder / "chunk-00000001"
+    piece = folder / "chunk-00000000"
     data = bytearray(piece.read_bytes())
     data[-40] ^= 4
     piece.write_bytes(data)
-    assert plain(nd.optimize(asked, out=folder)) == plain(without)
+    assert plain(optimize(asked, out=folder)) == plain(without)
     assert piece.read_bytes() != data
 
 
 def test_another_question_is_refused(whole):
     asked, without, _, folder = whole
+    certify = asked is PROVED
     for other in (asked.with_solver(5), asked.with_solver(None, 1)):
         with pytest.raises(ValueError, match=r"out: got .*another question \(it differs in study\)"):
-            nd.optimize(other, out=folder)
+            nd.optimize(other, certify=certify, out=folder)
     with pytest.raises(ValueError, match=r"it differs in warm"):
-        nd.optimize(asked, out=folder, warm=without.best.variables)
+        nd.optimize(asked, certify=certify, out=folder, warm=without.best.variables)
     with pytest.raises(ValueError, match="out: got 7, expected a path"):
         nd.optimize(asked, out=7)
 

@@ -196,7 +196,7 @@ def test_no_text_has_an_exponent():
 
 
 def test_a_design_on_its_limit_keeps_it():
-    """Over a region the optimizer leaves up to 1e-7, which a motion and the viewer called a violation."""
+    """Over a region the optimizer may leave up to 1e-7, which a motion and the viewer called a violation."""
     assert not is_violated(-0.9e-6)
     assert is_violated(-1.1e-6)
     assert is_violated(np.nan)
@@ -218,13 +218,14 @@ def test_a_design_on_its_limit_keeps_it():
     )
     found = nd.optimize(study)
     assert "no limit is passed" in found.region.words
+    tighter = replace(study, constraints={"leg_length": {"max": 690.0 * (1.0 - 1e-7)}})  # it leaves less here
     home, round_ = found.best.configuration, np.linspace(0.0, 2.0 * np.pi, 20_001)
     tilts = 0.09 * np.stack([np.cos(round_), np.sin(round_), 0.0 * round_], axis=1)
     for corner in np.array(np.meshgrid([-40.0, 40.0], [-40.0, 40.0], [-20.0, 20.0])).reshape(3, -1).T:
         shift = np.tile(corner, (len(tilts), 1))
         turned = Rotation.from_rotvec(tilts).as_matrix() @ home.rotation
         poses = nd.Configuration(home.position + shift, turned, home.internal_point + shift)
-        least = min(float(one.margin.min()) for one in pose_limits(study, found.geometry, poses, home, 150.0))
+        least = min(float(one.margin.min()) for one in pose_limits(tighter, found.geometry, poses, home, 150.0))
         worst = min(worst, least)
     assert -1.1e-7 < worst < -1e-9
     assert not is_violated(worst)

@@ -4,7 +4,7 @@ import entry_things as it
 
 # A line with every option that takes a value; those that exclude each other are in several lines.
 LINES = {
-    "optimize": ["{study} --starts 1 --seed 0 --threads 1 --out {out} --no-report"],
+    "optimize": ["{study} --starts 1 --seed 0 --threads 1 --time 60 --out {out} --no-report"],
     "pareto": [
         "{study} --against radius_ratio --value 1.9 --starts 1 --threads 1 --out {out} --no-report",
         "{study} --against radius_ratio --points 2 --starts 1 --out {out} --no-report",

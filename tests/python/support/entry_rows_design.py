@@ -48,7 +48,7 @@ row("Study")(
 row("Study.paper", nd.Study.paper)(dict)
 row("Study.from_dict", nd.Study.from_dict, words={"data": ("study", *OF_ROBOT)})(lambda: {"data": it.study().to_dict()})
 row("Study.to_dict", lambda: it.study().to_dict())(dict)
-row("Study.problem", lambda: it.study().problem())(dict)
+row("Study.problem", lambda **how: it.study().problem(**how))(lambda: {"over_region": False})
 DESIGN = {"a2": 5.0, "b1": 3.0, "zp": 4.0, "zs": 2.0, "theta_z": 0.0}
 row("Study.evaluate", lambda **a: it.study().evaluate(**a), nan=("variables",), words={"variables": OF_ROBOT})(
     lambda: {"variables": dict(DESIGN)}
@@ -116,7 +116,7 @@ row("Objective.from_dict", nd.Objective.from_dict, words={"data": ("objective",)
     }
 )
 row("Objective.to_dict", nd.Objective().to_dict)(dict)
-row("Objective.for_core", nd.Objective().for_core)(dict)
+row("Objective.for_core", nd.Objective().for_core)(lambda: {"over_region": False})
 row("Objective.worded", nd.Objective(region=REGION).worded)(lambda: {"unit": "mm", "imposed": 3})
 row("poses.box", poses.box)(lambda: {"half": (0.1, 0.1, 0.1), "tilt": None, "tilt_deg": [5.0, 0.0, 0.0], **OF_A_SET})
 row("poses.ball", poses.ball, words={"points": ("points", "number")})(
@@ -143,6 +143,7 @@ row("optimize", huge=("starts",), few=25, loose=("out",))(
         "warm": [DESIGN | {"a1": 0.0, "b2": 0.0}],
         "certify": False,
         "out": None,
+        "time_limit": 60.0,
     }
 )
 row("trace", words={"start": OF_ROBOT}, nan=("start",))(

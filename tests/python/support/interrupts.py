@@ -66,3 +66,19 @@ def interrupted_on_entry(name):
         setattr(_core, name, core)
         sys.setswitchinterval(interval)
         found.stop()
+
+
+class InterruptedPhase:
+    """A progress callback that sends SIGINT where a phase begins whose words begin in this way, for the nth time."""
+
+    def __init__(self, words, nth=1):
+        self.phases, self._words, self._left = [], words, nth
+
+    def __call__(self, *_):
+        pass
+
+    def phase(self, words):
+        self.phases.append(words)
+        self._left -= words.startswith(self._words)
+        if self._left == 0:
+            signal.raise_signal(signal.SIGINT)

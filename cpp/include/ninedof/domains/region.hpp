@@ -30,6 +30,7 @@ struct Region {
   double tilt = 0.0;    ///< greatest angle of a rotation about a horizontal axis, radians
   double yaw = 0.0;     ///< rotations about z, before the tilt, go from minus to plus this
   bool shifted = true;  ///< whether s moves with p (s - p as at the neutral pose) or is held
+  bool placed = false;  ///< whether s is placed anew at every pose: then shifts of s count from the neutral one
   bool in_zp = false;   ///< whether positions are in fractions of zp
 
   /// A pose has six coordinates: the shift of p (on a path only the first, from -1 to 1), the two horizontal components

@@ -28,6 +28,7 @@ struct Settings {
   int threads = 0;                         ///< 0: one per processor; the result does not depend on it
   int max_evaluations = 500;               ///< of one SLSQP call; a start makes several where it does not converge
   std::vector<Eigen::VectorXd> warm = {};  ///< additional starts, full sets of variables
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; the best so far is returned after it
 
   /// Throws InvalidArgument naming what is wrong.
   void validate() const;

@@ -45,6 +45,7 @@ struct Result {
   Status status = Status::stopped;
   std::string reason;  ///< one sentence
   std::vector<std::string> causes;  ///< variables or constraints behind `unbounded` or `infeasible`
+  std::vector<int> cause_poses;  ///< of `infeasible`: the poses of the objective that exclude each other with these
   std::vector<Candidate>
       candidates;  ///< distinct local optima, up to relabelling, best first; empty if nothing acceptable was found
   long evaluations = 0;  ///< designs evaluated by SLSQP, over all starts and rounds

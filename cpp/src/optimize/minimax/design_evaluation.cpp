@@ -49,28 +49,38 @@ double margin_of(const PreparedProblem& p, const DesignEvaluation& design, int k
   return out > worst_margin ? out : worst_margin;
 }
 
-void evaluate_margins(const PreparedProblem& p, const RowSelection* selection, DesignEvaluation& out) {
-  const auto count = static_cast<Eigen::Index>(p.margins.size());
-  out.margins.resize(count);
-  out.margin_gradient.resize(count, out.state.columns());
-  for (Eigen::Index k = 0; k < count; ++k) out.margins[k] = margin_of(p, out, static_cast<int>(k));
-  const auto differentiate = [&](Eigen::Index k) {
-    const auto [constraint, row] = p.margins[at_index(k)];
-    out.margin_gradient.row(k).setZero();
-    if (out.margins[k] <= worst_margin) return;
-    if (constraint < 0) {
-      const PoseSpectrum& s = out.spectra[at_index(-1 - constraint)];
-      const auto [top, bottom] = condition_pair(s, row);
-      out.margin_gradient.row(k) = s.gradient.row(bottom) - s.gradient.row(top);
-    } else p.constraints[at_index(constraint)]->add_gradient(out.state, row, out.margin_gradient.row(k));
-  };
-  if (selection == nullptr)
-    for (Eigen::Index k = 0; k < count; ++k) differentiate(k);
-  else
-    for (const int k : selection->margins) differentiate(k);
+void differentiate_margin(const PreparedProblem& p, int k, DesignEvaluation& out) {
+  const auto [constraint, row] = p.margins[at_index(k)];
+  out.margin_gradient.row(k).setZero();
+  if (out.margins[k] <= worst_margin) return;
+  if (constraint < 0) {
+    const PoseSpectrum& s = out.spectra[at_index(-1 - constraint)];
+    const auto [top, bottom] = condition_pair(s, row);
+    out.margin_gradient.row(k) = s.gradient.row(bottom) - s.gradient.row(top);
+  } else p.constraints[at_index(constraint)]->add_gradient(out.state, row, out.margin_gradient.row(k));
+}
+
+/// The rows of the index at an evaluated pose.
+void fill_rows(const PreparedProblem& p, int pose, DesignEvaluation& out) {
+  const Index index = p.problem.objective.index;
+  const PoseSpectrum& s = out.spectra[at_index(pose)];
+  const int row = p.first_row(pose);
+  if (out.smoothing > 0.0 && p.has_kinks() && !s.closed)
+    fill_soft_index(index, s, out.smoothing, row, out.objective_rows, out.row_gradient);
+  else fill_index(index, s, row, out.objective_rows, out.row_gradient);
 }
 
 }  // namespace
+
+RowSelection selection_of(const PreparedProblem& p, std::vector<int> row_levels, std::vector<int> margins) {
+  RowSelection out{std::move(row_levels), std::move(margins),
+                   std::vector<bool>(at_index(p.evaluated_spectra()), false)};
+  for (const int k : out.row_levels) out.spectra[at_index(p.pose_of(p.row_levels[at_index(k)].row))] = true;
+  for (const int k : out.margins)
+    if (const int constraint = p.margins[at_index(k)].constraint; constraint < 0)
+      out.spectra[at_index(-1 - constraint)] = true;
+  return out;
+}
 
 void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignEvaluation& out,
                      const RowSelection* selection) {
@@ -79,24 +89,38 @@ void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignE
 }
 
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection) {
-  const int poses = p.evaluated_poses();
+  const auto margins = static_cast<Eigen::Index>(p.margins.size());
+  const Eigen::Index columns = out.state.columns();
   out.spectra.resize(at_index(p.evaluated_spectra()));
   out.objective_rows.resize(p.rows);
-  out.row_gradient.resize(p.rows, out.state.columns());
+  out.margins.resize(margins);
+  const auto fit = [&](Rows& gradient, Eigen::Index rows) {
+    if (gradient.rows() != rows || gradient.cols() != columns) gradient.setZero(rows, columns);
+  };
+  fit(out.row_gradient, p.rows);
+  fit(out.margin_gradient, margins);
   for (int k = 0; k < p.evaluated_spectra(); ++k) {
     evaluate_spectrum(p, k, selection == nullptr || selection->spectra[at_index(k)], out);
-    const PoseSpectrum& s = out.spectra[at_index(k)];
-    if (k >= poses) continue;
-    if (out.smoothing > 0.0 && p.has_kinks() && !s.closed)
-      fill_soft_index(p.problem.objective.index, s, out.smoothing, p.first_row(k), out.objective_rows,
-                      out.row_gradient);
-    else fill_index(p.problem.objective.index, s, p.first_row(k), out.objective_rows, out.row_gradient);
+    if (k < p.evaluated_poses()) fill_rows(p, k, out);
   }
   out.levels.setConstant(p.levels, -infinity);
   for (const RowLevel& u : p.row_levels) out.levels[u.level] = std::max(out.levels[u.level], out.objective_rows[u.row]);
   out.log_objective = p.objective(out.levels);
+  for (Eigen::Index k = 0; k < margins; ++k) out.margins[k] = margin_of(p, out, static_cast<int>(k));
+  if (selection == nullptr)
+    for (Eigen::Index k = 0; k < margins; ++k) differentiate_margin(p, static_cast<int>(k), out);
+  else
+    for (const int k : selection->margins) differentiate_margin(p, k, out);
+}
 
-  evaluate_margins(p, selection, out);
+void differentiate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection) {
+  for (int k = 0; k < p.evaluated_spectra(); ++k) {
+    if (!selection.spectra[at_index(k)]) continue;
+    if (!p.closed[at_index(k)])
+      differentiate_spectrum(out.state, pose_of_spectrum(p, out.state, k), out.spectra[at_index(k)]);
+    if (k < p.evaluated_poses()) fill_rows(p, k, out);
+  }
+  for (const int k : selection.margins) differentiate_margin(p, k, out);
 }
 
 double evaluate_margin(const PreparedProblem& p, DesignEvaluation& out, int k, Row gradient) {
@@ -128,6 +152,12 @@ int pose_of_margin(const PreparedProblem& p, const DesignState& state, int k) {
   const auto [constraint, row] = p.margins[at_index(k)];
   return constraint < 0 ? pose_of_spectrum(p, state, -1 - constraint)
                         : p.constraints[at_index(constraint)]->pose_of(state, row);
+}
+
+std::vector<int> poses_of_margin(const PreparedProblem& p, const DesignState& state, int k) {
+  const auto [constraint, row] = p.margins[at_index(k)];
+  if (constraint < 0) return {pose_of_margin(p, state, k)};
+  return p.constraints[at_index(constraint)]->poses_of(state, row);
 }
 
 double order_violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y) {

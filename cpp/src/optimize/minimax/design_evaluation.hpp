@@ -23,12 +23,18 @@ struct RowSelection {
   std::vector<bool> spectra;  ///< whether a selected row needs the singular values
 };
 
+/// These rows; without any, values alone.
+RowSelection selection_of(const PreparedProblem& p, std::vector<int> row_levels = {}, std::vector<int> margins = {});
+
 /// Evaluates the design at `y` into `out`; all derivatives, or those of a selection. The others are left as they were.
 void evaluate_design(const PreparedProblem& p, const Eigen::VectorXd& y, DesignEvaluation& out,
                      const RowSelection* selection = nullptr);
 
 /// The same for a design whose state is set.
 void evaluate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection* selection = nullptr);
+
+/// The derivatives of a selection, of a design that was evaluated without them.
+void differentiate_rows(const PreparedProblem& p, DesignEvaluation& out, const RowSelection& selection);
 
 /// One margin of a design whose state is set, and its derivatives in `gradient`. Nothing else is computed but the
 /// singular values, where it is one of them.
@@ -39,6 +45,8 @@ double evaluate_index(const PreparedProblem& p, DesignEvaluation& out, int pose,
 
 /// The pose that a margin looks at besides home, an index of DesignState::poses.
 int pose_of_margin(const PreparedProblem& p, const DesignState& state, int k);
+/// The same, or the two poses that it compares.
+std::vector<int> poses_of_margin(const PreparedProblem& p, const DesignState& state, int k);
 
 /// Largest violation of the margins and of zs < zp; 0 if none. Bounds always hold.
 double violation(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y);

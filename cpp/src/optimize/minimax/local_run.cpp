@@ -15,12 +15,17 @@ constexpr std::array smoothings{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 /// Tolerances of SLSQP, with Newton's method after it and without.
 constexpr double loose = 1e-10, tight = 1e-13;
 
+/// Relative difference of objectives that is not worth an optimum: what lies below it by less is only next to one.
+constexpr double next_to = 1e-8;
+
 /// Whether `next` is the better point: regular before singular, feasible before infeasible, then the lower objective,
 /// then, of two equal ones, the more nearly stationary.
 bool improves(const Candidate& next, const Candidate& now) {
   if (next.regular() != now.regular()) return next.regular();
   if (next.feasible() != now.feasible()) return next.feasible();
   if (!next.feasible()) return next.constraint_violation < now.constraint_violation;
+  if (next.stationary() != now.stationary() && std::abs(next.objective - now.objective) <= next_to * now.objective)
+    return next.stationary();
   if (std::abs(next.objective - now.objective) > 1e-10 * now.objective) return next.objective < now.objective;
   return next.optimality_residual < now.optimality_residual;
 }
@@ -43,8 +48,7 @@ ActiveSet active_near(const PreparedProblem& p, const Eigen::VectorXd& y, Contac
                       DesignEvaluation& design) {
   design.state.length_joint = p.pieces(y).front();
   design.smoothing = smoothing;
-  evaluate_design(p, y, design);
-  return active_set(p, design, y, contact);
+  return evaluate_active(p, y, contact, design);
 }
 
 /// The point after Newton's method, or `y` where it cannot start.
@@ -76,9 +80,9 @@ bool add_violated(const PreparedProblem& p, const Eigen::VectorXd& y, ActiveSet&
 }
 
 /// The same from a design of another solver, such as a warm start. What carries no weight may move until it violates.
-Eigen::VectorXd polished_support(const PreparedProblem& p, const Eigen::VectorXd& y) {
+Eigen::VectorXd polished_support(const PreparedProblem& p, const Eigen::VectorXd& y, Contact contact) {
   DesignEvaluation design;
-  const ActiveSet active = active_near(p, y, Contact::wide, 0.0, design);
+  const ActiveSet active = active_near(p, y, contact, 0.0, design);
   const Stationarity found = stationarity(p, design, active);
   if (!(found.residual < nearly_stationary)) return y;
   ActiveSet support = found.support;
@@ -100,8 +104,7 @@ Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
   const std::vector<int> pieces = p.pieces(y);
   DesignEvaluation design;
   design.state.length_joint = pieces.front();
-  evaluate_design(p, y, design);
-  const ActiveSet active = active_set(p, design, y);
+  const ActiveSet active = evaluate_active(p, y, Contact::exact, design);
   Stationarity s = stationarity(p, design, active);
   Candidate out;
   out.variables = p.without_auxiliary(design.state.x);
@@ -119,8 +122,8 @@ Candidate candidate_at(const PreparedProblem& p, const Eigen::VectorXd& at) {
   // A minimum where pieces meet is one of each. Relaxing a limit gains what it gains in the best of them.
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     design.state.length_joint = pieces[k];
-    evaluate_design(p, y, design);
-    const Stationarity other = stationarity(p, design, active_set(p, design, y));
+    const ActiveSet there = evaluate_active(p, y, Contact::exact, design);
+    const Stationarity other = stationarity(p, design, there);
     out.optimality_residual = std::max(out.optimality_residual, other.residual);
     for (const auto& [name, price] : other.prices) out.prices[name] = std::max(out.prices[name], price);
   }
@@ -134,7 +137,8 @@ Eigen::VectorXd solve_all_pieces(const PreparedProblem& p, const Eigen::VectorXd
   const auto value = [&](const Eigen::VectorXd& y) {
     DesignEvaluation design;
     design.smoothing = smoothing;
-    evaluate_design(p, y, design);
+    const RowSelection none = selection_of(p);
+    evaluate_design(p, y, design, &none);
     return violation(p, design, y) > clearly_feasible ? infinity : design.log_objective;
   };
   std::vector<int> tried{p.pieces(from).front()};  // since the objective fell
@@ -178,8 +182,10 @@ LocalRun run_from_start(const PreparedProblem& p, const Eigen::VectorXd& start, 
   };
 
   if (minimax && run_settings.polish) {
-    take(polished_support(p, y));
-    if (settled()) return run;
+    for (const Contact contact : {Contact::wide, Contact::near}) {
+      take(polished_support(p, y, contact));
+      if (settled()) return run;
+    }
   }
   Eigen::VectorXd from = y;
   for (int attempt = 0; attempt <= run_settings.restarts && !stop.stop_requested(); ++attempt) {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/linear/eigenvectors.hpp"
+#include "math/linear/jacobi_svd.hpp"
 #include "math/linear/minimax_step.hpp"
 #include "math/numbers.hpp"
+#include "optimize/polish/cluster.hpp"
 #include "problem/constraints/constraint.hpp"
 
 namespace ninedof {
@@ -16,6 +19,9 @@ constexpr double longest_shift = 0.25;   // in zp
 constexpr double first_curvature = 10.0;
 constexpr double least_gain_of_step = 1e-12, least_decrease = 0.05, shortest_share = 1e-4;
 constexpr int most_placing_steps = 60;
+constexpr double row_rounding = 1e-15;
+constexpr int most_cuts = 8;             // directions of singular vectors that join a step
+constexpr double cut_passed = 1e-12;     // by which the index may pass the level of a step
 
 /// The problem with one pose where s is a variable, off the axis so that the closed form is not used.
 Problem with_free_point(Problem problem) {
@@ -34,7 +40,9 @@ PlacedPose::PlacedPose(const Problem& problem, const Eigen::VectorXd& variables,
       specs_(p_.pose_specs),
       shift_variable_(specs_.at(1).offset),
       between_plates_(make_between_plates({0})) {
-  none_.spectra.assign(at_index(p_.evaluated_spectra()), false);
+  none_ = selection_of(p_);
+  const Index index = p_.problem.objective.index;
+  has_directions_ = index == Index::condition_number || index == Index::speed;
   list_rows(variables);
 }
 
@@ -78,8 +86,11 @@ void PlacedPose::set_design(const Eigen::VectorXd& variables) {
   p_.set_state(x, design_.state);
 }
 
-void PlacedPose::set_pose(const Pose& pose) {
-  for (std::size_t k = 1; k < specs_.size(); ++k) specs_[k].pose = pose;
+void PlacedPose::set_pose(const Pose& pose, const std::optional<PoseSlopes>& slopes) {
+  for (std::size_t k = 1; k < specs_.size(); ++k) {
+    specs_[k].pose = pose;
+    specs_[k].slopes = slopes;
+  }
 }
 
 double PlacedPose::value(const Row& row) const {
@@ -102,16 +113,15 @@ double PlacedPose::shown_margin(const Row& row, double margin) const {
   return share_of_limit(row.kind == Row::Kind::longest ? Side::high : Side::low, margin).value;
 }
 
+Vec3 PlacedPose::free_of(const Eigen::RowVectorXd& g) const {
+  return {g[shift_variable_[0]], g[shift_variable_[1]], g[shift_variable_[2]]};
+}
+
 Vec3 PlacedPose::gradient(const Row& row) const {
   const PoseState& at = design_.state.pose(1);
-  const auto free = [&](const auto& gradients) {
-    Vec3 out;
-    for (int axis = 0; axis < 3; ++axis) out[axis] = gradients(row.item, shift_variable_[at_index(axis)]);
-    return out;
-  };
   switch (row.kind) {
-    case Row::Kind::index: return free(design_.row_gradient);
-    case Row::Kind::limit: return -free(design_.margin_gradient);
+    case Row::Kind::index: return free_of(design_.row_gradient.row(row.item));
+    case Row::Kind::limit: return -free_of(design_.margin_gradient.row(row.item));
     case Row::Kind::longest:
     case Row::Kind::shortest: {
       if (leg_ends(row.item).to != point_s) return Vec3::Zero();
@@ -122,7 +132,7 @@ Vec3 PlacedPose::gradient(const Row& row) const {
     case Row::Kind::plates: {
       Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(design_.state.columns());
       between_plates_->add_gradient(design_.state, row.item, g);
-      return -Vec3(g[shift_variable_[0]], g[shift_variable_[1]], g[shift_variable_[2]]);
+      return -free_of(g);
     }
     case Row::Kind::box:
       return design_.state.x[shift_variable_[at_index(row.item)]] < 0.0 ? Vec3(-Vec3::Unit(row.item))
@@ -145,47 +155,137 @@ double PlacedPose::evaluate(const Vec3& shift) {
 void PlacedPose::select(double least) {
   near_.clear();
   for (Eigen::Index k = 0; k < values_.size(); ++k)
-    if (values_[k] >= least) near_.push_back(k);
+    if (values_[k] >= least) near_.push_back({k});
+}
+
+void PlacedPose::turn_index_rows() {
+  if (!has_directions_) return;
+  for (Piece& piece : near_) {
+    const Row& row = rows_[at_index(piece.row)];
+    if (row.kind != Row::Kind::index) continue;
+    const bool condition = p_.problem.objective.index == Index::condition_number;
+    piece.row = -1;
+    piece.top = Vec3::Unit(condition ? row.item / 3 : row.item);
+    if (condition) piece.bottom = Vec3::Unit(row.item % 3);
+  }
 }
 
 void PlacedPose::differentiate() {
   selection_.margins.clear();
-  bool spectra = false;
-  for (const Eigen::Index k : near_) {
-    const Row& row = rows_[at_index(k)];
+  bool spectra = false, directions = false;
+  for (const Piece& piece : near_) {
+    directions |= piece.row < 0;
+    if (piece.row < 0) continue;
+    const Row& row = rows_[at_index(piece.row)];
     if (row.kind == Row::Kind::limit) selection_.margins.push_back(row.item);
     spectra |=
         row.kind == Row::Kind::index || (row.kind == Row::Kind::limit && p_.margins[at_index(row.item)].constraint < 0);
   }
   selection_.spectra.assign(at_index(p_.evaluated_spectra()), spectra);
-  evaluate_rows(p_, design_, &selection_);
+  differentiate_rows(p_, design_, selection_);
+  if (directions) {
+    tops_ = cluster_block(design_, 0, {0, 1, 2});
+    if (p_.problem.objective.index == Index::condition_number) bottoms_ = cluster_block(design_, 0, {5, 4, 3});
+  }
   gradients_.resize(static_cast<Eigen::Index>(near_.size()), 3);
   for (std::size_t i = 0; i < near_.size(); ++i)
-    gradients_.row(static_cast<Eigen::Index>(i)) = gradient(rows_[at_index(near_[i])]).transpose();
+    gradients_.row(static_cast<Eigen::Index>(i)) = gradient(near_[i]).transpose();
+}
+
+Eigen::RowVectorXd PlacedPose::along(const Piece& piece) const {
+  Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(design_.state.columns());
+  std::size_t entry = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j, ++entry) {
+      const double twice = i == j ? 1.0 : 2.0;
+      if (const double w = twice * piece.top[i] * piece.top[j]; w != 0.0) out += w * tops_[entry];
+      if (const double w = twice * piece.bottom[i] * piece.bottom[j]; w != 0.0) out -= w * bottoms_[entry];
+    }
+  return out;
+}
+
+Vec3 PlacedPose::gradient(const Piece& piece) const {
+  return piece.row < 0 ? free_of(along(piece)) : gradient(rows_[at_index(piece.row)]);
+}
+
+double PlacedPose::value(const Piece& piece) const {
+  if (piece.row >= 0) return values_[piece.row];
+  const Vec6& log_sigma = design_.spectra.front().log_sigma;
+  double out = -goal_.log_index;
+  for (int k = 0; k < 3; ++k) out += square(piece.top[k]) * log_sigma[k] - square(piece.bottom[k]) * log_sigma[5 - k];
+  return out;
+}
+
+PlacedPose::Piece PlacedPose::steepest(const Vec3& step) const {
+  const Vec6& log_sigma = design_.spectra.front().log_sigma;
+  const auto matrix = [&](const std::vector<Eigen::RowVectorXd>& block, bool top) {
+    Eigen::MatrixXd out(3, 3);
+    std::size_t entry = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        out(i, j) = out(j, i) = free_of(block[entry++]).dot(step) + (i == j ? log_sigma[top ? i : 5 - i] : 0.0);
+    return out;
+  };
+  Piece out{-1, least_eigenvector(-matrix(tops_, true))};
+  if (p_.problem.objective.index == Index::condition_number) out.bottom = least_eigenvector(matrix(bottoms_, false));
+  return out;
+}
+
+MinimaxStep PlacedPose::least_step(const Mat3& curvature) {
+  Eigen::VectorXd f(static_cast<Eigen::Index>(near_.size()));
+  for (std::size_t i = 0; i < near_.size(); ++i) f[static_cast<Eigen::Index>(i)] = value(near_[i]);
+  MinimaxStep out = minimax_step(f, gradients_, curvature);
+  const bool directions = std::ranges::any_of(near_, [](const Piece& piece) { return piece.row < 0; });
+  for (int cut = 0; directions && cut < most_cuts; ++cut) {
+    const Piece piece = steepest(out.step);
+    const double at_start = value(piece);
+    const Vec3 slope = gradient(piece);
+    if (!(at_start + slope.dot(out.step) > out.level + cut_passed)) break;
+    const Eigen::Index n = f.size();
+    near_.push_back(piece);
+    f.conservativeResize(n + 1);
+    f[n] = at_start;
+    gradients_.conservativeResize(n + 1, 3);
+    gradients_.row(n) = slope.transpose();
+    out = minimax_step(f, gradients_, curvature);
+  }
+  return out;
+}
+
+Mat6 PlacedPose::vectors() const {
+  return design_.spectra.front().general.twist;
+}
+
+void PlacedPose::carry(std::vector<Piece>& pieces, const Mat6& from) const {
+  const Mat6 overlap = vectors().transpose() * from;
+  const Mat3 top = nearest_orthogonal(overlap.topLeftCorner<3, 3>());
+  const Mat3 bottom = nearest_orthogonal(overlap.bottomRightCorner<3, 3>().reverse());
+  for (Piece& piece : pieces) {
+    if (piece.row >= 0) continue;
+    piece.top = top * piece.top;
+    piece.bottom = bottom * piece.bottom;
+  }
 }
 
 double PlacedPose::place(Vec3& shift, double enough) {
   double worst = evaluate(shift);
   if (!(worst < largest_row)) return worst;
   Mat3 curvature = first_curvature * Mat3::Identity();
-  std::vector<Eigen::Index> last_rows;  // of the step before, with their weights and gradients
+  std::vector<Piece> last;  // of the step before, with their weights and gradients
   Eigen::VectorXd last_weight;
   Gradient last_gradient;
   Vec3 moved = Vec3::Zero();
+  Mat6 last_vectors = Mat6::Zero();
   for (int k = 0; k < most_placing_steps && worst > enough; ++k) {
     select(worst - row_window);
-    // Rows of the last step are needed for the curvature of what held with equality.
-    for (const Eigen::Index row : last_rows)
-      if (std::ranges::find(near_, row) == near_.end()) near_.push_back(row);
-    std::ranges::sort(near_);
+    turn_index_rows();
+    // Pieces of the last step are needed for the curvature of what held with equality.
+    const auto first = static_cast<Eigen::Index>(near_.size());
+    if (has_directions_ && !last.empty()) carry(last, last_vectors);
+    near_.insert(near_.end(), last.begin(), last.end());
     differentiate();
-    if (!last_rows.empty()) {
-      Vec3 bend = Vec3::Zero();
-      for (std::size_t i = 0; i < last_rows.size(); ++i) {
-        const auto here = std::ranges::find(near_, last_rows[i]) - near_.begin();
-        const auto n = static_cast<Eigen::Index>(i);
-        bend += last_weight[n] * (gradients_.row(here) - last_gradient.row(n)).transpose();
-      }
+    if (!last.empty()) {
+      const Vec3 bend = (gradients_.bottomRows(gradients_.rows() - first) - last_gradient).transpose() * last_weight;
       // Damped, so that it stays positive definite (Powell).
       const Vec3 pull = curvature * moved;
       const double along = moved.dot(pull), met = moved.dot(bend);
@@ -195,11 +295,25 @@ double PlacedPose::place(Vec3& shift, double enough) {
         curvature += y * y.transpose() / moved.dot(y) - pull * pull.transpose() / along;
       }
     }
-    Eigen::VectorXd f(static_cast<Eigen::Index>(near_.size()));
-    for (std::size_t i = 0; i < near_.size(); ++i) f[static_cast<Eigen::Index>(i)] = values_[near_[i]];
-    const MinimaxStep step = minimax_step(f, gradients_, curvature);
+    const MinimaxStep step = least_step(curvature);
     const double predicted = worst - step.level;
-    if (!(predicted > least_gain_of_step) || !step.step.allFinite()) break;
+    if (!(predicted > least_gain_of_step) || !step.step.allFinite()) {
+      // The value is there, the slopes not yet: one more step takes them from the root of that gain to zero.
+      if (predicted > 0.0 && step.step.allFinite() && evaluate(shift + step.step) <= worst + row_rounding)
+        shift += step.step;
+      worst = evaluate(shift);
+      break;
+    }
+    last.clear();
+    std::vector<Eigen::Index> carrying;
+    for (Eigen::Index i = 0; i < step.weight.size(); ++i)
+      if (step.weight[i] > 0.0) {
+        carrying.push_back(i);
+        last.push_back(near_[at_index(i)]);
+      }
+    last_weight = step.weight(carrying);
+    last_gradient = gradients_(carrying, Eigen::all);
+    if (has_directions_) last_vectors = vectors();
     double share = std::min(1.0, longest_shift / std::max(step.step.norm(), 1e-300));
     double next = infinity;
     for (; share >= shortest_share; share *= 0.5) {
@@ -213,16 +327,6 @@ double PlacedPose::place(Vec3& shift, double enough) {
     moved = share * step.step;
     shift += moved;
     worst = next;
-    last_rows.clear();
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < near_.size(); ++i)
-      if (const double w = step.weight[static_cast<Eigen::Index>(i)]; w > 0.0) {
-        weights.push_back(w);
-        last_rows.push_back(near_[i]);
-        last_gradient.conservativeResize(static_cast<Eigen::Index>(weights.size()), 3);
-        last_gradient.row(static_cast<Eigen::Index>(weights.size()) - 1) = gradients_.row(static_cast<Eigen::Index>(i));
-      }
-    last_weight = Eigen::VectorXd::Map(weights.data(), static_cast<Eigen::Index>(weights.size()));
   }
   return worst;
 }
@@ -250,13 +354,13 @@ PlacedEnd PlacedPose::end(const Placed& placed) {
 }
 
 PlacedPose::Outer PlacedPose::empty(Eigen::Index rows) const {
-  const Eigen::Index own = design_.state.columns() - 3, legs = 9 * static_cast<Eigen::Index>(goal_.ranges.size());
-  return {Eigen::VectorXd::Zero(rows), Rows::Zero(rows, own), Rows::Zero(rows, legs), Eigen::VectorXd::Zero(rows)};
+  const Eigen::Index legs = 9 * static_cast<Eigen::Index>(goal_.ranges.size());
+  return {Eigen::VectorXd::Zero(rows), Rows::Zero(rows, own()), Rows::Zero(rows, legs), Eigen::VectorXd::Zero(rows),
+          Rows::Zero(rows, design_.state.columns() - own() - 3)};
 }
 
 void PlacedPose::add_outer(const Row& row, double weight, Eigen::Index k, Outer& out) {
-  const Eigen::Index own = out.by_variables.cols();
-  Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(own + 3);
+  Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(design_.state.columns());
   DesignState& state = design_.state;
   const PoseState& at = state.pose(1);
   switch (row.kind) {
@@ -280,7 +384,8 @@ void PlacedPose::add_outer(const Row& row, double weight, Eigen::Index k, Outer&
       break;
     case Row::Kind::box: break;
   }
-  out.by_variables.row(k) += weight * g.head(own);
+  out.by_variables.row(k) += weight * g.head(own());
+  out.by_at.row(k) += weight * g.tail(out.by_at.cols());
 }
 
 PlacedPose::Outer PlacedPose::least(const Vec3& shift) {
@@ -288,14 +393,23 @@ PlacedPose::Outer PlacedPose::least(const Vec3& shift) {
   Outer out = empty(1);
   out.value[0] = worst;
   select(worst - row_window);
+  turn_index_rows();
   differentiate();
-  Eigen::VectorXd f(static_cast<Eigen::Index>(near_.size()));
-  for (std::size_t i = 0; i < near_.size(); ++i) f[static_cast<Eigen::Index>(i)] = values_[near_[i]];
   // By the envelope theorem the shift of s may be held.
-  const MinimaxStep step = minimax_step(f, gradients_, first_curvature * Mat3::Identity());
-  for (std::size_t i = 0; i < near_.size(); ++i)
-    if (const double w = step.weight[static_cast<Eigen::Index>(i)]; w > 0.0)
-      add_outer(rows_[at_index(near_[i])], w, 0, out);
+  const MinimaxStep step = least_step(first_curvature * Mat3::Identity());
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const double w = step.weight[static_cast<Eigen::Index>(i)];
+    if (!(w > 0.0)) continue;
+    const Piece& piece = near_[i];
+    if (piece.row >= 0) {
+      add_outer(rows_[at_index(piece.row)], w, 0, out);
+      continue;
+    }
+    const Eigen::RowVectorXd g = along(piece);
+    out.by_index[0] -= w;
+    out.by_variables.row(0) += w * g.head(own());
+    out.by_at.row(0) += w * g.tail(out.by_at.cols());
+  }
   return out;
 }
 

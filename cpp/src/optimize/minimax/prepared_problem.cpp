@@ -122,13 +122,14 @@ void PreparedProblem::drop_repeated_margins() {
   // Symmetry makes many margins the same function; these agree at a few unrelated designs.
   std::vector<Eigen::VectorXd> probed;
   DesignEvaluation design;
+  const RowSelection none = selection_of(*this);
   for (int k = 0; k < probes; ++k) {
     // Offsets of s and auxiliary variables take unrelated values, so that margins do not agree by chance.
     Eigen::VectorXd y = coordinates.start(7 * k + 1, 12345);
     for (int v = 0; v < coordinates.size(); ++v)
       if (coordinates.info(v).internal_bounds && coordinates.info(v).kind == VariableKind::fraction)
         y[v] = 0.01 * std::sin(1.0 + 3.0 * v + 7.0 * k);
-    evaluate_design(*this, y, design);
+    evaluate_design(*this, y, design, &none);
     probed.push_back(design.margins);
   }
   const auto same = [&](std::size_t a, std::size_t b) {
@@ -166,6 +167,12 @@ bool PreparedProblem::has_kinks() const {
   const Index index = problem.objective.index;
   return (index == Index::condition_number || index == Index::speed) &&
          std::ranges::find(closed, false) != closed.end();
+}
+
+int PreparedProblem::objective_pose(int state_pose) const {
+  if (state_pose <= objective_poses) return state_pose - 1;
+  const int between = (static_cast<int>(pose_specs.size()) - 1 - objective_poses) / objective_poses;
+  return (state_pose - 1 - objective_poses) / between;
 }
 
 int PreparedProblem::pose_of(int row) const {

@@ -78,6 +78,8 @@ struct PreparedProblem {
   /// First row of an evaluated pose, and the pose of a row.
   int first_row(int pose) const { return first_row_[at_index(pose)]; }
   int pose_of(int row) const;
+  /// The pose of the objective that a pose of DesignState::poses is or lies on the way to; -1 at home.
+  int objective_pose(int state_pose) const;
 
   /// The logarithm of the objective and its derivatives with respect to the levels.
   double objective(const Eigen::VectorXd& levels, Eigen::VectorXd* slopes = nullptr) const;

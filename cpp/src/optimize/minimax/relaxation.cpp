@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
 namespace ninedof {
 namespace {
@@ -144,8 +145,7 @@ Eigen::VectorXd Relaxation::coordinates(const Eigen::VectorXd& variables) const 
 
 DesignEvaluation Relaxation::evaluated(const Eigen::VectorXd& y) const {
   DesignEvaluation design;
-  RowSelection none;  // no derivatives
-  none.spectra.assign(at_index(p_.evaluated_spectra()), false);
+  const RowSelection none = selection_of(p_);
   evaluate_design(p_, y, design, &none);
   return design;
 }
@@ -170,6 +170,23 @@ double Relaxation::violation(const Eigen::VectorXd& y, const Demands& counted) c
   for (std::size_t d = 0; d < demands_.size(); ++d)
     if (counted[d]) worst = std::max(worst, violation(demands_[d], design, y));
   return worst;
+}
+
+std::vector<int> Relaxation::poses(const Eigen::VectorXd& y, const Demands& counted) const {
+  const DesignEvaluation design = evaluated(y);
+  const DesignState& state = design.state;
+  if (p_.problem.objective.poses.empty()) return {};
+  const double nearly_worst = violation(y, counted) - same_violation;
+  std::set<int> out;
+  for (std::size_t d = 0; d < demands_.size(); ++d) {
+    if (!counted[d] || violation(demands_[d], design, y) < nearly_worst) continue;
+    for (const int k : demands_[d].margins) {
+      if (-p_.violation_factor(k) * design.margins[k] < nearly_worst) continue;
+      for (const int pose : poses_of_margin(p_, state, k)) out.insert(p_.objective_pose(pose));
+    }
+  }
+  out.erase(-1);  // home
+  return {out.begin(), out.end()};
 }
 
 Eigen::VectorXd Relaxation::least(const Eigen::VectorXd& start, const Demands& counted, const Demands& give,

@@ -19,6 +19,9 @@ struct Demand {
   bool is_bound() const { return coordinate >= 0; }
 };
 
+/// Difference of violations that counts as none.
+inline constexpr double same_violation = 1e-5;
+
 /// Which demands count, by their index.
 using Demands = std::vector<bool>;
 
@@ -45,6 +48,9 @@ class Relaxation {
   double violation(const Eigen::VectorXd& y, const Demands& counted) const;
   /// Of each demand.
   std::vector<double> violations(const Eigen::VectorXd& y) const;
+
+  /// The poses of the objective where the demands that count are violated most.
+  std::vector<int> poses(const Eigen::VectorXd& y, const Demands& counted) const;
 
   /// The design near `start` that violates those of the counted demands least that `give`, and no other. If limits and
   /// no bounds give, the study's own rules (O between the plates) give with them.

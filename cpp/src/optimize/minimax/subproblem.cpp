@@ -75,16 +75,6 @@ void Subproblem::select_rows() {
     if (design_.margins[k] <= large_margin) selection_.margins.push_back(static_cast<int>(k));
 }
 
-void Subproblem::select_spectra() {
-  selection_.spectra.assign(at_index(p_.evaluated_spectra()), false);
-  for (const int k : selection_.row_levels)
-    selection_.spectra[at_index(p_.pose_of(p_.row_levels[at_index(k)].row))] = true;
-  for (const int k : selection_.margins) {
-    const int constraint = p_.margins[at_index(k)].constraint;
-    if (constraint < 0) selection_.spectra[at_index(-1 - constraint)] = true;
-  }
-}
-
 bool Subproblem::add_violated() {
   const auto has = [](const std::vector<int>& list, int k) { return std::ranges::binary_search(list, k); };
   std::vector<int> row_levels, margins;
@@ -133,7 +123,7 @@ void Subproblem::fill(const Eigen::VectorXd& at, Nlp::Values& out) const {
 
 Eigen::VectorXd Subproblem::run(const Eigen::VectorXd& from, double tolerance, int max_evaluations) {
   const int n = p_.coordinates.size();
-  select_spectra();
+  selection_ = selection_of(p_, std::move(selection_.row_levels), std::move(selection_.margins));
   Nlp nlp = bounded_nlp(p_, minimax() ? p_.levels : 0,
                         (minimax() ? selection_.row_levels.size() : 0) + selection_.margins.size() + 1);
   nlp.evaluate = [&](const Eigen::VectorXd& at, Nlp::Values& out) {
@@ -160,13 +150,14 @@ Eigen::VectorXd Subproblem::solve(const Eigen::VectorXd& from, int piece, double
   best_seen_objective_ = infinity;
   design_.smoothing = smoothing;
   design_.state.length_joint = piece;
-  evaluate_design(p_, from, design_);
+  const RowSelection none = selection_of(p_);
+  evaluate_design(p_, from, design_, &none);
   select_rows();
   Eigen::VectorXd y = from;
   for (int k = 0; k < selections; ++k) {
     y = run(y, tolerance, max_evaluations);
     if (stop_.stop_requested()) break;
-    evaluate_design(p_, y, design_);
+    evaluate_design(p_, y, design_, &none);
     if (!add_violated()) break;
   }
   return y;

@@ -42,7 +42,6 @@ class Subproblem {
 
  private:
   void select_rows();
-  void select_spectra();
   bool add_violated();
   void fill(const Eigen::VectorXd& at, Nlp::Values& out) const;
   Eigen::VectorXd run(const Eigen::VectorXd& from, double tolerance, int max_evaluations);

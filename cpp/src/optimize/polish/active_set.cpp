@@ -34,6 +34,15 @@ ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, c
   return a;
 }
 
+ActiveSet evaluate_active(const PreparedProblem& p, const Eigen::VectorXd& y, Contact contact,
+                          DesignEvaluation& design) {
+  const RowSelection none = selection_of(p);
+  evaluate_design(p, y, design, &none);
+  ActiveSet out = active_set(p, design, y, contact);
+  differentiate_rows(p, design, selection_of(p, out.row_levels, out.margins));
+  return out;
+}
+
 std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a) {
   std::vector<std::string> out;
   // Internal bounds are not reported, except for that of the offset of O.

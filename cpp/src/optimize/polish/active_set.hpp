@@ -23,6 +23,10 @@ enum class Contact { exact, near, wide };
 ActiveSet active_set(const PreparedProblem& p, const DesignEvaluation& design, const Eigen::VectorXd& y,
                      Contact contact = Contact::exact);
 
+/// Evaluates the design at `y`, with the derivatives of what is active there.
+ActiveSet evaluate_active(const PreparedProblem& p, const Eigen::VectorXd& y, Contact contact,
+                          DesignEvaluation& design);
+
 /// Names of the variables and constraints in an active set, each once.
 std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a);
 
@@ -34,10 +38,17 @@ std::vector<std::string> names(const PreparedProblem& p, const ActiveSet& a);
 /// vectors: there every direction of the cluster counts as a row, and the rows that matter are added one by one.
 struct Stationarity {
   double residual = 0.0;
+  /// By how much the objective could be lower, relative and to first order, because what counts as active is so only to
+  /// 1e-6: the distances of the active values from their limits, weighted.
+  double slack = 0.0;
   std::map<std::string, double> prices;  ///< see Candidate::prices
   ActiveSet support;                     ///< the active set without rows and margins of no weight
 };
 Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a);
+
+/// The slack of a stationary point with the fewest active values that make it stationary: neighbouring poses have nearly
+/// the same gradients, and any of them may carry the weight.
+double least_slack(const PreparedProblem& p, const Eigen::VectorXd& y);
 
 /// Newton's method on the first-order conditions of an active set near `y`: its rows and margins as equations, second
 /// derivatives by differences of exact gradients. Returns the last point reached, inside the bounds; the caller judges

@@ -138,7 +138,8 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, c
     held[at_index(k)] = true;
     y[k] = p.coordinates.high()[k];
   }
-  evaluate_design(p, y, design);
+  const RowSelection rows = selection_of(p, active.row_levels, active.margins);
+  evaluate_design(p, y, design, &rows);
   std::vector<Eigen::Index> moving;
   for (int k = 0; k < n; ++k)
     if (!held[at_index(k)]) moving.push_back(k);
@@ -150,12 +151,12 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, c
   for (int step = 0; step < newton_steps && m > 0; ++step) {
     // Unknowns (y, t); equations value = t of their level, or 0.
     const Equations e = equations.at(design);
-    const Eigen::Index rows = e.value.size();
+    const Eigen::Index count = e.value.size();
     const Eigen::MatrixXd g = e.gradient(Eigen::all, moving);
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, unknowns);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(count, unknowns);
     jacobian.leftCols(m) = g;
     Eigen::VectorXd miss = e.value;
-    for (Eigen::Index k = 0; k < rows; ++k) {
+    for (Eigen::Index k = 0; k < count; ++k) {
       const int level = e.level[at_index(k)];
       if (level < 0) continue;
       jacobian(k, m + level) = -1.0;
@@ -166,19 +167,19 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, c
     slope.tail(levels) = slopes;
     const Eigen::VectorXd multipliers = least_norm_transposed(jacobian, -slope);
 
-    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(unknowns + rows, unknowns + rows);
+    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(unknowns + count, unknowns + count);
     for (Eigen::Index k = 0; k < m; ++k) {
       Eigen::VectorXd near = y;
       near[moving[at_index(k)]] += difference_step;
-      evaluate_design(p, near, ahead);
+      evaluate_design(p, near, ahead, &rows);
       kkt.col(k).head(m) =
           (equations.at(ahead).gradient(Eigen::all, moving) - g).transpose() * multipliers / difference_step;
     }
     kkt.topLeftCorner(m, m) = (0.5 * (kkt.topLeftCorner(m, m) + kkt.topLeftCorner(m, m).transpose())).eval();
     kkt.block(m, m, levels, levels) = level_curvature(p, t);
-    kkt.topRightCorner(unknowns, rows) = jacobian.transpose();
-    kkt.bottomLeftCorner(rows, unknowns) = jacobian;
-    Eigen::VectorXd right(unknowns + rows);
+    kkt.topRightCorner(unknowns, count) = jacobian.transpose();
+    kkt.bottomLeftCorner(count, unknowns) = jacobian;
+    Eigen::VectorXd right(unknowns + count);
     right << -(slope + jacobian.transpose() * multipliers), -miss;
     if (!kkt.allFinite() || !right.allFinite()) break;
     const Eigen::VectorXd move = least_norm(kkt, right).head(unknowns);
@@ -186,7 +187,7 @@ Eigen::VectorXd polish(const PreparedProblem& p, const Eigen::VectorXd& start, c
     for (Eigen::Index k = 0; k < m; ++k) y[moving[at_index(k)]] += move[k];
     y = y.cwiseMax(p.coordinates.low()).cwiseMin(p.coordinates.high());
     t += move.tail(levels);
-    evaluate_design(p, y, design);
+    evaluate_design(p, y, design, &rows);
     if (move.head(m).norm() < 1e-12) break;
   }
   return y;

@@ -1,5 +1,6 @@
 /// Declared in optimize/polish/active_set.hpp.
 
+#include <array>
 #include <cmath>
 
 #include "math/linear/least_squares.hpp"
@@ -11,6 +12,9 @@ namespace ninedof {
 namespace {
 
 constexpr double cluster_tie = 1e-6;  // of logarithms of singular values that count as one
+constexpr double least_weight = 1e-6;  // of what holds a design; those of a level sum to its slope
+constexpr std::array narrower_ties{1e-10, 1e-9, 1e-8, 1e-7};
+constexpr double stationary_residual = 1e-6;  // see Candidate::stationary
 constexpr int cluster_rounds = 40;    // directions added one by one; two or three settle a pair
 
 /// Columns of the least-squares problem: a derivative in solver coordinates, the level its weight counts for, and the
@@ -101,12 +105,26 @@ Weights balance_clusters(const PreparedProblem& p, const DesignEvaluation& desig
 ActiveSet carrying(const ActiveSet& a, const Columns& columns, const Eigen::VectorXd& w, std::size_t first_margin) {
   std::vector<bool> carries(a.row_levels.size(), false);
   for (Eigen::Index k = 0; k < columns.count(); ++k)
-    if (columns.row[at_index(k)] >= 0 && w[k] > 0.0) carries[at_index(columns.row[at_index(k)])] = true;
+    if (columns.row[at_index(k)] >= 0 && w[k] > least_weight) carries[at_index(columns.row[at_index(k)])] = true;
   ActiveSet out{{}, {}, a.at_low, a.at_high, a.order};
   for (std::size_t k = 0; k < carries.size(); ++k)
     if (carries[k]) out.row_levels.push_back(a.row_levels[k]);
   for (std::size_t k = 0; k < a.margins.size(); ++k)
-    if (w[static_cast<Eigen::Index>(first_margin + k)] > 0.0) out.margins.push_back(a.margins[k]);
+    if (w[static_cast<Eigen::Index>(first_margin + k)] > least_weight) out.margins.push_back(a.margins[k]);
+  return out;
+}
+
+/// The weighted distances of rows from their level and of margins from zero.
+double slack_of(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a, const Columns& columns,
+                const Eigen::VectorXd& w, std::size_t first_margin) {
+  double out = 0.0;
+  for (Eigen::Index k = 0; k < columns.count(); ++k)
+    if (const int item = columns.row[at_index(k)]; item >= 0) {
+      const RowLevel& u = p.row_levels[at_index(a.row_levels[at_index(item)])];
+      out += w[k] * (design.levels[u.level] - design.objective_rows[u.row]);
+    }
+  for (std::size_t k = 0; k < a.margins.size(); ++k)
+    out += w[static_cast<Eigen::Index>(first_margin + k)] * std::max(0.0, design.margins[a.margins[k]]);
   return out;
 }
 
@@ -129,7 +147,7 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
   const Eigen::Index n = p.coordinates.size();
   if (n == 0) return {};
   if (!design.objective_rows.allFinite() || !design.row_gradient.allFinite() || !design.margin_gradient.allFinite())
-    return {infinity, {}, {}};
+    return {infinity, 0.0, {}, {}};
   if (least_possible(p, design)) return {};
   Columns columns;
   for (std::size_t k = 0; k < a.row_levels.size(); ++k) {
@@ -158,12 +176,38 @@ Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& desi
   const Weights settled = balance_clusters(p, design, a, slopes, columns);
   Stationarity out;
   out.residual = settled.residual.norm();
+  out.slack = slack_of(p, design, a, columns, settled.w, limited);
   for (std::size_t k = 0; k < named.size(); ++k) {
     const auto& [name, factor] = named[k];
     if (!name.empty()) out.prices[name] += factor * settled.w[static_cast<Eigen::Index>(limited + k)];
   }
   std::erase_if(out.prices, [](const auto& price) { return !(price.second > 1e-9); });
   out.support = carrying(a, columns, settled.w, limited);
+  return out;
+}
+
+double least_slack(const PreparedProblem& p, const Eigen::VectorXd& at) {
+  const Eigen::VectorXd y = p.with_auxiliary(at);
+  double out = 0.0;
+  for (const int piece : p.pieces(y)) {
+    DesignEvaluation design;
+    design.state.length_joint = piece;
+    const ActiveSet all = evaluate_active(p, y, Contact::exact, design);
+    Stationarity found = stationarity(p, design, all);
+    for (const double tie : narrower_ties) {
+      ActiveSet a = all;
+      std::erase_if(a.row_levels, [&](int k) {
+        const RowLevel& u = p.row_levels[at_index(k)];
+        return design.levels[u.level] - design.objective_rows[u.row] > tie;
+      });
+      std::erase_if(a.margins, [&](int k) { return design.margins[k] > tie; });
+      const Stationarity narrower = stationarity(p, design, a);
+      if (!(narrower.residual <= stationary_residual)) continue;
+      found = narrower;
+      break;
+    }
+    out = std::max(out, found.slack);
+  }
   return out;
 }
 

@@ -31,6 +31,8 @@ class Constraint {
   Side side_of(int row) const { return item_of(row).first; }
   /// The pose that a row looks at besides home, an index of DesignState::poses.
   int pose_of(const DesignState& v, int row) const { return pose(v, item_of(row).second); }
+  /// All poses that a row looks at where the value of the constraint is that of a few.
+  virtual std::vector<int> poses_of(const DesignState& v, int row) const { return {pose_of(v, row)}; }
   /// Of a row with this margin: 1 - value / high or value / low - 1; of a determinant, which has no scale, value - low.
   ShownMargin shown(int row, double margin) const {
     return form() == SolverMargin::logarithm ? share_of_limit(side_of(row), margin) : ShownMargin{margin, 1.0};

@@ -42,6 +42,15 @@ class Spread : public Constraint {
     return 0.5 * (phi(v, shortest(v, group)) + phi(v, longest(v, group)) - room());
   }
 
+  std::vector<int> poses_of(const DesignState& v, int row) const override {
+    const auto [side, item] = item_of(row);
+    if (side == Side::low) return {longest(v, item).pose, shortest(v, item).pose};
+    const int group = item / each(), k = item % each();
+    if (way_ == Way::auxiliary) return {leg(v, group, k % count_).pose};
+    const auto [a, b] = pair(v, group, k);
+    return {a.pose, b.pose};
+  }
+
  private:
   SolverMargin form() const override { return row_.solver; }
   enum class Way { pairs, auxiliary, ruling };

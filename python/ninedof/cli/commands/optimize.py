@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -27,6 +28,7 @@ from ninedof.runs.command_file import Input
 from ninedof.runs.describe import describe_comparison
 from ninedof.runs.figures import figures_of
 from ninedof.runs.folder import write_run
+from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.units import amount, unit_entry
 from ninedof.verify.verdict import check as examine
@@ -40,6 +42,8 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof optimize study.toml --certify    with a proof of how much better any design can be
 
+  ninedof optimize study.toml --time 60    the best design of a minute, and what is left to gain
+
   ninedof optimize --json --no-figures | jq .optimization.status"""
 
 
@@ -50,6 +54,9 @@ def optimize(
     starts: Starts = None,
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None,
     threads: Threads = None,
+    time: Annotated[
+        float | None, typer.Option(help="Seconds after which the search ends with the best design so far.")
+    ] = None,
     figures: Figures = True,
     report: Report = True,
     convergence: Annotated[
@@ -72,10 +79,13 @@ def optimize(
     chosen = (Study.paper() if study is None else Study.load(study)).with_solver(starts, seed)
     if convergence and not figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
+    if time is not None and not finite("--time", time) > 0.0:
+        raise ValueError(f"--time: got {time:g}, expected seconds, more than 0")
     if certify:
         left_out_of(chosen)  # raises where no proof is known, before the work
     with run_folder(out, resume, reads) as directory:
-        how = {"threads": threads, "certify": certify, "out": directory / CHUNKS}
+        limit = math.inf if time is None else time
+        how = {"threads": threads, "certify": certify, "time_limit": limit, "out": directory / CHUNKS}
         run: Comparison | Result
         run = _solve_paper(chosen, how, screen) if study is None else _solve_study(chosen, study.name, how, screen)
     result = run if isinstance(run, Result) else run.result
@@ -94,7 +104,7 @@ def optimize(
     proof = f", {CERTIFICATE}" if (directory / CERTIFICATE).is_file() else ""
     screen.print(f"run folder {directory}: {record.name}{proof}{drawn}{report_words(directory)}")
     screen.data({**unit_entry(chosen.unit), **data, "record": str(record)})
-    raise typer.Exit(exit_status(result))
+    raise typer.Exit(exit_status(result, timed=time is not None))
 
 
 def _solve_paper(study: Study, how: dict[str, Any], screen: Screen) -> Comparison:

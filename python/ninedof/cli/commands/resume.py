@@ -33,7 +33,7 @@ def resume(
 ) -> None:
     """Go on with an interrupted run: its command, with the study it had then. What was kept is not done again.
 
-    Kept are finished rounds of a region, points of a front and blocks of a table; what was under way begins anew.
+    Kept are solved studies, points of a front and blocks of a table; what was under way begins anew.
     A proof that ended before all was decided goes on too, for the time that its command has.
     """
     files = _commands(run)

@@ -3,15 +3,15 @@
 Oracle: `check`, which draws its own poses and evaluates all limits in numpy.
 """
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from interrupts import InterruptedPhase
 from sizes import size
 
 import ninedof as nd
-from ninedof.optimize import exchange
-from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import posed
 from ninedof.verify.region import random_poses
 
@@ -133,6 +133,7 @@ STUDIES = {
         starts=2,
     ),
 }
+HUGE = 10**5  # starts: minutes of work
 QUICK = size(["turns, frobenius", "mean, one variable"], list(STUDIES))
 SOLVED = {}
 
@@ -144,11 +145,12 @@ def solved(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", STUDIES)
 def test_limits_hold_between_the_poses(name):
     result = solved(name)
     assert result.status == "optimal", result.reason
     assert result.region.margin >= -1e-7
+    assert 0.0 <= result.region.gain <= 1e-6
     worst = max(result.conditions) if result.study.objective.aggregate == "weighted" else result.objective
     if result.study.objective.aggregate != "mean_inverse":
         assert result.region.objective <= worst * (1.0 + 3e-7)
@@ -174,7 +176,8 @@ def test_a_mean_is_stated_as_it_is_at_poses_that_the_optimizer_did_not_use():
     """Oracle: the condition numbers of poses drawn in numpy, with a standard error of their own."""
     result = solved("mean, one variable")
     average = result.region.mean
-    assert result.objective == average.value != average.quadrature
+    assert result.objective == pytest.approx(average.value, rel=1e-14)
+    assert average.value != average.quadrature
     assert average.standard_error < 0.5 * average.error
     there = posed(result.study, random_poses(result.study.objective.region, 9000, np.random.default_rng(12), 0.0))
     c = there.evaluate(result.variables).configurations[1:]
@@ -231,59 +234,72 @@ def test_threads_do_not_change_the_result():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("solves", [0, 1])
-def test_an_interruption_keeps_the_best_design(monkeypatch, solves):
-    """Ctrl-C in the first search between the poses, and in the second."""
-    searched = []
-
-    def interrupted(*arguments):
-        searched.append(arguments)
-        if len(searched) > solves:
-            raise KeyboardInterrupt
-        return found(*arguments)
-
-    found = exchange.search
-    monkeypatch.setattr(exchange, "search", interrupted)
-    result = nd.optimize(STUDIES["turns, frobenius"])
+@pytest.mark.parametrize("search", ["round 1, ", "round 2, "])
+def test_an_interruption_keeps_the_best_design(search):
+    """Ctrl-C before the first round and the second: the design of the last one that was solved."""
+    study = STUDIES["turns, frobenius"]
+    bar = InterruptedPhase(search)
+    result = nd.optimize(study, progress=bar)
     assert (result.status, result.interrupted) == ("stopped", True)
-    assert result.best is not None
-    assert result.region.looked_at == 0
-    assert "not looked at" in result.summary()
-    assert f"over {len(result.region.poses)} poses of the neutral position, tilts" in result.words
+    assert bar.phases[-1].startswith(search)
+    there = nd.optimize(posed(study, first_poses(study.objective.region)))
+    assert result.objective == pytest.approx(there.objective, rel=1e-9)
     assert result.words in result.summary()
+    if search == "round 1, ":
+        assert f"over {len(result.region.poses)} poses of the neutral position, tilts" in result.words
+        assert result.region.looked_at == 0
+        assert math.isinf(result.region.gain)
+        assert "not looked at" in result.summary()
+    else:
+        assert result.reason.startswith("ended in round 2; the best so far at the poses imposed")
+        assert result.region.looked_at > 4000
+        assert 0.0 < result.region.gain < 1.0
+        assert result.region.margin < -1e-7
 
 
-def test_an_interruption_in_a_later_round_keeps_the_design_of_the_one_before():
-    """The solver is stopped before it has a design in the second round."""
-    study, rounds = replace(STUDIES["turns, frobenius"], starts=1), []
-
-    def solve(posed, starts, warm):
-        rounds.append(posed)
-        found = nd.optimize(posed, starts=1)
-        return found if len(rounds) == 1 else replace(found, candidates=(), status="stopped", interrupted=True)
-
-    result = exchange.optimize_region(study, solve, None, 1, Pieces())
-    assert len(rounds) == 2
-    assert (result.status, result.interrupted) == ("stopped", True)
-    assert result.objective == nd.optimize(rounds[0], starts=1).objective
-    assert result.reason.startswith("interrupted in round 2; the best so far at the poses imposed")
-    assert result.words.endswith(
-        "poses of the neutral position, tilts of at most 20 degrees, yaws of at most 20 degrees"
-    )
+def test_an_interruption_before_a_design_leaves_none():
+    result = nd.optimize(STUDIES["turns, frobenius"], progress=InterruptedPhase("all starts, "))
+    assert (result.status, result.interrupted, result.best, result.region) == ("stopped", True, None, None)
 
 
-def test_a_moved_pose_takes_the_place_of_the_old_one_once():
-    region = nd.Region(box=(1.0, 1.0, 1.0))
-    cause = ("stroke", 3)
-    at = [(x, 0.0, 0.0, 0.0, 0.0, 0.0) for x in (1.0, 0.9, 0.85, -0.5)]
-    joined = exchange._joined(region, [(cause, at[0])], [(cause, at[1]), (cause, at[2]), (cause, at[3])], False)
-    assert joined == [(cause, at[1]), (cause, at[3])]
-    assert len(exchange._joined(region, [(cause, at[0])], [(cause, at[1])], True)) == 2
+@pytest.mark.slow
+def test_time_ends_a_search_with_the_best_design():
+    """While many starts are followed; how good the design is between the poses is known then too."""
+    study = STUDIES["box, strokes"]
+    result = nd.optimize(study, starts=HUGE, time_limit=1.0)
+    assert (result.status, result.interrupted) == ("stopped", False)
+    assert result.best is not None
+    assert result.seconds < 10.0
+    assert result.region.looked_at >= 100_000
+    assert math.isfinite(result.region.gain)
+    assert "left to gain" in result.reason
+    whole = solved("box, strokes")
+    assert nd.optimize(study, time_limit=1e6).objective == whole.objective
+    assert math.isfinite(whole.region.gain)
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, math.nan, "1"])
+def test_a_time_limit_is_a_positive_number(seconds):
+    with pytest.raises(ValueError, match="time_limit: got"):
+        nd.optimize(nd.Study.paper(), time_limit=seconds)
+
+
+def first_poses(region):
+    """The poses at which a study is solved before it is searched over its region."""
+
+    def stop(done, total, best):
+        if math.isfinite(best):
+            raise KeyboardInterrupt
+
+    study = nd.Study(constraints={"radius_ratio": (None, 2.0)}, objective={"region": region}, starts=HUGE)
+    result = nd.optimize(study, progress=stop)
+    assert result.region.looked_at == 0
+    return result.region.poses
 
 
 def test_corners_of_a_path_are_imposed_first():
     region = nd.Region(path=((1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 3.0, 0.0)))
-    poses = [exchange._pose(region, at).position for at in exchange.first_poses(region)]
+    poses = [pose.position for pose in first_poses(region)]
     for corner in region.path:
         assert min(np.linalg.norm(np.subtract(corner, p)) for p in poses) < 1e-12
 
@@ -306,8 +322,8 @@ def test_check_and_sheet_see_a_limit_on_the_condition_number():
 def test_first_poses_are_in_the_region():
     """The corners about a ball or a cylinder are outside of it."""
     for region in (nd.Region(ball=2.0, tilt=0.1), nd.Region(cylinder=(1.0, 2.0), yaw=0.2), nd.Region(box=(1, 2, 3))):
-        at = np.array(exchange.first_poses(region))
-        assert np.all(np.linalg.norm(at[:, :3], axis=1) <= (2.0 if region.ball else 4.0) * (1 + 1e-12))
+        at = np.array([pose.position for pose in first_poses(region)])
+        assert np.all(np.linalg.norm(at, axis=1) <= (2.0 if region.ball else 4.0) * (1 + 1e-12))
         if region.cylinder is not None:
             assert np.all(np.linalg.norm(at[:, :2], axis=1) <= 1.0 + 1e-12)
         assert len(at) >= 9

@@ -1,0 +1,123 @@
+#include "optimize/region/exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/numbers.hpp"
+#include "optimize/polish/active_set.hpp"
+#include "optimize/verdict.hpp"
+
+namespace ninedof {
+namespace {
+
+constexpr long quick = 4'000, dense = 100'000;  // poses of a search: while the design moves, and at the end
+constexpr int most_exchanges = 40;
+constexpr double passed = 2e-8;       // what may be passed between the poses: below what is promised, 1e-7
+constexpr double one_place = 1e-9;    // of the region: nearer poses are one
+constexpr double follows_known = 1e-2;  // in coordinates of the solver
+constexpr double no_better = 2e-6;      // relative gain that is not worth the last rounds
+constexpr int first_comparison = 4;   // round from which a design is compared with the best known
+
+}  // namespace
+
+double gain_of(const Settled& found) {
+  double out = found.look.gain + found.slack;
+  for (const auto& [name, by] : found.look.passed)
+    if (const auto price = found.best.prices.find(name); price != found.best.prices.end()) out += price->second * by;
+  return out;
+}
+
+Candidate Exchange::solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly) {
+  const Problem there = posed(problem_, poses_of(problem_, region_, imposed));
+  const PreparedProblem p(there, size_limits(there).back());
+  LocalRun run = run_from_start(p, p.coordinates.coordinates(x), Formulation::minimax,
+                                {.max_evaluations = settings_.max_evaluations, .restarts = 1}, control_.stop);
+  evaluations_ += run.evaluations;
+  if (exactly && run.end.feasible() && !control_.stop.stop_requested()) {
+    // Newton's method was content with values that are equal to 1e-6 only.
+    run = run_from_start(p, p.coordinates.coordinates(run.end.variables), Formulation::minimax,
+                         {.max_evaluations = settings_.max_evaluations, .restarts = 0, .polish = false}, control_.stop);
+    evaluations_ += run.evaluations;
+  }
+  return std::move(run.end);
+}
+
+double Exchange::slack(const Settled& of) const {
+  const Problem there = posed(problem_, poses_of(problem_, region_, of.imposed));
+  const PreparedProblem p(there, size_limits(there).back());
+  return least_slack(p, p.coordinates.coordinates(of.best.variables));
+}
+
+Look Exchange::look(const Imposed& imposed, const Eigen::VectorXd& x) {
+  const auto seed = settings_.seed + static_cast<std::uint64_t>(rounds_);
+  const RegionSettings how{.samples = quick, .seed = seed, .threads = settings_.threads};
+  Look out = look_over(problem_, region_, imposed, x, how, control_);
+  if (out.excess > passed) return out;
+  return look_over(problem_, region_, imposed, x, {.samples = dense, .seed = seed, .threads = settings_.threads},
+                   control_);
+}
+
+Look Exchange::dense_look(const Settled& of, const Control& control) const {
+  const auto seed = settings_.seed + static_cast<std::uint64_t>(rounds_);
+  return look_over(problem_, region_, of.imposed, of.best.variables,
+                   {.samples = dense, .seed = seed, .threads = settings_.threads}, control);
+}
+
+bool Exchange::hopeless(const Settled& here, const Settled* known) const {
+  if (known == nullptr || !known->settled) return false;
+  if (here.best.objective > known->best.objective * (1.0 - no_better)) return true;
+  if (here.rounds < first_comparison) return false;
+  const Coordinates c(problem_, size_limits(problem_).back());
+  return (c.coordinates(here.best.variables) - c.coordinates(known->best.variables)).norm() < follows_known;
+}
+
+void Exchange::tell(const Settled& here, const Imposed& at, double excess) const {
+  if (!settings_.phase) return;
+  const std::size_t poses = at.nodes.size() + at.at.size();
+  std::string text = "round " + std::to_string(rounds_) + ", at " + std::to_string(poses) + " poses";
+  if (here.rounds > 1 && excess > passed) text += so_far(here.best.objective, excess, here.rounds - 1, passed);
+  settings_.phase(text);
+}
+
+Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, const Settled* known) {
+  Settled out;
+  Imposed imposed = first;
+  Eigen::VectorXd x = start;
+  double excess = 1.0;  // of the last design
+  bool exactly = false;
+  while (out.rounds < most_exchanges && !control_.stop.stop_requested()) {
+    ++out.rounds;
+    ++rounds_;
+    tell(out, imposed, excess);
+    Candidate next = solved(imposed, x, exactly);
+    if (control_.stop.stop_requested()) {
+      if (out.rounds == 1) out.rounds = 0;  // there is no design yet
+      break;
+    }
+    out.best = std::move(next);
+    out.imposed = imposed;
+    out.look = {};
+    if (!out.best.feasible()) break;
+    x = out.best.variables;
+    if (hopeless(out, known)) break;
+    try {
+      out.look = look(imposed, x);
+    } catch (const Stopped&) {
+      break;
+    }
+    excess = out.look.excess;
+    if (excess <= passed) {
+      out.slack = slack(out);
+      out.settled = exactly || out.slack <= passed;
+      if (out.settled) break;
+      exactly = true;
+    }
+    for (const Vec6& at : out.look.worst)
+      if (std::ranges::none_of(imposed.at,
+                               [&](const Vec6& other) { return distance_in(region_, at, other) <= one_place; }))
+        imposed.at.push_back(at);
+  }
+  return out;
+}
+
+}  // namespace ninedof

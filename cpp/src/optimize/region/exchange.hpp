@@ -1,0 +1,60 @@
+#pragma once
+/// From one design to the optimum over a region near it: solve at the poses imposed, look over the region, impose what
+/// is worse there, and again.
+
+#include "ninedof/optimize/region_study.hpp"
+#include "optimize/region/look.hpp"
+
+namespace ninedof {
+
+/// What may be left to gain near an optimum of a region, relative.
+inline constexpr double most_gain = 1e-7;
+
+/// A design of a study over a region and what is known of it.
+struct Settled {
+  Candidate best;  ///< of the problem with these poses
+  Imposed imposed;
+  Look look;       ///< of that design; without poses if a stop came before
+  int rounds = 0;
+  double slack = 0.0;    ///< of the optimum at these poses, see Stationarity
+  bool settled = false;  ///< nothing is passed, in a dense search
+};
+
+/// The work of one study, for all of its designs.
+class Exchange {
+ public:
+  Exchange(const Problem& problem, const Region& region, const RegionStudySettings& settings, const Control& control)
+      : problem_(problem), region_(region), settings_(settings), control_(control) {}
+
+  /// Follows a design, the variables of the problem without poses of the region. Gives up where it cannot become better
+  /// than `known`, or comes to where that is.
+  Settled follow(const Imposed& first, const Eigen::VectorXd& start, const Settled* known);
+
+  /// Looks at a design as densely as at one that is settled. Throws Stopped.
+  Look dense_look(const Settled& of, const Control& control) const;
+
+  /// See Settled::slack.
+  double slack(const Settled& of) const;
+
+  int rounds() const { return rounds_; }
+  long evaluations() const { return evaluations_; }
+
+ private:
+  /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
+  Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
+  Look look(const Imposed& imposed, const Eigen::VectorXd& x);
+  bool hopeless(const Settled& here, const Settled* known) const;
+  void tell(const Settled& here, const Imposed& at, double excess) const;
+
+  const Problem& problem_;
+  const Region& region_;
+  const RegionStudySettings& settings_;
+  const Control& control_;
+  int rounds_ = 0;
+  long evaluations_ = 0;
+};
+
+/// How much the objective could still fall, relative; see RegionReport::gain.
+double gain_of(const Settled& found);
+
+}  // namespace ninedof

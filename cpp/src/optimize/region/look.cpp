@@ -1,0 +1,145 @@
+#include "optimize/region/look.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "math/numbers.hpp"
+#include "ninedof/optimize/evaluate.hpp"
+#include "optimize/region/design_at_poses.hpp"
+
+namespace ninedof {
+namespace {
+
+/// A worst is one that nearly passes below this margin, or this near to the largest index.
+constexpr double worst_window = 2e-3;
+constexpr double one_pose = 1e-7;  // of the region: nearer poses are one
+
+/// The row behind the name of a margin; null for a limit on the condition number.
+const LimitRow* row_named(const std::string& name) {
+  const auto rows = limit_rows();
+  const auto found = std::ranges::find_if(rows, [&](const LimitRow& row) { return name == row.info.name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// What a limit looks at: the poses of a region, all of them together, or neither.
+bool is_of_poses(const std::string& name) {
+  const LimitRow* row = row_named(name);
+  return row != nullptr ? row->pose != nullptr : !name.ends_with(" at neutral");
+}
+bool is_of_spread(const std::string& name) {
+  const LimitRow* row = row_named(name);
+  return row != nullptr && row->spread != nullptr;
+}
+
+bool compares_poses(const Problem& problem) {
+  return std::ranges::any_of(problem.limits, [](const Limit& l) { return is_of_spread(l.label()); });
+}
+
+}  // namespace
+
+double imposed_index(const Problem& problem, const Region& region, const Imposed& imposed, const Eigen::VectorXd& x) {
+  if (problem.objective.aggregate == Aggregate::mean_inverse) return infinity;
+  Problem worst = posed(problem, poses_of(problem, region, imposed));
+  worst.objective.aggregate = Aggregate::worst;
+  worst.limits.clear();
+  return evaluate(worst, x).log_objective;
+}
+
+Look look_over(const Problem& problem, const Region& region, const Imposed& imposed, const Eigen::VectorXd& x,
+               const RegionSettings& settings, const Control& control) {
+  const Problem alone = without_poses(problem);
+  const RegionWorst found = search_region(alone, region, own_variables(problem, x), settings, control);
+  struct Worse {
+    double by;
+    Vec6 at;
+  };
+  std::vector<Worse> worse;
+  Look out;
+  out.poses = found.poses;
+  out.margin = infinity;
+  out.excess = -infinity;
+  const auto take_margin = [&](double margin, const std::string& name) {
+    out.excess = std::max(out.excess, -margin);
+    double& least = out.passed[name];
+    least = std::max(least, -margin);
+    if (margin >= out.margin) return;
+    out.margin = margin;
+    out.limit = name;
+  };
+  for (const RegionWorst::Limit& limit : found.limits) {
+    if (is_of_spread(limit.name)) continue;
+    take_margin(limit.margin, limit.name);
+    if (limit.margin < worst_window && is_of_poses(limit.name)) worse.push_back({-limit.margin, limit.at});
+  }
+  const double held = imposed_index(problem, region, imposed, x);
+  out.log_index = -infinity;
+  for (const RegionWorst::Index& end : found.index)
+    if (end.logarithm > out.log_index) {
+      out.log_index = end.logarithm;
+      out.log_index_at = end.at;
+    }
+  if (held < infinity) out.gain = std::max(0.0, out.log_index - held);
+  out.excess = std::max(out.excess, out.log_index - held);
+  for (const RegionWorst::Index& end : found.index)
+    if (end.logarithm > held - worst_window) worse.push_back({end.logarithm - held, end.at});
+  if (compares_poses(problem)) {
+    // Margins of limits that compare poses are those at the poses where legs are longest and shortest.
+    Imposed extremes;
+    for (const auto* ends : {&found.longest_at, &found.shortest_at})
+      for (const Vec6& at : *ends) {
+        extremes.at.push_back(at);
+        worse.push_back({0.0, at});
+      }
+    Problem there = posed(problem, poses_of(problem, region, extremes));
+    there.objective.aggregate = Aggregate::worst;
+    for (const Evaluation::Margin& margin : evaluate(there, x).margins)
+      if (is_of_spread(margin.name)) take_margin(margin.value, margin.name);
+  }
+  std::ranges::stable_sort(worse, std::ranges::greater(), &Worse::by);
+  for (const Worse& w : worse)
+    if (std::ranges::none_of(out.worst, [&](const Vec6& at) { return distance_in(region, at, w.at) <= one_pose; }))
+      out.worst.push_back(w.at);
+  return out;
+}
+
+std::string so_far(double objective, double excess, int rounds, double passed) {
+  const double rate = std::clamp(std::pow(excess, 1.0 / rounds), 0.05, 0.7);
+  const double ahead = std::max(1.0, std::ceil(std::log(passed / excess) / std::log(rate)));
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), ": %.7g so far, passed by %.1e between them, about %.0f round%s more",
+                objective, excess, ahead, ahead > 1.0 ? "s" : "");
+  return text.data();
+}
+
+std::vector<Vec6> nearly_deciding(const Problem& problem, const Region& region, const std::vector<Vec6>& at,
+                                  const Eigen::VectorXd& x, double near) {
+  DesignAtPoses design(problem, region, own_variables(problem, x));
+  const auto count = static_cast<int>(design.rows().margins.size());
+  std::vector<int> of_poses;
+  for (int k = 0; k < count; ++k)
+    if (is_of_poses(design.rows().margin_name(k))) of_poses.push_back(k);
+  const auto n = static_cast<Eigen::Index>(at.size());
+  Eigen::VectorXd index(n), margin = Eigen::VectorXd::Constant(n, infinity);
+  Eigen::Matrix<double, 9, Eigen::Dynamic> lengths(9, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    design.go(at[at_index(k)]);
+    index[k] = design.log_index();
+    for (const int row : of_poses) margin[k] = std::min(margin[k], design.margins()[row]);
+    lengths.col(k) = design.lengths();
+  }
+  const bool means = problem.objective.aggregate == Aggregate::mean_inverse;
+  const bool spreads = compares_poses(problem);
+  const Vec9 longest = lengths.rowwise().maxCoeff(), shortest = lengths.rowwise().minCoeff();
+  std::vector<Vec6> out;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const bool extreme = spreads && ((lengths.col(k).array() >= longest.array() * (1.0 - near)).any() ||
+                                     (lengths.col(k).array() <= shortest.array() * (1.0 + near)).any());
+    const bool worst = !means && index[k] >= index.maxCoeff() - near;
+    if (extreme || worst || margin[k] <= near) out.push_back(at[at_index(k)]);
+  }
+  return out;
+}
+
+}  // namespace ninedof

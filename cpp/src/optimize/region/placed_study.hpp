@@ -1,0 +1,14 @@
+#pragma once
+/// A study over a region with O placed anew at every pose.
+
+#include "ninedof/optimize/region_study.hpp"
+
+namespace ninedof {
+
+/// A design is good if there is a range of lengths for each leg, allowed by the limits that compare poses, such that at
+/// every pose some O keeps the index, the limits and the ranges. `shifted`: the optimum with O shifted, to begin from;
+/// the result is not worse.
+RegionResult optimize_region_placed(const Problem& problem, const Region& region, const RegionStudySettings& settings,
+                                    const Control& control, RegionResult shifted);
+
+}  // namespace ninedof
