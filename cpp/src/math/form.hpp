@@ -4,7 +4,7 @@
 ///
 /// Each operation keeps what is linear in the box and adds the rest, which is of second order, to r (affine
 /// arithmetic). Bounds then err by the square of the size of the box, as those of mean-value forms do, at a fraction
-/// of their cost. Every rounding is added to r: a sum of up to twenty terms computed in the ordinary way errs by less
+/// of their cost. Every rounding is added to r: a sum of up to thirty terms computed in the ordinary way errs by less
 /// than 32 units of 2^-53 of the sum of their moduli. An error that is infinite or NaN says that nothing is known.
 
 #include <array>
@@ -29,16 +29,22 @@ Series series(double u, int first);
 
 }  // namespace forms
 
-template <std::size_t N>
+/// Forms of degree 2 keep the products t_k t_l with k >= l as well: c + a . t + q . (t t) + d.
+template <std::size_t N, int Degree = 1>
 struct Form {
   static constexpr std::size_t size = N;
+  static constexpr bool curved = Degree == 2;
 
   double c = 0.0;
   std::array<double, N> a{};
+  [[no_unique_address]] std::array<double, curved ? N * (N + 1) / 2 : 0> q{};  ///< row after row
   double r = 0.0;
 
   Form() = default;
   Form(double constant) : c(constant) {}  // NOLINT: numbers mix freely with forms in formulas
+  template <int Lower>
+    requires(Lower < Degree)
+  explicit Form(const Form<N, Lower>& x) : c(x.c), a(x.a), r(x.r) {}
 
   /// Any number of an interval.
   static Form of(const Interval& x) {
@@ -65,16 +71,19 @@ struct Form {
   friend Form operator-(Form x) {
     x.c = -x.c;
     for (double& slope : x.a) slope = -slope;
+    for (double& bend : x.q) bend = -bend;
     return x;
   }
   friend Form operator+(const Form& x, const Form& y) {
     Form out(x.c + y.c);
     for (std::size_t k = 0; k < N; ++k) out.a[k] = x.a[k] + y.a[k];
+    for (std::size_t n = 0; n < out.q.size(); ++n) out.q[n] = x.q[n] + y.q[n];
     out.r = (x.r + y.r + forms::grain * (std::abs(out.c) + spread(out))) * (1.0 + forms::grain);
     return out;
   }
   friend Form operator-(const Form& x, const Form& y) { return x + -y; }
   friend Form operator*(const Form& x, const Form& y) {
+    if constexpr (curved) return curved_product(x, y);
     Form out;
     double diagonal = 0.0, moduli = 0.0, x_spread = 0.0, y_spread = 0.0;
     for (std::size_t k = 0; k < N; ++k) {
@@ -94,14 +103,16 @@ struct Form {
   friend Form operator*(double k, const Form& x) {
     Form out(k * x.c);
     for (std::size_t i = 0; i < N; ++i) out.a[i] = k * x.a[i];
+    for (std::size_t i = 0; i < out.q.size(); ++i) out.q[i] = k * x.q[i];
     out.r = (std::abs(k) * x.r + forms::grain * (std::abs(out.c) + spread(out))) * (1.0 + forms::grain) + forms::tiny;
     return out;
   }
 
-  /// At least the sum of |a_k|.
+  /// At least the sum of |a_k| and |q_kl|.
   friend double spread(const Form& x) {
     double out = 0.0;
     for (const double slope : x.a) out += std::abs(slope);
+    for (const double bend : x.q) out += std::abs(bend);
     return out * (1.0 + forms::grain);
   }
   /// How far values may be from c.
@@ -132,10 +143,12 @@ struct Form {
   }
   /// The second derivative of sines is at most 1.
   friend Form sin(const Form& x) {
+    if constexpr (curved) return sine(x, std::sin(x.c), std::cos(x.c));
     const double w = radius(x), rest = 0.5 * w * w;
     return linear(x, std::sin(x.c), std::cos(x.c), -rest, rest);
   }
   friend Form cos(const Form& x) {
+    if constexpr (curved) return sine(x, std::cos(x.c), -std::sin(x.c));
     const double w = radius(x), rest = 0.5 * w * w;
     return linear(x, std::cos(x.c), -std::sin(x.c), -rest, rest);
   }
@@ -145,11 +158,44 @@ struct Form {
   friend Form one_minus_cosine_over(const Form& u) { return of_squared_angle(u, 2, 1.0 / 360.0); }
 
  private:
+  /// What is left out are products of three and four t_k.
+  static Form curved_product(const Form& x, const Form& y) {
+    Form out;
+    double x_slopes = 0.0, y_slopes = 0.0, x_bends = 0.0, y_bends = 0.0;
+    for (std::size_t k = 0; k < N; ++k) {
+      x_slopes += std::abs(x.a[k]);
+      y_slopes += std::abs(y.a[k]);
+      out.a[k] = x.c * y.a[k] + y.c * x.a[k];
+    }
+    for (std::size_t n = 0; n < out.q.size(); ++n) {
+      x_bends += std::abs(x.q[n]);
+      y_bends += std::abs(y.q[n]);
+      out.q[n] = x.c * y.q[n] + y.c * x.q[n];
+    }
+    for (std::size_t k = 0, n = 0; k < N; ++k, ++n) {
+      for (std::size_t l = 0; l < k; ++l, ++n) out.q[n] += x.a[k] * y.a[l] + x.a[l] * y.a[k];
+      out.q[n] += x.a[k] * y.a[k];
+    }
+    out.c = x.c * y.c;
+    const double x_most = std::abs(x.c) + x_slopes + x_bends, y_most = std::abs(y.c) + y_slopes + y_bends;
+    out.r = (x_slopes * y_bends + x_bends * (y_slopes + y_bends) + x_most * y.r + y_most * x.r + x.r * y.r) *
+                (1.0 + forms::grain) +
+            2.0 * forms::grain * x_most * y_most + forms::tiny;
+    return out;
+  }
+  /// A sine with the value and the slope of its middle; the third derivative is at most 1.
+  static Form sine(const Form& x, double value, double slope) {
+    Form away = x;
+    away.c = 0.0;
+    const double w = radius(x), rest = w * w * w / 6.0 * (1.0 + forms::grain);
+    return linear(x, value, slope, -rest, rest) + (-0.5 * value) * (away * away);
+  }
   /// value + slope (x - x.c) + a rest within [low, high].
   static Form linear(const Form& x, double value, double slope, double low, double high) {
     const double half = 0.5 * (high - low);
     Form out(value + 0.5 * (low + high));
     for (std::size_t k = 0; k < N; ++k) out.a[k] = slope * x.a[k];
+    for (std::size_t n = 0; n < out.q.size(); ++n) out.q[n] = slope * x.q[n];
     out.r = (std::abs(slope) * x.r + half) * (1.0 + forms::grain) +
             forms::grain * (std::abs(value) + std::abs(slope) * radius(x) + std::abs(low) + std::abs(high)) +
             forms::tiny;
@@ -164,5 +210,6 @@ struct Form {
 
 /// Over a box of poses, whose six coordinates are those of a region.
 using PoseForm = Form<6>;
+using CurvedForm = Form<6, 2>;
 
 }  // namespace ninedof

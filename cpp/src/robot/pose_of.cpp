@@ -27,9 +27,4 @@ FormPose form_pose(const Configuration& c) {
   return {constant<PoseForm>(c.position), constant<PoseForm>(c.internal_point), rotation_columns(c.rotation)};
 }
 
-void Moves::add(const FormVector& v, double scale) {
-  for (const PoseForm* x : {&v.x, &v.y, &v.z})
-    for (std::size_t k = 0; k < PoseForm::size; ++k) along[k] = std::max(along[k], scale * std::abs(x->a[k]));
-}
-
 }  // namespace ninedof

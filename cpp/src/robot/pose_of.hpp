@@ -1,7 +1,9 @@
 #pragma once
 /// A pose and the points of a robot there over a number type: doubles, or linear forms over a box of poses.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "math/form.hpp"
 #include "ninedof/math/xyz.hpp"
@@ -72,7 +74,11 @@ FormPose form_pose(const Configuration& c);
 /// How far vectors move along each coordinate of a box, the most of all: what a box is divided by.
 struct Moves {
   std::array<double, PoseForm::size> along{};
-  void add(const FormVector& v, double scale = 1.0);
+  template <class T>
+  void add(const Xyz<T>& v, double scale = 1.0) {
+    for (const T* x : {&v.x, &v.y, &v.z})
+      for (std::size_t k = 0; k < T::size; ++k) along[k] = std::max(along[k], scale * std::abs(x->a[k]));
+  }
 };
 
 }  // namespace ninedof

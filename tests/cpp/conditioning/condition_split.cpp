@@ -28,9 +28,13 @@ struct Sampler {
   }
 };
 
-double at(const PoseForm& f, const Point& t) {
-  double out = f.c;
-  for (std::size_t k = 0; k < PoseForm::size; ++k) out += f.a[k] * t[k];
+template <class T>
+long double at(const T& f, const Point& t) {
+  long double out = f.c;
+  for (std::size_t k = 0; k < T::size; ++k) out += static_cast<long double>(f.a[k]) * t[k];
+  if constexpr (T::curved)
+    for (std::size_t k = 0, n = 0; k < T::size; ++k)
+      for (std::size_t l = 0; l <= k; ++l, ++n) out += static_cast<long double>(f.q[n]) * t[k] * t[l];
   return out;
 }
 
@@ -55,15 +59,16 @@ struct Case {
     };
     return {triple(3.4), triple(3.0), triple(3.2), triple(1.7)};
   }
-  FormPose pose() const {
+  template <class T = PoseForm>
+  PoseOf<T> pose() const {
     const auto form = [&](int k) {
-      return PoseForm::coordinate(home.position[k] - half, home.position[k] + half, static_cast<std::size_t>(k));
+      return T::coordinate(home.position[k] - half, home.position[k] + half, static_cast<std::size_t>(k));
     };
-    FormPose out;
+    PoseOf<T> out;
     out.p = {form(0), form(1), form(2)};
     const Vec3 apart = home.internal_point - 0.5 * home.position;
-    out.s = 0.5 * out.p + constant<PoseForm>(apart);
-    for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = constant<PoseForm>(Vec3::Unit(k));
+    out.s = 0.5 * out.p + constant<T>(apart);
+    for (int k = 0; k < 3; ++k) out.q[static_cast<std::size_t>(k)] = constant<T>(Vec3::Unit(k));
     return out;
   }
   double condition(const Point& t) const {
@@ -77,43 +82,48 @@ struct Case {
 }  // namespace
 
 TEST_SUITE("condition_split") {
-  TEST_CASE("directions at points of a box are within the error of their forms") {
+  TEST_CASE_TEMPLATE("directions at points of a box are within the error of their forms", T, PoseForm, CurvedForm) {
     Sampler draw;
     for (int trial = 0; trial < 20'000; ++trial) {
       const double size = std::exp(4.0 * draw() - 4.0), unit = trial % 5 == 0 ? 1e80 : 1.0;
-      std::array<PoseForm, 3> v;
-      for (PoseForm& x : v) {
+      std::array<T, 3> v;
+      for (T& x : v) {
         x.c = 3.0 * draw() * unit;
         for (std::size_t k = 0; k < 3; ++k) x.a[k] = size * draw() * unit;
+        for (double& bend : x.q) bend = 0.3 * size * size * draw() * unit;
         x.r = trial % 2 == 0 ? 0.0 : 0.1 * size * std::abs(draw()) * unit;
       }
-      const FormVector e = direction_of({v[0], v[1], v[2]});
+      const Xyz<T> e = direction_of(Xyz<T>{v[0], v[1], v[2]});
       const Point t = draw.point();
       std::array<long double, 3> value;
       long double square = 0.0L;
       for (std::size_t i = 0; i < 3; ++i) {
-        value[i] = v[i].c + static_cast<long double>(v[i].r) * (trial % 4 < 2 ? 1.0 : draw());
-        for (std::size_t k = 0; k < 3; ++k) value[i] += static_cast<long double>(v[i].a[k]) * t[k];
+        value[i] = at(v[i], t) + static_cast<long double>(v[i].r) * (trial % 4 < 2 ? 1.0 : draw());
         square += value[i] * value[i];
       }
-      const std::array<const PoseForm*, 3> form{&e.x, &e.y, &e.z};
-      for (std::size_t i = 0; i < 3; ++i) {
-        long double linear = form[i]->c;
-        for (std::size_t k = 0; k < 3; ++k) linear += static_cast<long double>(form[i]->a[k]) * t[k];
-        CHECK(!(std::abs(value[i] / std::sqrt(square) - linear) > form[i]->r));
+      const std::array<const T*, 3> form{&e.x, &e.y, &e.z};
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK(!(std::abs(value[i] / std::sqrt(square) - at(*form[i], t)) > form[i]->r));
+    }
+    for (const double half : {1e-3, 1e-2, 0.1, 0.3}) {  // the worst case of the error: a move across the vector
+      const Xyz<T> e = direction_of(Xyz<T>{T(1.0), T::coordinate(-half, half, 0), T(0.0)});
+      for (const double side : {-1.0, 1.0}) {
+        const long double length = std::sqrt(1.0L + static_cast<long double>(half) * half);
+        CHECK(std::abs(1.0L / length - at(e.x, {side})) <= e.x.r);
+        CHECK(std::abs(side * half / length - at(e.y, {side})) <= e.y.r);
       }
     }
-    CHECK(std::isinf(direction_of({PoseForm(1e-150), PoseForm(0.0), PoseForm(0.0)}).x.r));
-    CHECK(std::isinf(direction_of({PoseForm(1e150), PoseForm(0.0), PoseForm(0.0)}).x.r));
-    CHECK(std::isinf(direction_of({PoseForm::coordinate(-1.0, 2.0, 0), PoseForm(0.0), PoseForm(0.0)}).x.r));
+    CHECK(std::isinf(direction_of(Xyz<T>{T(1e-150), T(0.0), T(0.0)}).x.r));
+    CHECK(std::isinf(direction_of(Xyz<T>{T(1e150), T(0.0), T(0.0)}).x.r));
+    CHECK(std::isinf(direction_of(Xyz<T>{T::coordinate(-1.0, 2.0, 0), T(0.0), T(0.0)}).x.r));
   }
 
-  TEST_CASE("the bound above M^T M is above it, and the minimum gives it") {
+  TEST_CASE_TEMPLATE("the bound above M^T M is above it, and the minimum gives it", T, PoseForm, CurvedForm) {
     Sampler draw;
     for (int trial = 0; trial < 500; ++trial) {
       const Case one(draw, std::pow(10.0, -1.5 + draw()));
       Moves unused;
-      const SplitGram split = split_gram(one.robot, 1.0, one.pose(), unused);
+      const SplitGramOf<T> split = split_gram(one.robot, 1.0, one.template pose<T>(), unused);
       REQUIRE(split.known);
       const Point t = draw.point();
       Case point = one;
@@ -125,7 +135,7 @@ TEST_SUITE("condition_split") {
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j) {
           const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
-          above(r, c) = at(split.above[entry(i, j)], t);
+          above(r, c) = static_cast<double>(at(split.above[entry(i, j)], t));
           error(r, c) = split.above[entry(i, j)].r;
         }
       const Mat6 room = Vec6(error.rowwise().sum()).asDiagonal();
@@ -145,7 +155,7 @@ TEST_SUITE("condition_split") {
       Moves unused;
       const SplitGram g = split_gram(one.robot, 1.0, one.pose(), unused);
       const ConditionSplit split = split_by_condition(g, limit);
-      const bool all = bounded(g, limit);
+      const bool all = bounded(split_gram(one.robot, 1.0, one.pose<CurvedForm>(), unused), limit);
       everywhere += all;
       parts += !split.everywhere && std::isfinite(split.level);
       nowhere += lower(split.excess) > 0.0;
@@ -154,7 +164,7 @@ TEST_SUITE("condition_split") {
         const double kappa = one.condition(t),
                      along = split.slope[0] * t[0] + split.slope[1] * t[1] + split.slope[2] * t[2];
         if (all || split.everywhere || along >= split.level) CHECK(kappa <= limit * (1.0 + 1e-11));
-        if (at(split.excess, t) > split.excess.r) CHECK(kappa >= limit * (1.0 - 1e-11));
+        if (static_cast<double>(at(split.excess, t)) > split.excess.r) CHECK(kappa >= limit * (1.0 - 1e-11));
       }
     }
     CHECK(everywhere > 100);

@@ -14,15 +14,19 @@ namespace {
 
 using Point = std::array<double, PoseForm::size>;
 
-struct Both {
-  PoseForm form;
+template <class T>
+struct BothOf {
+  T form;
   long double value;
 };
 
 /// Whether the value is within the error of the form at the point.
-bool holds(const Both& x, const Point& t) {
+template <class T>
+bool holds(const BothOf<T>& x, const Point& t) {
   long double linear = x.form.c;
-  for (std::size_t k = 0; k < PoseForm::size; ++k) linear += static_cast<long double>(x.form.a[k]) * t[k];
+  for (std::size_t k = 0; k < T::size; ++k) linear += static_cast<long double>(x.form.a[k]) * t[k];
+  for (std::size_t k = 0, n = 0; k < T::size && T::curved; ++k)
+    for (std::size_t l = 0; l <= k; ++l, ++n) linear += static_cast<long double>(x.form.q[n]) * t[k] * t[l];
   return !(std::abs(x.value - linear) > x.form.r) && lower(x.form) <= x.value && x.value <= upper(x.form);
 }
 
@@ -34,7 +38,8 @@ long double mean_cosine(long double u) {  // (1 - cos(theta)) / theta^2
 }  // namespace
 
 TEST_SUITE("form") {
-  TEST_CASE("values at points of a box are within the error of a form") {
+  TEST_CASE_TEMPLATE("values at points of a box are within the error of a form", T, PoseForm, CurvedForm) {
+    using Both = BothOf<T>;
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int trial = 0; trial < 20'000; ++trial) {
@@ -45,11 +50,11 @@ TEST_SUITE("form") {
       for (std::size_t k = 0; k < x.size(); ++k) {
         const double middle = 3.0 * any(random), low = middle - size * std::abs(any(random)),
                      high = middle + size * std::abs(any(random));
-        x[k].form = PoseForm::coordinate(low, high, k);
+        x[k].form = T::coordinate(low, high, k);
         x[k].value =
             0.5L * (static_cast<long double>(low) + high) + 0.5L * (static_cast<long double>(high) - low) * t[k];
       }
-      const auto check = [&](const PoseForm& form, long double value) {
+      const auto check = [&](const T& form, long double value) {
         const Both both{form, value};
         CHECK(holds(both, t));
         return both;
@@ -70,6 +75,15 @@ TEST_SUITE("form") {
       check(sine_over(angle.form), theta < 1e-9L ? 1.0L : std::sin(theta) / theta);
       check(one_minus_cosine_over(angle.form), mean_cosine(angle.value));
     }
+  }
+  TEST_CASE("the error of a product of degree 2 is of third order in the size of the box") {
+    const auto error = [](double half) {
+      const CurvedForm x = CurvedForm::coordinate(1.0 - half, 1.0 + half, 0),
+                       y = CurvedForm::coordinate(2.0 - half, 2.0 + half, 1);
+      return (x * x * y * sin(x)).r;
+    };
+    CHECK(error(1e-2) < 1.1e-3 * error(1e-1));
+    CHECK(error(1e-3) < 1.1e-3 * error(1e-2));
   }
   TEST_CASE("nothing is known of what may be divided by zero") {
     const PoseForm x = PoseForm::coordinate(-1.0, 2.0, 0);

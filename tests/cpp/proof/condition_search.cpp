@@ -18,7 +18,7 @@ using namespace support;
 
 namespace {
 
-constexpr double gap = 0.01;
+constexpr double gap = 3e-4;
 
 PosedRobot small_machine() {
   Region region;

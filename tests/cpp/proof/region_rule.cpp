@@ -11,6 +11,7 @@
 #include "proof/region/rule.hpp"
 
 using namespace ninedof::over_region;
+using ninedof::CurvedForm;
 using ninedof::PointRule;
 using ninedof::PoseForm;
 
@@ -49,14 +50,14 @@ std::array<long double, 3> exact(const PointRule& rule, const Numbers& at) {
 }  // namespace
 
 TEST_SUITE("region_rule") {
-  TEST_CASE("the rule at points of a box is within the error of its forms") {
+  TEST_CASE_TEMPLATE("the rule at points of a box is within the error of its forms", T, PoseForm, CurvedForm) {
     std::mt19937_64 random(17);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int trial = 0; trial < 4'000; ++trial) {
       const PointRule rule = random_rule(random, trial % 7);
       const RuleForms forms(rule);
       const double size = trial % 5 == 0 ? 0.0 : std::exp(10.0 * any(random) - 10.0);
-      std::array<PoseForm, PoseForm::size> at;
+      std::array<T, T::size> at;
       Numbers value;
       std::array<double, PoseForm::size> t;
       const bool path = trial % 4 == 1;  // the first three coordinates go along one direction
@@ -64,7 +65,7 @@ TEST_SUITE("region_rule") {
         const double scale = rule.scale[static_cast<Eigen::Index>(k)];
         const double low = scale * any(random), high = low + scale * size * std::abs(any(random));
         t[k] = trial % 3 == 0 ? std::copysign(1.0, any(random)) : any(random);
-        at[k] = PoseForm::coordinate(low, high, k);
+        at[k] = T::coordinate(low, high, k);
         value[k] = 0.5L * (static_cast<long double>(low) + high) + 0.5L * (static_cast<long double>(high) - low) * t[k];
         if (path && (k == 1 || k == 2)) {
           const double slope = any(random);
@@ -72,12 +73,14 @@ TEST_SUITE("region_rule") {
           value[k] = low + slope * value[0];
         }
       }
-      const ninedof::Xyz<PoseForm> found = forms.shift(at);
+      const ninedof::Xyz<T> found = forms.shift(at);
       const std::array<long double, 3> wanted = exact(rule, value);
       for (std::size_t i = 0; i < 3; ++i) {
-        const PoseForm& form = i == 0 ? found.x : i == 1 ? found.y : found.z;
+        const T& form = i == 0 ? found.x : i == 1 ? found.y : found.z;
         long double linear = form.c;
         for (std::size_t k = 0; k < PoseForm::size; ++k) linear += static_cast<long double>(form.a[k]) * t[k];
+        for (std::size_t k = 0, n = 0; k < T::size && T::curved; ++k)
+          for (std::size_t l = 0; l <= k; ++l, ++n) linear += static_cast<long double>(form.q[n]) * t[k] * t[l];
         CHECK(std::abs(wanted[i] - linear) <= form.r);
         CHECK(lower(form) <= wanted[i]);
         CHECK(wanted[i] <= upper(form));

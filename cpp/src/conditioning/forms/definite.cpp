@@ -1,35 +1,15 @@
-/// Whether the condition number is at most K, or is not, where in a box. Declared in conditioning/forms/gram.hpp.
+/// Where in a box the condition number is at most K, and where it is not. Declared in conditioning/forms/gram.hpp.
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "conditioning/forms/gram.hpp"
+#include "conditioning/forms/positive_definite.hpp"
 #include "math/linear/jacobi_svd.hpp"
 
 namespace ninedof::forms {
 namespace {
-
-constexpr std::size_t packed(std::size_t n) {
-  return n * (n + 1) / 2;
-}
-
-/// Whether the symmetric matrix is positive definite, proved: its Cholesky decomposition runs to the end although more
-/// than its rounding errors was taken from the diagonal (Rump, BIT 2006). `room`: what is taken, entry by entry.
-template <std::size_t N>
-bool positive_definite(const std::array<double, packed(N)>& a, const std::array<double, N>& room) {
-  std::array<double, packed(N)> l;
-  for (std::size_t i = 0; i < N; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[entry(i, j)];
-      if (i == j) sum -= room[i];
-      for (std::size_t k = 0; k < j; ++k) sum -= l[entry(i, k)] * l[entry(j, k)];
-      if (i > j) l[entry(i, j)] = sum * l[entry(j, j)];
-      else if (!(sum > 0.0)) return false;
-      else l[entry(i, i)] = 1.0 / std::sqrt(sum);
-    }
-  return true;
-}
 
 /// t - above and K^2 M^T M - t for one number t that is linear in the box, the second as a matrix of nine rows: where
 /// both are positive definite, the condition number is at most K. Both are linear in the box up to an error, so that
@@ -200,11 +180,6 @@ PoseForm quadratic_from_below(const SplitGram& g, const Vec6& v) {
 }
 
 }  // namespace
-
-bool bounded(const SplitGram& g, double condition) {
-  const LinearTest test(g, condition);
-  return test.holds_in_the_middle() && test.holds_everywhere();
-}
 
 ConditionSplit split_by_condition(const SplitGram& g, double condition) {
   constexpr double wider = 1.6;

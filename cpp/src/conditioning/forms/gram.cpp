@@ -12,8 +12,9 @@ const PoseForm& at(const Symmetric3& s, std::size_t i, std::size_t j) {
   return s[entry(i, j)];
 }
 
-void add_square(Symmetric3& s, const FormVector& v) {
-  const std::array<const PoseForm*, 3> x{&v.x, &v.y, &v.z};
+template <class T>
+void add_square(Symmetric3Of<T>& s, const Xyz<T>& v) {
+  const std::array<const T*, 3> x{&v.x, &v.y, &v.z};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j <= i; ++j) s[entry(i, j)] = s[entry(i, j)] + *x[i] * *x[j];
 }
@@ -48,19 +49,20 @@ Symmetric3 parallel(const Symmetric3& h, const Symmetric3& f) {
 
 }  // namespace
 
-LegProducts leg_products(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
+template <class T>
+LegProducts<T> leg_products(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
   const auto direction = [&](int k) {
-    const FormEnds e = ends_of(g, pose, k);
-    const FormVector out = direction_of(e.to - e.from);
+    const Ends<T> e = ends_of(g, pose, k);
+    const Xyz<T> out = direction_of(e.to - e.from);
     moves.add(out);
     return out;
   };
-  LegProducts out;
+  LegProducts<T> out;
   for (int i = 0; i < 3; ++i) {
-    const FormVector e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
-    const FormVector m = inverse_lc * cross(u, e);
-    const std::array<const PoseForm*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
+    const Xyz<T> e = direction(i), u = turned(pose, g.platform_external()[static_cast<std::size_t>(i)]);
+    const Xyz<T> m = inverse_lc * cross(u, e);
+    const std::array<const T*, 6> row{&m.x, &m.y, &m.z, &e.x, &e.y, &e.z};
     for (std::size_t j = 0; j < 6; ++j)
       for (std::size_t k = 0; k <= j; ++k) out.external[entry(j, k)] = out.external[entry(j, k)] + *row[j] * *row[k];
     add_square(out.upper, direction(i + 3));
@@ -69,9 +71,12 @@ LegProducts leg_products(const Geometry& g, double characteristic_length, const 
   return out;
 }
 
+template LegProducts<PoseForm> leg_products(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
+template LegProducts<CurvedForm> leg_products(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&);
+
 Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
-  const LegProducts legs = leg_products(g, characteristic_length, pose, moves);
+  const LegProducts<PoseForm> legs = leg_products(g, characteristic_length, pose, moves);
   Symmetric6 out = legs.external;
   const Symmetric3 p = parallel(legs.upper, legs.lower);
   const FormVector y = inverse_lc * (pose.s - pose.p);
@@ -96,13 +101,6 @@ Symmetric6 gram(const Geometry& g, double characteristic_length, const FormPose&
     out[entry(4, k)] = out[entry(4, k)] + p_turn[k].y;
     out[entry(5, k)] = out[entry(5, k)] + p_turn[k].z;
   }
-  return out;
-}
-
-Mat6 middle_of(const Symmetric6& g) {
-  Mat6 out;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) out(i, j) = g[entry(static_cast<std::size_t>(i), static_cast<std::size_t>(j))].c;
   return out;
 }
 

@@ -8,51 +8,81 @@
 namespace ninedof::forms {
 namespace {
 
-using Columns = std::array<FormVector, 6>;
+template <class T>
+using Columns = std::array<Xyz<T>, 6>;
 
-const PoseForm& of(const Symmetric3& s, std::size_t i, std::size_t j) {
+template <class T>
+const T& of(const std::array<T, 6>& s, std::size_t i, std::size_t j) {
   return s[entry(i, j)];
 }
-FormVector applied(const Symmetric3& s, const FormVector& v) {
+template <class T>
+Xyz<T> applied(const std::array<T, 6>& s, const Xyz<T>& v) {
   const auto row = [&](std::size_t i) { return of(s, i, 0) * v.x + of(s, i, 1) * v.y + of(s, i, 2) * v.z; };
   return {row(0), row(1), row(2)};
 }
-FormVector applied(const Mat3& m, const FormVector& v) {
+template <class T>
+Xyz<T> applied(const Mat3& m, const Xyz<T>& v) {
   const auto row = [&](Eigen::Index i) { return m(i, 0) * v.x + m(i, 1) * v.y + m(i, 2) * v.z; };
   return {row(0), row(1), row(2)};
 }
-Mat3 middle_of(const Symmetric3& s) {
+template <class T>
+Mat3 middle_of(const std::array<T, 6>& s) {
   Mat3 out;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = of(s, i, j).c;
   return out;
 }
 /// At most the length of what the vector may be away from its middle.
-double wandering(const FormVector& v) {
+template <class T>
+double wandering(const Xyz<T>& v) {
   double sum = 0.0;
-  for (const PoseForm* x : {&v.x, &v.y, &v.z}) sum += radius(*x) * radius(*x);
+  for (const T* x : {&v.x, &v.y, &v.z}) sum += radius(*x) * radius(*x);
   return std::sqrt(sum) * (1.0 + 0x1p-48);
+}
+
+/// e + P d / l - ((e . d) P d + |P d|^2 e / 2) / l^2 of v = l e + d, with P = 1 - e e^T, and a rest below
+/// (away / nearest)^3 / 2.
+template <class T>
+Xyz<T> curved_direction(const Xyz<T>& v, const std::array<double, 3>& e, double length, double away, double nearest) {
+  std::array<T, 3> d{v.x, v.y, v.z};
+  for (T& x : d) x.c = 0.0;
+  const T along = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
+  const double inverse = 1.0 / length, part = away / nearest;
+  T square = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    d[i] = inverse * (d[i] - e[i] * along);
+    square = square + d[i] * d[i];
+  }
+  const T shrunk = 1.0 - inverse * along, half = 0.5 * square;
+  for (std::size_t i = 0; i < 3; ++i) {
+    d[i] = shrunk * d[i] - e[i] * half;
+    d[i].c += e[i];
+    d[i].r += (0.5 * part * part * part + 2.0 * forms::grain * (1.0 + part) * (1.0 + part)) * (1.0 + forms::grain);
+  }
+  return {d[0], d[1], d[2]};
 }
 
 }  // namespace
 
-FormVector direction_of(const FormVector& v) {
+template <class T>
+Xyz<T> direction_of(const Xyz<T>& v) {
   const double x = v.x.c, y = v.y.c, z = v.z.c, length = std::sqrt(x * x + y * y + z * z);
   const double away = wandering(v), nearest = length * (1.0 - 0x1p-48) - away;
   // Squares of numbers outside this range may be no doubles.
   if (!(length > 1e-140 && length < 1e140 && nearest > 0.0 && std::isfinite(away)))
-    return {PoseForm::unknown(), PoseForm::unknown(), PoseForm::unknown()};
+    return {T::unknown(), T::unknown(), T::unknown()};
   const std::array<double, 3> e{x / length, y / length, z / length};
-  const std::array<const PoseForm*, 3> part{&v.x, &v.y, &v.z};
+  if constexpr (T::curved) return curved_direction(v, e, length, away, nearest);
+  const std::array<const T*, 3> part{&v.x, &v.y, &v.z};
   // e(v) = e + (1 - e e^T)(v - middle) / length + a rest below |v - middle|^2 / (sqrt(3) nearest^2).
   const double rest = 0.5774 * away * away / (nearest * nearest) * (1.0 + forms::grain);
-  std::array<PoseForm, 3> out;
+  std::array<T, 3> out;
   for (std::size_t i = 0; i < 3; ++i) {
-    PoseForm& f = out[i];
+    T& f = out[i];
     f.c = e[i];
     double error = part[i]->r;
     for (std::size_t j = 0; j < 3; ++j) error += std::abs(e[i] * e[j]) * part[j]->r;
-    for (std::size_t k = 0; k < PoseForm::size; ++k) {
+    for (std::size_t k = 0; k < T::size; ++k) {
       double along = 0.0;
       for (std::size_t j = 0; j < 3; ++j) along += e[j] * part[j]->a[k];
       f.a[k] = (part[i]->a[k] - e[i] * along) / length;
@@ -62,11 +92,12 @@ FormVector direction_of(const FormVector& v) {
   return {out[0], out[1], out[2]};
 }
 
-SplitGram split_gram(const Geometry& g, double characteristic_length, const FormPose& pose, Moves& moves) {
+template <class T>
+SplitGramOf<T> split_gram(const Geometry& g, double characteristic_length, const PoseOf<T>& pose, Moves& moves) {
   const double inverse_lc = 1.0 / characteristic_length;
-  const LegProducts legs = leg_products(g, characteristic_length, pose, moves);
-  const Symmetric3 &h = legs.upper, &f = legs.lower;
-  SplitGram out;
+  const LegProducts<T> legs = leg_products(g, characteristic_length, pose, moves);
+  const Symmetric3Of<T>&h = legs.upper, &f = legs.lower;
+  SplitGramOf<T> out;
   out.external = legs.external;
   for (std::size_t n = 0; n < out.sum.size(); ++n) out.sum[n] = h[n] + f[n];
   // Any share gives bounds. A little on the diagonal: where H + F is nearly singular the best one is of no use.
@@ -74,18 +105,18 @@ SplitGram split_gram(const Geometry& g, double characteristic_length, const Form
   const Mat3 share = (middle + 1e-7 * middle.trace() * Mat3::Identity()).inverse() * middle_of(h);
   if (!share.allFinite()) return out;
   out.known = true;
-  const FormVector y = inverse_lc * (pose.s - pose.p);
-  const PoseForm zero = 0.0, one = 1.0;
+  const Xyz<T> y = inverse_lc * (pose.s - pose.p);
+  const T zero = 0.0, one = 1.0;
   // Columns of K: e_k x y for turns, e_k for shifts.
-  const Columns k{FormVector{zero, -y.z, y.y}, FormVector{y.z, zero, -y.x}, FormVector{-y.y, y.x, zero},
-                  FormVector{one, zero, zero}, FormVector{zero, one, zero}, FormVector{zero, zero, one}};
-  Columns upper, lower, upper_pull, lower_pull;
+  const Columns<T> k{Xyz<T>{zero, -y.z, y.y}, Xyz<T>{y.z, zero, -y.x}, Xyz<T>{-y.y, y.x, zero},
+                     Xyz<T>{one, zero, zero}, Xyz<T>{zero, one, zero}, Xyz<T>{zero, zero, one}};
+  Columns<T> upper, lower, upper_pull, lower_pull;
   for (std::size_t j = 0; j < 6; ++j) {
     lower[j] = applied(share, k[j]);
     upper[j] = k[j] - lower[j];
     upper_pull[j] = applied(h, upper[j]);
     lower_pull[j] = applied(f, lower[j]);
-    const FormVector across = lower_pull[j] - upper_pull[j];
+    const Xyz<T> across = lower_pull[j] - upper_pull[j];
     out.across[0][j] = across.x;
     out.across[1][j] = across.y;
     out.across[2][j] = across.z;
@@ -95,5 +126,10 @@ SplitGram split_gram(const Geometry& g, double characteristic_length, const Form
       out.above[entry(j, i)] = out.external[entry(j, i)] + dot(upper[i], upper_pull[j]) + dot(lower[i], lower_pull[j]);
   return out;
 }
+
+template Xyz<PoseForm> direction_of(const Xyz<PoseForm>&);
+template Xyz<CurvedForm> direction_of(const Xyz<CurvedForm>&);
+template SplitGram split_gram(const Geometry&, double, const PoseOf<PoseForm>&, Moves&);
+template SplitGramOf<CurvedForm> split_gram(const Geometry&, double, const PoseOf<CurvedForm>&, Moves&);
 
 }  // namespace ninedof::forms

@@ -115,8 +115,9 @@ Looked look(const Domain& domain, const Box& box, double condition) {
   }
   Moves moves;
   const PosedRobot& machine = domain.machine();
-  out.proved = forms::bounded(
-      forms::split_gram(machine.geometry, machine.characteristic_length, domain.pose(box), moves), condition);
+  const PoseOf<CurvedForm> pose = domain.pose<CurvedForm>(box);
+  out.proved =
+      forms::bounded(forms::split_gram(machine.geometry, machine.characteristic_length, pose, moves), condition);
   if (out.proved) return out;
   out.divide = divided_coordinate(box, moves.along);
   out.met = condition_at(domain, domain.nearest(middle_of(box)));

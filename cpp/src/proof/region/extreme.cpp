@@ -41,6 +41,7 @@ class Sought {
       : domain_(domain),
         row_(checked_row(wanted)),
         item_(wanted.item),
+        limit_(wanted.limit),
         home_(domain.machine().geometry, domain.machine().neutral, wanted.axis),
         sign_(!row_.pairs && wanted.greatest != row_.falls ? 1.0 : -1.0) {}
 
@@ -72,25 +73,28 @@ class Sought {
                        Moves& moves) const {
     const LegPairForms legs = leg_pair_forms(look, item_);
     if (!(legs.middle.apart.squaredNorm() > 0.0)) return 0.0;
-    const EndDistances ends = end_distances(legs, fixed_direction(legs));
-    double out = -infinity;
-    for (std::size_t k = 0; k < ends.along.size(); ++k) {
-      const PoseForm f = -ends.along[k];
-      const double most = domain_.greatest(f, box);
-      if (!(most > out)) continue;
+    double least = infinity;
+    for (const auto& direction : {fixed_direction, turning_direction}) {
+      if (!(least == infinity || -least < limit_)) break;  // the second takes as long: only where it may decide
+      const EndDistances ends = end_distances(legs, direction(legs));
+      std::array<double, 4> most;
+      for (std::size_t k = 0; k < most.size(); ++k) most[k] = domain_.greatest(-ends.along[k], box);
+      const auto k = static_cast<std::size_t>(std::ranges::max_element(most) - most.begin());
+      if (!(most[k] < least)) continue;
       // The ends that decide. Others count for little: a direction that moves only them need not be divided.
-      slope = f.a;
+      least = most[k];
+      slope = (-ends.along[k]).a;
       moves = {};
       moves.add(ends.between[k]);
-      out = most;
     }
     for (const FormEnds* e : {&legs.one, &legs.two}) moves.add(e->to - e->from, 1e-3);
-    return std::min(out, 0.0);
+    return std::min(least, 0.0);
   }
 
   const Domain& domain_;
   const PoseRow& row_;
   int item_;
+  double limit_;
   FormHome home_;
   double sign_;
 };

@@ -9,10 +9,19 @@ namespace ninedof::over_region {
 namespace {
 
 /// Rows of exp of the rotation vector (x, y, 0).
-std::array<FormVector, 3> tilted(const PoseForm& x, const PoseForm& y) {
-  const PoseForm xx = x * x, yy = y * y, u = xx + yy;
-  const PoseForm s = sine_over(u), k = one_minus_cosine_over(u), mixed = k * (x * y), sx = s * x, sy = s * y;
-  return {FormVector{1.0 - k * yy, mixed, sy}, FormVector{mixed, 1.0 - k * xx, -sx}, FormVector{-sy, sx, 1.0 - k * u}};
+template <class T>
+std::array<Xyz<T>, 3> tilted(const T& x, const T& y) {
+  const T xx = x * x, yy = y * y, u = xx + yy;
+  const T s = sine_over(u), k = one_minus_cosine_over(u), mixed = k * (x * y), sx = s * x, sy = s * y;
+  return {Xyz<T>{1.0 - k * yy, mixed, sy}, Xyz<T>{mixed, 1.0 - k * xx, -sx}, Xyz<T>{-sy, sx, 1.0 - k * u}};
+}
+
+/// A configuration as a box of one pose.
+template <class T>
+PoseOf<T> pose_of(const Configuration& c) {
+  const FormPose pose = form_pose(c);
+  const auto vector = [](const FormVector& v) { return Xyz<T>{T(v.x), T(v.y), T(v.z)}; };
+  return {vector(pose.p), vector(pose.s), {vector(pose.q[0]), vector(pose.q[1]), vector(pose.q[2])}};
 }
 
 /// Bounds of the length of a vector of coordinates in a box; rounding is far below what `slack` allows.
@@ -52,36 +61,40 @@ Domain::Domain(const PosedRobot& machine) : machine_(machine), rule_(machine.rul
   }
 }
 
-FormPose Domain::pose(const Box& box) const {
+template <class T>
+PoseOf<T> Domain::pose(const Box& box) const {
   if (box.piece < 0) {
     const Configuration& c = machine_.poses[static_cast<std::size_t>(-1 - box.piece)];
-    return form_pose(c);
+    return pose_of<T>(c);
   }
-  std::array<PoseForm, PoseForm::size> x;
-  for (std::size_t k = 0; k < PoseForm::size; ++k) x[k] = PoseForm::coordinate(box.low[k], box.high[k], k);
+  std::array<T, T::size> x;
+  for (std::size_t k = 0; k < T::size; ++k) x[k] = T::coordinate(box.low[k], box.high[k], k);
   const Region& region = machine_.region.front();
   const Configuration& neutral = machine_.neutral;
-  FormVector moved{x[0], x[1], x[2]};
+  Xyz<T> moved{x[0], x[1], x[2]};
   if (region.shape == Region::Shape::path) {
     const auto k = static_cast<std::size_t>(box.piece);
-    const FormVector from = constant<PoseForm>(region.corners[k]), to = constant<PoseForm>(region.corners[k + 1]);
+    const Xyz<T> from = constant<T>(region.corners[k]), to = constant<T>(region.corners[k + 1]);
     moved = from + x[0] * (to - from);
   }
   if (region.in_zp) moved = neutral.position.z() * moved;
-  FormPose out{constant<PoseForm>(neutral.position) + moved, constant<PoseForm>(neutral.internal_point),
-               rotation_columns(neutral.rotation)};
-  if (!rule_.empty()) out.s = out.s + rule_.front().shift({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
+  PoseOf<T> out = pose_of<T>(neutral);
+  out.p = out.p + moved;
+  if (!rule_.empty()) out.s = out.s + rule_.front().shift<T>({moved.x, moved.y, moved.z, x[3], x[4], x[5]});
   else if (region.shifted) out.s = out.s + moved;
   if (region.yaw > 0.0) {
-    const PoseForm c = cos(x[5]), s = sin(x[5]);
-    for (FormVector& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+    const T c = cos(x[5]), s = sin(x[5]);
+    for (Xyz<T>& v : out.q) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
   }
   if (region.tilt > 0.0) {
-    const std::array<FormVector, 3> rows = tilted(x[3], x[4]);
-    for (FormVector& v : out.q) v = {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+    const std::array<Xyz<T>, 3> rows = tilted(x[3], x[4]);
+    for (Xyz<T>& v : out.q) v = {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
   }
   return out;
 }
+
+template PoseOf<PoseForm> Domain::pose(const Box&) const;
+template PoseOf<CurvedForm> Domain::pose(const Box&) const;
 
 MetAt Domain::met(const Box& point) const {
   MetAt out;

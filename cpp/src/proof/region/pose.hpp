@@ -31,7 +31,8 @@ class Domain {
   explicit Domain(const PosedRobot& machine);
   const PosedRobot& machine() const { return machine_; }
   const std::vector<Box>& roots() const { return roots_; }
-  FormPose pose(const Box& box) const;
+  template <class T = PoseForm>
+  PoseOf<T> pose(const Box& box) const;
   MetAt met(const Box& point) const;
   /// Whether no point of the box is a pose of the domain.
   bool outside(const Box& box) const;

@@ -41,26 +41,28 @@ namespace {
 constexpr double unit_rounding = 0x1p-53;
 
 /// A sum of multiples of forms: its rounding is added at the end, at once.
+template <class T>
 class FormSum {
  public:
-  void add(double k, const PoseForm& x) {
+  void add(double k, const T& x) {
     sum_.c += k * x.c;
-    for (std::size_t i = 0; i < PoseForm::size; ++i) sum_.a[i] += k * x.a[i];
+    for (std::size_t i = 0; i < T::size; ++i) sum_.a[i] += k * x.a[i];
+    for (std::size_t i = 0; i < x.q.size(); ++i) sum_.q[i] += k * x.q[i];
     sum_.r += std::abs(k) * x.r;
     size_ += std::abs(k) * (std::abs(x.c) + spread(x));
     ++terms_;
   }
   /// A sum of n products errs by at most n + 1 units of the sum of their moduli, which itself was rounded as often.
   /// `more`: what the terms left out are at most.
-  PoseForm total(double more) const {
-    PoseForm out = sum_;
+  T total(double more) const {
+    T out = sum_;
     const double part = forms::grain + 4.0 * terms_ * unit_rounding;
     out.r = (out.r + more) * (1.0 + part) + part * size_ + terms_ * forms::tiny;
     return out;
   }
 
  private:
-  PoseForm sum_;
+  T sum_;
   double size_ = 0.0, terms_ = 0.0;
 };
 
@@ -102,8 +104,9 @@ std::size_t RuleForms::index_of(const Powers& term) {
   return out;
 }
 
-Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>& at) const {
-  std::array<PoseForm, PoseForm::size> away;  // of the coordinates from the middle
+template <class T>
+Xyz<T> RuleForms::shift(const std::array<T, T::size>& at) const {
+  std::array<T, T::size> away;  // of the coordinates from the middle
   std::array<double, PoseForm::size> middle{};
   std::array<std::array<double, highest_degree + 1>, PoseForm::size> reach{},
       most{};  // powers of |away|, of |coordinate|
@@ -134,7 +137,7 @@ Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>& at) c
   for (const Step& step : steps_)
     if (middle[step.k] != 0.0)
       for (std::size_t i = 0; i < 3; ++i) c[step.to][i] += middle[step.k] * c[step.from][i];
-  std::array<FormSum, 3> sum;
+  std::array<FormSum<T>, 3> sum;
   for (std::size_t n = 0; n < terms_.size(); ++n) {
     const Powers& term = terms_[n];
     const int total = degree(term);
@@ -143,7 +146,7 @@ Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>& at) c
       for (std::size_t i = 0; i < 3; ++i) rest[i] += std::abs(c[n][i]) * factor;
       continue;
     }
-    PoseForm x = 1.0;
+    T x = 1.0;
     if (total > 0) {
       const auto first =
           static_cast<std::size_t>(std::ranges::find_if(term, [](int p) { return p > 0; }) - term.begin());
@@ -163,6 +166,9 @@ Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>& at) c
   }
   return {sum[0].total(rest[0]), sum[1].total(rest[1]), sum[2].total(rest[2])};
 }
+
+template Xyz<PoseForm> RuleForms::shift(const std::array<PoseForm, PoseForm::size>&) const;
+template Xyz<CurvedForm> RuleForms::shift(const std::array<CurvedForm, CurvedForm::size>&) const;
 
 }  // namespace over_region
 }  // namespace ninedof

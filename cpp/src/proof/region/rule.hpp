@@ -16,7 +16,8 @@ class RuleForms {
   explicit RuleForms(const PointRule& rule);
 
   /// s less its neutral position, of the six coordinates of the rule over a box.
-  Xyz<PoseForm> shift(const std::array<PoseForm, PoseForm::size>& at) const;
+  template <class T>
+  Xyz<T> shift(const std::array<T, T::size>& at) const;
 
  private:
   using Powers = std::array<int, PoseForm::size>;
