@@ -223,6 +223,8 @@ def test_an_impossible_region_is_infeasible():
     result = nd.optimize(study)
     assert (result.status, result.best, result.region) == ("infeasible", None, None)
     assert "leg_ratio" in result.causes
+    assert "leg_ratio <= 1.01" in result.reason
+    assert "at the poses home + (" in result.reason
 
 
 @pytest.mark.slow
