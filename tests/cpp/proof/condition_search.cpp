@@ -157,8 +157,8 @@ TEST_SUITE("condition_search") {
     begun.low = search_condition(machine, settings()).low;
     begun.left = {all};
     begun.left_count = 1;
-    begun.target = begun.low * 1.00001;
-    ConditionSettings hurried{.seconds = 0.0, .gap = 1e-6, .least_seconds = 0.2, .most_left = 1};
+    begun.target = begun.low * (1.0 + 1e-8);  // out of reach in that time
+    ConditionSettings hurried{.seconds = 0.0, .gap = 1e-9, .least_seconds = 0.1, .most_left = 1};
     const ConditionState left = search_condition(machine, hurried, begun);
     CHECK(left.boxes > 1);
     CHECK(left.left == begun.left);
