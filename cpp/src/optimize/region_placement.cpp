@@ -1,5 +1,6 @@
 #include "ninedof/optimize/region_placement.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <memory>
 
