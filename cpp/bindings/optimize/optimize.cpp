@@ -61,7 +61,7 @@ py::dict fields_of(const Problem& problem, const Result& r) {
   return out;
 }
 
-/// Shift of p, rotation vector and shift of s.
+/// The fields of a Pose: shift of p, rotation vector, shift of s, whether s is best, whether in zp, weight.
 py::tuple fields_of(const Pose& pose) {
   const auto three = [](const Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
   return py::make_tuple(three(pose.position), three(pose.rotation), three(pose.internal), pose.best_internal,

@@ -12,6 +12,7 @@
 #include "ninedof/math/parallel.hpp"
 #include "ninedof/optimize/region_placement.hpp"
 #include "optimize/minimax/placed_pose.hpp"
+#include "optimize/region/posed.hpp"
 #include "optimize/verdict.hpp"
 #include "problem/constraints/constraint.hpp"
 
@@ -183,7 +184,7 @@ PlacedDesign start_design(const Problem& problem, const std::vector<Pose>& poses
   const double zp = out.variables[design_family(problem.family).index("zp")];
   for (const Pose& pose : poses) {
     const bool shifted = optimizes_internal_point(pose) && k % 2 == 0;
-    out.shifts.push_back(shifted ? Vec3(pose.position / (pose.in_zp ? 1.0 : zp)) : Vec3(Vec3::Zero()));
+    out.shifts.push_back(shifted ? shifted_with(pose, zp) : Vec3(Vec3::Zero()));
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "domains/region_descent.hpp"
 #include "math/numbers.hpp"
@@ -10,6 +11,7 @@
 #include "ninedof/math/error.hpp"
 #include "ninedof/math/parallel.hpp"
 #include "optimize/minimax/placed_pose.hpp"
+#include "optimize/region/posed.hpp"
 #include "problem/full_variables.hpp"
 
 namespace ninedof {
@@ -92,7 +94,7 @@ class Placing {
   double anew(Placed& placed, double excess, double enough) {
     const Pose pose = region_.pose(placed.at);
     pose_.set_pose(pose);
-    std::vector<Vec3> starts{Vec3(Vec3::Zero()), Vec3(pose.position / (pose.in_zp ? 1.0 : pose_.zp()))};
+    std::vector<Vec3> starts{Vec3(Vec3::Zero()), shifted_with(pose, pose_.zp())};
     for (const Placed* other : nearest(placed.at)) starts.push_back(other->shift);
     for (Vec3& start : starts) {
       if (excess <= enough) break;
@@ -109,7 +111,7 @@ class Placing {
     std::vector<const Placed*> out;
     for (const Placed& other : known_) out.push_back(&other);
     if (!located_) return out;
-    std::ranges::stable_sort(out, {}, [&](const Placed* other) { return distance(at, other->at); });
+    std::ranges::stable_sort(out, {}, [&](const Placed* other) { return distance_in(region_, at, other->at); });
     out.resize(std::min(out.size(), most_tried));
     return out;
   }
@@ -117,14 +119,6 @@ class Placing {
   PlacedEnd end(const Placed& placed) {
     pose_.set_pose(region_.pose(placed.at));
     return pose_.end(placed);
-  }
-
-  double distance(const Vec6& a, const Vec6& b) const {
-    const Vec6 reach = region_.reach();
-    double out = 0.0;
-    for (Eigen::Index k = 0; k < 6; ++k)
-      if (reach[k] > 0.0) out = std::max(out, std::abs(a[k] - b[k]) / reach[k]);
-    return out;
   }
 
   /// Where O may be expected: the known places, fitted by a function that is linear in the pose.
@@ -181,7 +175,7 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
   std::vector<Hot> hot;
   for (const std::vector<Hot>& some : of_block) hot.insert(hot.end(), some.begin(), some.end());
   std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
-  // What passes from the nearest start may not from others. Of a poor design most samples pass: some of them are enough.
+  // What passes from the nearest start may not from others. Of a poor design most samples pass: some are enough.
   std::size_t done = 0;
   while (done < hot.size() && hot[done].excess > no_longer_held) {
     const auto count = static_cast<long>(std::min(hot.size() - done, placed_at_once));
@@ -199,13 +193,12 @@ PlacedWorst search_region_placed(const Problem& problem, const Region& region, c
   }
   std::ranges::stable_sort(hot, std::ranges::greater(), &Hot::excess);
 
-  const Placing distances(problem, region, variables, goal, known);
   std::vector<Hot> starts;
   for (const Placed& placed : known) starts.push_back({placed, 0.0});
   for (const Hot& sample : hot) {
     if (starts.size() >= known.size() + ascents) break;
-    const bool near = std::ranges::any_of(starts, [&](const Hot& other) {
-      return &other >= &starts.front() + known.size() && distances.distance(sample.placed.at, other.placed.at) < apart;
+    const bool near = std::ranges::any_of(std::span(starts).subspan(known.size()), [&](const Hot& other) {
+      return distance_in(region, sample.placed.at, other.placed.at) < apart;
     });
     if (!near) starts.push_back(sample);
   }

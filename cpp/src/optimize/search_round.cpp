@@ -67,8 +67,7 @@ std::vector<Eigen::VectorXd> placed(const PreparedProblem& p, const std::vector<
     PlacedDesign design{own_variables(p.problem, p.coordinates.variables(y)), {}};
     const double zp = design.variables[design_family(p.problem.family).index("zp")];
     for (const Pose& pose : poses)
-      design.shifts.push_back(optimizes_internal_point(pose) ? Vec3(pose.position / (pose.in_zp ? 1.0 : zp))
-                                                             : Vec3(Vec3::Zero()));
+      design.shifts.push_back(optimizes_internal_point(pose) ? shifted_with(pose, zp) : Vec3(Vec3::Zero()));
     given.push_back(std::move(design));
   }
   std::vector<Eigen::VectorXd> out;

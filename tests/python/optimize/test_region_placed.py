@@ -5,6 +5,7 @@ Oracle: `check`, which draws its own poses and places O by a search of its own i
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -52,7 +53,6 @@ MACHINE = nd.Study(
     starts=16,
 )
 STUDIES = {"line": LINE, "turns": TURNS, "box": BOX, "machine": MACHINE}
-SOLVED = {}
 solves = pytest.mark.skipif(not LONG, reason="seconds to minutes for each study: NINEDOF_LONG=1")
 
 
@@ -61,10 +61,9 @@ def with_rule(study, rule):
     return replace(study, objective=replace(study.objective, region=region))
 
 
+@cache
 def solved(name):
-    if name not in SOLVED:
-        SOLVED[name] = nd.optimize(STUDIES[name])
-    return SOLVED[name]
+    return nd.optimize(STUDIES[name])
 
 
 @pytest.mark.slow

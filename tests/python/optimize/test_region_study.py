@@ -5,6 +5,7 @@ Oracle: `check`, which draws its own poses and evaluates all limits in numpy.
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -135,13 +136,11 @@ STUDIES = {
 }
 HUGE = 10**5  # starts: minutes of work
 QUICK = size(["turns, frobenius", "mean, one variable"], list(STUDIES))
-SOLVED = {}
 
 
+@cache
 def solved(name):
-    if name not in SOLVED:
-        SOLVED[name] = nd.optimize(STUDIES[name])
-    return SOLVED[name]
+    return nd.optimize(STUDIES[name])
 
 
 @pytest.mark.slow

@@ -50,7 +50,7 @@ struct RegionResult {
 };
 
 struct RegionStudySettings : Settings {
-  /// Called with words where a round begins, on a thread of the solver.
+  /// Called with words where a round begins, on the thread of the caller.
   std::function<void(const std::string&)> phase = {};
 };
 

@@ -8,6 +8,7 @@
 #include "math/linear/minimax_step.hpp"
 #include "math/numbers.hpp"
 #include "optimize/polish/cluster.hpp"
+#include "optimize/region/posed.hpp"
 #include "problem/constraints/constraint.hpp"
 
 namespace ninedof {
@@ -23,13 +24,11 @@ constexpr double row_rounding = 1e-15;
 constexpr int most_cuts = 8;             // directions of singular vectors that join a step
 constexpr double cut_passed = 1e-12;     // by which the index may pass the level of a step
 
-/// The problem with one pose where s is a variable, off the axis so that the closed form is not used.
-Problem with_free_point(Problem problem) {
-  problem.objective.aggregate = Aggregate::worst;
-  problem.objective.poses = {{}};
-  problem.objective.poses.front().position = Vec3(1.0, 0.5, 0.0);
-  problem.objective.poses.front().best_internal = true;
-  return problem;
+/// The problem with one pose where s is a variable.
+Problem with_free_point(const Problem& problem) {
+  Problem out = with_one_pose(problem);
+  out.objective.poses.front().best_internal = true;
+  return out;
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ struct Stationarity {
 };
 Stationarity stationarity(const PreparedProblem& p, const DesignEvaluation& design, const ActiveSet& a);
 
-/// The slack of a stationary point with the fewest active values that make it stationary: neighbouring poses have nearly
-/// the same gradients, and any of them may carry the weight.
+/// The slack of a stationary point with the fewest active values that make it stationary: neighbouring poses have
+/// nearly the same gradients, and any of them may carry the weight.
 double least_slack(const PreparedProblem& p, const Eigen::VectorXd& y);
 
 /// Newton's method on the first-order conditions of an active set near `y`: its rows and margins as equations, second

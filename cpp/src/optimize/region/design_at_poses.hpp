@@ -3,16 +3,9 @@
 
 #include "ninedof/domains/region.hpp"
 #include "optimize/minimax/design_evaluation.hpp"
+#include "optimize/region/posed.hpp"
 
 namespace ninedof {
-
-/// The problem with one pose, off the axis so that the closed form is not used.
-inline Problem with_one_pose(Problem problem) {
-  problem.objective.aggregate = Aggregate::worst;
-  problem.objective.poses = {{}};
-  problem.objective.poses.front().position = Vec3(1.0, 0.5, 0.0);
-  return problem;
-}
 
 class DesignAtPoses {
  public:

@@ -1,7 +1,9 @@
 #include "optimize/region/exchange.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "math/numbers.hpp"
 #include "optimize/polish/active_set.hpp"
@@ -10,8 +12,6 @@
 namespace ninedof {
 namespace {
 
-constexpr long quick = 4'000, dense = 100'000;  // poses of a search: while the design moves, and at the end
-constexpr int most_exchanges = 40;
 constexpr double passed = 2e-8;       // what may be passed between the poses: below what is promised, 1e-7
 constexpr double one_place = 1e-9;    // of the region: nearer poses are one
 constexpr double follows_known = 1e-2;  // in coordinates of the solver
@@ -19,6 +19,25 @@ constexpr double no_better = 2e-6;      // relative gain that is not worth the l
 constexpr int first_comparison = 4;   // round from which a design is compared with the best known
 
 }  // namespace
+
+void conclude(Result& result, bool settled, int rounds, const Candidate& best, double gain) {
+  std::array<char, 200> text{};
+  result.status = Status::stopped;
+  if (!settled) {
+    std::snprintf(text.data(), text.size(), "after %d rounds the design is still worse between the poses than at them",
+                  rounds);
+  } else if (!best.stationary() || gain > most_gain) {
+    std::snprintf(text.data(), text.size(),
+                  "no limit is passed in the region, but the test of stationarity leaves %.1e: a slightly better "
+                  "design may exist",
+                  best.optimality_residual);
+  } else {
+    std::snprintf(text.data(), text.size(),
+                  "feasible and stationary by our own checks; near this design at most %.1e is left to gain", gain);
+    result.status = Status::optimal;
+  }
+  result.reason = text.data();
+}
 
 double gain_of(const Settled& found) {
   double out = found.look.gain + found.slack;
@@ -48,19 +67,10 @@ double Exchange::slack(const Settled& of) const {
   return least_slack(p, p.coordinates.coordinates(of.best.variables));
 }
 
-Look Exchange::look(const Imposed& imposed, const Eigen::VectorXd& x) {
-  const auto seed = settings_.seed + static_cast<std::uint64_t>(rounds_);
-  const RegionSettings how{.samples = quick, .seed = seed, .threads = settings_.threads};
-  Look out = look_over(problem_, region_, imposed, x, how, control_);
-  if (out.excess > passed) return out;
-  return look_over(problem_, region_, imposed, x, {.samples = dense, .seed = seed, .threads = settings_.threads},
-                   control_);
-}
-
-Look Exchange::dense_look(const Settled& of, const Control& control) const {
+Look Exchange::look(const Settled& of, long samples, const Control& control) const {
   const auto seed = settings_.seed + static_cast<std::uint64_t>(rounds_);
   return look_over(problem_, region_, of.imposed, of.best.variables,
-                   {.samples = dense, .seed = seed, .threads = settings_.threads}, control);
+                   {.samples = samples, .seed = seed, .threads = settings_.threads}, control);
 }
 
 bool Exchange::hopeless(const Settled& here, const Settled* known) const {
@@ -101,7 +111,9 @@ Settled Exchange::follow(const Imposed& first, const Eigen::VectorXd& start, con
     x = out.best.variables;
     if (hopeless(out, known)) break;
     try {
-      out.look = look(imposed, x);
+      Look found = look(out, quick_samples, control_);
+      if (found.excess <= passed) found = look(out, dense_samples, control_);
+      out.look = std::move(found);
     } catch (const Stopped&) {
       break;
     }

@@ -10,6 +10,11 @@ namespace ninedof {
 /// What may be left to gain near an optimum of a region, relative.
 inline constexpr double most_gain = 1e-7;
 
+inline constexpr int most_exchanges = 40;  // rounds
+
+/// Status and reason of a design over a region. `settled`: nothing is passed, in a dense search.
+void conclude(Result& result, bool settled, int rounds, const Candidate& best, double gain);
+
 /// A design of a study over a region and what is known of it.
 struct Settled {
   Candidate best;  ///< of the problem with these poses
@@ -30,8 +35,8 @@ class Exchange {
   /// than `known`, or comes to where that is.
   Settled follow(const Imposed& first, const Eigen::VectorXd& start, const Settled* known);
 
-  /// Looks at a design as densely as at one that is settled. Throws Stopped.
-  Look dense_look(const Settled& of, const Control& control) const;
+  /// Looks at a design. Throws Stopped.
+  Look look(const Settled& of, long samples, const Control& control) const;
 
   /// See Settled::slack.
   double slack(const Settled& of) const;
@@ -42,7 +47,6 @@ class Exchange {
  private:
   /// The optimum at the poses alone; `exactly`: until its slack is as small as what may be passed between the poses.
   Candidate solved(const Imposed& imposed, const Eigen::VectorXd& x, bool exactly);
-  Look look(const Imposed& imposed, const Eigen::VectorXd& x);
   bool hopeless(const Settled& here, const Settled* known) const;
   void tell(const Settled& here, const Imposed& at, double excess) const;
 

@@ -9,6 +9,9 @@
 
 namespace ninedof {
 
+/// Samples of a search: while the design moves, and at the end.
+inline constexpr long quick_samples = 4'000, dense_samples = 100'000;
+
 /// Where a design is worse than it may be.
 struct Look {
   double log_index = 0.0;  ///< the largest

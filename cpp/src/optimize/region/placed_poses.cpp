@@ -42,8 +42,7 @@ Pose PlacedPoses::pose(const Placed& placed, const PlacedDesign& design) const {
 }
 
 Vec3 PlacedPoses::shifted(const Vec6& at, const PlacedDesign& design) const {
-  const Pose pose = region_.pose(at);
-  return pose.position / (pose.in_zp ? 1.0 : zp(design));
+  return shifted_with(region_.pose(at), zp(design));
 }
 
 Eigen::VectorXd PlacedPoses::variables(const PlacedState& state) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "limits/table.hpp"
 #include "math/numbers.hpp"
@@ -16,9 +15,6 @@
 namespace ninedof {
 namespace {
 
-constexpr long quick_placed = 4'000,
-               dense_placed = 100'000;  // poses of a search: while the design moves, and at the end
-constexpr int most_rounds_placed = 40;
 constexpr double passed_placed = 1e-7;
 constexpr double nearly = 1e-5;   // violation up to which an end of the quick solver is a design
 constexpr double ample = 0.03;     // a pose where O leaves so much to spare does not rule
@@ -143,9 +139,9 @@ class PlacedStudy {
 
   /// Rounds with a quick solver, to which O is no variable.
   bool settle() {
-    for (int round = 0; round < most_rounds_placed; ++round) {
-      look_ = poses_.look(state_, how(quick_placed), passed_placed, control_);
-      if (poses_.nothing_new(state_, look_) || round + 1 == most_rounds_placed) return true;
+    for (int round = 0; round < most_exchanges; ++round) {
+      look_ = poses_.look(state_, how(quick_samples), passed_placed, control_);
+      if (poses_.nothing_new(state_, look_) || round + 1 == most_exchanges) return true;
       state_.ruling = poses_.joined(round < settles ? poses_.kept(state_, look_, ample) : state_.ruling, look_);
       follow_ruling();
       next_round(round + 1);
@@ -158,7 +154,7 @@ class PlacedStudy {
   bool place_exactly() {
     state_.ruling = poses_.deciding(state_, look_);
     follow_ruling();
-    for (int round = 0; round < most_rounds_placed; ++round) {
+    for (int round = 0; round < most_exchanges; ++round) {
       next_round();
       Settings warm = settings_;
       warm.starts = 0;
@@ -169,8 +165,8 @@ class PlacedStudy {
       if (found_.candidates.empty()) return false;
       const Candidate& best = found_.candidates.front();
       state_ = poses_.state(best.variables, state_.ruling, std::log(best.objective));
-      look_ = poses_.look(state_, how(dense_placed), passed_placed, control_);
-      if (poses_.nothing_new(state_, look_) || round + 1 == most_rounds_placed) return true;
+      look_ = poses_.look(state_, how(dense_samples), passed_placed, control_);
+      if (poses_.nothing_new(state_, look_) || round + 1 == most_exchanges) return true;
       state_.ruling = poses_.replaced(state_, look_);
       follow_ruling();
       if (!solve_quickly(0)) return false;
@@ -196,24 +192,8 @@ class PlacedStudy {
     out_.result.starts_done = tried_ + abandoned;
     out_.result.runs_abandoned = abandoned;
     out_.result.runs_completed = tried_;
-    std::array<char, 200> text{};
     const double gain = gain_left(best, full);
-    if (!look_.worse.empty()) {
-      std::snprintf(text.data(), text.size(),
-                    "after %d rounds the design is still worse between the poses than at them", rounds_);
-      out_.result.status = Status::stopped;
-    } else if (!best.stationary() || gain > most_gain) {
-      std::snprintf(text.data(), text.size(),
-                    "no limit is passed in the region, but the test of stationarity leaves %.1e: a slightly better "
-                    "design may exist",
-                    best.optimality_residual);
-      out_.result.status = Status::stopped;
-    } else {
-      std::snprintf(text.data(), text.size(),
-                    "feasible and stationary by our own checks; near this design at most %.1e is left to gain", gain);
-      out_.result.status = Status::optimal;
-    }
-    out_.result.reason = text.data();
+    conclude(out_.result, look_.worse.empty(), rounds_, best, gain);
     for (const Placed& placed : state_.ruling) {
       out_.region.poses.push_back(region_.pose(placed.at));
       out_.region.poses.back().internal.setZero();

@@ -76,6 +76,13 @@ Problem without_poses(Problem problem) {
   return problem;
 }
 
+Problem with_one_pose(Problem problem) {
+  problem.objective.aggregate = Aggregate::worst;
+  problem.objective.poses = {{}};
+  problem.objective.poses.front().position = Vec3(1.0, 0.5, 0.0);
+  return problem;
+}
+
 Eigen::VectorXd own_variables(const Problem& problem, const Eigen::VectorXd& x) {
   return x.head(static_cast<Eigen::Index>(without_poses(problem).names().size()));
 }
@@ -89,6 +96,10 @@ Eigen::VectorXd with_shifts(const Problem& problem, const Eigen::VectorXd& own, 
       if (offset[axis] >= 0) out[offset[axis]] = shifts[k][static_cast<Eigen::Index>(axis)];
   }
   return out;
+}
+
+Vec3 shifted_with(const Pose& pose, double zp) {
+  return pose.position / (pose.in_zp ? 1.0 : zp);
 }
 
 double distance_in(const Region& region, const Vec6& a, const Vec6& b) {

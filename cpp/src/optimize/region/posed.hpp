@@ -26,11 +26,17 @@ Problem posed(const Problem& problem, const std::vector<Pose>& poses);
 /// The problem without poses of its own.
 Problem without_poses(Problem problem);
 
+/// The problem with one pose, off the axis so that the closed form is not used.
+Problem with_one_pose(Problem problem);
+
 /// The variables of the problem without poses, of a full set.
 Eigen::VectorXd own_variables(const Problem& problem, const Eigen::VectorXd& x);
 
 /// A full set, from those and the shift of s at each pose; a shift that is no variable is left out.
 Eigen::VectorXd with_shifts(const Problem& problem, const Eigen::VectorXd& own, const std::vector<Vec3>& shifts);
+
+/// The shift of s, in zp, that moves it with the platform's origin.
+Vec3 shifted_with(const Pose& pose, double zp);
 
 /// The largest difference of two poses in parts of the region.
 double distance_in(const Region& region, const Vec6& a, const Vec6& b);

@@ -117,7 +117,7 @@ class RegionStudy {
       }
       try {
         if (best_.best.feasible() && !best_.settled) {
-          best_.look = exchange_.dense_look(best_, caller_);
+          best_.look = exchange_.look(best_, dense_samples, caller_);
           best_.slack = exchange_.slack(best_);
         }
         if (is_mean() && best_.look.poses > 0) average_ = mean(best_, caller_);
@@ -160,7 +160,6 @@ class RegionStudy {
     Result& result = out_.result;
     if (!best_.best.feasible()) return excluded();
     if (best_.look.poses > 0) keep_ruling();
-    const bool stationary = best_.best.stationary();
     out_.region.poses = poses_of(problem_, region_, best_.imposed);
     result.candidates = {best_.best};
     result.evaluations += exchange_.evaluations();
@@ -178,38 +177,25 @@ class RegionStudy {
       const double share = o.aggregate == Aggregate::weighted ? 1.0 - o.weight : 1.0;
       result.candidates.front().objective *= std::pow(average_->value / average_->quadrature, share);
     }
-    result.status = best_.settled && stationary && gain_of(best_) <= most_gain && !control_.stop.stop_requested()
-                        ? Status::optimal
-                        : Status::stopped;
-    result.reason = reason(stationary);
+    conclude(result, best_.settled, exchange_.rounds(), best_.best, out_.region.gain);
+    if (control_.stop.stop_requested()) {
+      result.status = Status::stopped;
+      result.reason = reason_of_stop();
+    }
     result.causes.clear();
     return std::move(out_);
   }
 
-  std::string reason(bool stationary) const {
+  std::string reason_of_stop() const {
+    const std::string when = exchange_.rounds() > 0 ? "in round " + std::to_string(exchange_.rounds())
+                                                    : std::string("before the first round");
     std::array<char, 200> text{};
-    if (control_.stop.stop_requested()) {
-      const std::string when = exchange_.rounds() > 0 ? "in round " + std::to_string(exchange_.rounds())
-                                                      : std::string("before the first round");
-      int length =
-          std::snprintf(text.data(), text.size(),
-                        "ended %s; the best so far at the poses imposed, not an optimum of the region", when.c_str());
-      if (best_.look.poses > 0)
-        std::snprintf(text.data() + length, text.size() - at_index(length),
-                      "; near this design at most %.1e is left to gain", gain_of(best_));
-    } else if (!best_.settled) {
-      std::snprintf(text.data(), text.size(),
-                    "after %d rounds the design is still worse between the poses than at them", exchange_.rounds());
-    } else if (!stationary || gain_of(best_) > most_gain) {
-      std::snprintf(text.data(), text.size(),
-                    "no limit is passed in the region, but the test of stationarity leaves %.1e: a slightly better "
-                    "design may exist",
-                    best_.best.optimality_residual);
-    } else {
-      std::snprintf(text.data(), text.size(),
-                    "feasible and stationary by our own checks; near this design at most %.1e is left to gain",
-                    gain_of(best_));
-    }
+    const int length =
+        std::snprintf(text.data(), text.size(),
+                      "ended %s; the best so far at the poses imposed, not an optimum of the region", when.c_str());
+    if (best_.look.poses > 0)
+      std::snprintf(text.data() + length, text.size() - at_index(length),
+                    "; near this design at most %.1e is left to gain", gain_of(best_));
     return text.data();
   }
 
