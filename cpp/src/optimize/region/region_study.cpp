@@ -65,19 +65,26 @@ class RegionStudy {
     return !out_.result.candidates.empty() && !out_.result.interrupted && out_.result.status != Status::unbounded;
   }
 
-  /// Follows every optimum of the poses alone that may still become the best.
+  /// Follows every optimum of the poses alone that may still become the best. The poses that hold the best design so far
+  /// are imposed on the next: a start that leads to the same design is known by its first round.
   void follow_all() {
     best_ = {};
+    Imposed from = first_;
     for (const Candidate& start : out_.result.candidates) {
       if (control_.stop.stop_requested()) break;
       if (best_.settled && start.objective >= best_.best.objective) continue;
-      Settled found = exchange_.follow(first_, start.variables, best_.rounds > 0 ? &best_ : nullptr);
+      Settled found = exchange_.follow(from, start.variables, best_.rounds > 0 ? &best_ : nullptr);
       found.best.reached = start.reached;
       const bool better = found.settled != best_.settled ? found.settled
                           : found.best.feasible() != best_.best.feasible()
                               ? found.best.feasible()
                               : found.best.objective < best_.best.objective;
-      if (best_.rounds == 0 || better) best_ = std::move(found);
+      if (best_.rounds > 0 && !better) continue;
+      best_ = std::move(found);
+      from = first_;
+      if (best_.settled)
+        std::ranges::copy(nearly_deciding(problem_, region_, best_.imposed.at, best_.best.variables, ruling),
+                          std::back_inserter(from.at));
     }
   }
 
