@@ -10,9 +10,6 @@ namespace ninedof {
 namespace {
 
 constexpr std::array coarse{3e-2};
-constexpr std::array fine{3e-2, 3e-3, 1e-4, 1e-6, 1e-8};
-constexpr std::array into_limits{1e-1, 1e-2};
-constexpr std::array into_corners{1e-2, 1e-4, 1e-6, 1e-8};
 
 // Lengths are in sizes of the robot.
 constexpr std::array reaches{0.15, 0.5, 1.5, 10.0};  // of points on rays
@@ -92,8 +89,9 @@ class Search {
   void refine_ends() {
     for (const End& end : rough_) {
       if (end.value > rough_.front().value + hopeless) break;
-      Descent d = descend(pose_, soft_, end.x, fine);
-      if (d.ending == Ending::away || d.ending == Ending::in_joint) d = descend(pose_, soft_, end.start, fine);
+      Descent d = descend(pose_, soft_, end.x, final_epsilons());
+      if (d.ending == Ending::away || d.ending == Ending::in_joint)
+        d = descend(pose_, soft_, end.start, final_epsilons());
       minima_.add(end_of(objective_, d));
     }
     for (const LocalMinimum& m : minima_.found) reach_.add(m.x);
@@ -112,7 +110,7 @@ class Search {
         if (const double value = objective_.exact(x); value < best.value) best = {x, value};
       }
       if (!(best.value < minima_.best()) || !reach_.reaches(best.x)) continue;
-      minima_.add(end_of(objective_, descend(pose_, soft_, best.x, fine)));
+      minima_.add(end_of(objective_, descend(pose_, soft_, best.x, final_epsilons())));
     }
   }
 
@@ -165,36 +163,6 @@ class Search {
 };
 
 }  // namespace
-
-LocalMinimum end_of(const PoseObjective& objective, const Descent& d) {
-  const double soft = objective.exact(d.x);
-  if (objective.violation(d.limit) <= limit_tolerance && objective.in_chamber(d.limit)) {
-    const double sharp = objective.exact(d.limit);
-    if (sharp <= soft) return {d.limit, sharp, d.ending, d.leg};
-  }
-  return {d.x, soft, d.ending, d.leg};
-}
-
-bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima) {
-  const Smoothed violation = [&objective](const Vec3& at, double epsilon, Jet& out) {
-    return objective.soft_violation(at, epsilon, out);
-  };
-  Descent d = descend(objective.pose(), violation, x, into_limits);
-  if (objective.violation(d.x) >= 0.0) d = descend(objective.pose(), violation, d.x, into_corners);
-  for (const Vec3& end : {d.x, d.limit}) {
-    const double broken = objective.violation(end);
-    if (broken < minima.violation) {
-      minima.violation = broken;
-      minima.nearest = end;
-    }
-  }
-  x = d.x;
-  return objective.violation(x) < limit_tolerance;
-}
-
-std::span<const double> final_epsilons() {
-  return fine;
-}
 
 Minima local_minima(const PoseObjective& objective, const Vec3& start) {
   Search search(objective, start);

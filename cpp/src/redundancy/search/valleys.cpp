@@ -8,7 +8,6 @@
 namespace ninedof {
 namespace {
 
-constexpr double same_minimum = 1e-6;  // greatest distance of two minima that count as one, in sizes of the robot
 constexpr int divisions = 4;           // of a cell
 constexpr std::size_t most_valleys = 4;
 constexpr double next_cells = 0.6;  // of the diagonal of a cell
@@ -39,21 +38,6 @@ bool falls_to(const PoseObjective& objective, const ScanCell& cell, const LocalM
 }
 
 }  // namespace
-
-double Minima::best() const {
-  return found.empty() ? infinity : std::ranges::min(found, {}, &LocalMinimum::value).value;
-}
-
-void Minima::add(const LocalMinimum& minimum) {
-  const auto same = [&](const LocalMinimum& other) { return (other.x - minimum.x).norm() < same_minimum; };
-  const auto known = std::ranges::find_if(found, same);
-  if (known == found.end()) {
-    found.push_back(minimum);
-  } else if (minimum.value < known->value) {
-    known->x = minimum.x;
-    known->value = minimum.value;
-  }
-}
 
 void add_valleys(const PoseObjective& objective, int n, Reach& reach, Minima& minima) {
   Scan scan(objective, n);

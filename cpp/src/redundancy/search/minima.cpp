@@ -1,7 +1,4 @@
-/// Declared in redundancy/search/multi_start.hpp.
-///
-/// A multi-start search begins with strong smoothing, which merges many starts. Here the first smoothing is only as
-/// strong as the distance to the minimum requires: the result stays near the start, and few steps are needed.
+#include "redundancy/search/minima.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,13 +6,18 @@
 #include <cmath>
 
 #include "math/numbers.hpp"
-#include "redundancy/search/multi_start.hpp"
 
 namespace ninedof {
 namespace {
 
+// A multi-start search begins with strong smoothing, which merges many starts. From a start near a minimum the first
+// smoothing is only as strong as the distance to it requires: the result stays near the start, and few steps are needed.
 constexpr std::array close{1e-4, 1e-6, 1e-8};
 constexpr std::array near{3e-3, 1e-4, 1e-6, 1e-8};
+constexpr std::array fine{3e-2, 3e-3, 1e-4, 1e-6, 1e-8};
+constexpr std::array into_limits{1e-1, 1e-2};
+constexpr std::array into_corners{1e-2, 1e-4, 1e-6, 1e-8};
+constexpr double same_minimum = 1e-6;  // greatest distance of two minima that count as one, in sizes of the robot
 
 /// Decrements, in epsilons. Below the first Newton's method needs few steps. The second ends a descent, earlier ones
 /// than the last included: the step to the next epsilon needs an accurate minimum.
@@ -138,6 +140,51 @@ bool enter_limits_warm(const PoseObjective& objective, Vec3& x, Minima& minima) 
 }
 
 }  // namespace
+
+double Minima::best() const {
+  return found.empty() ? infinity : std::ranges::min(found, {}, &LocalMinimum::value).value;
+}
+
+void Minima::add(const LocalMinimum& minimum) {
+  const auto same = [&](const LocalMinimum& other) { return (other.x - minimum.x).norm() < same_minimum; };
+  const auto known = std::ranges::find_if(found, same);
+  if (known == found.end()) {
+    found.push_back(minimum);
+  } else if (minimum.value < known->value) {
+    known->x = minimum.x;
+    known->value = minimum.value;
+  }
+}
+
+LocalMinimum end_of(const PoseObjective& objective, const Descent& d) {
+  const double soft = objective.exact(d.x);
+  if (objective.violation(d.limit) <= limit_tolerance && objective.in_chamber(d.limit)) {
+    const double sharp = objective.exact(d.limit);
+    if (sharp <= soft) return {d.limit, sharp, d.ending, d.leg};
+  }
+  return {d.x, soft, d.ending, d.leg};
+}
+
+bool enter_limits(const PoseObjective& objective, Vec3& x, Minima& minima) {
+  const Smoothed violation = [&objective](const Vec3& at, double epsilon, Jet& out) {
+    return objective.soft_violation(at, epsilon, out);
+  };
+  Descent d = descend(objective.pose(), violation, x, into_limits);
+  if (objective.violation(d.x) >= 0.0) d = descend(objective.pose(), violation, d.x, into_corners);
+  for (const Vec3& end : {d.x, d.limit}) {
+    const double broken = objective.violation(end);
+    if (broken < minima.violation) {
+      minima.violation = broken;
+      minima.nearest = end;
+    }
+  }
+  x = d.x;
+  return objective.violation(x) < limit_tolerance;
+}
+
+std::span<const double> final_epsilons() {
+  return fine;
+}
 
 Minima warm_minimum(const PoseObjective& objective, const Vec3& start) {
   Minima out{{}, infinity, start};
