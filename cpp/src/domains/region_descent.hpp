@@ -2,8 +2,9 @@
 /// One descent of one number over a region, from a pose; and which ends of some are the same.
 
 #include <stop_token>
+#include <vector>
 
-#include "ninedof/domains/region_extremes.hpp"
+#include "ninedof/domains/pose_numbers.hpp"
 
 namespace ninedof {
 

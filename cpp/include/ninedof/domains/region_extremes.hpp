@@ -4,36 +4,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <vector>
 
-#include "ninedof/domains/region.hpp"
+#include "ninedof/domains/pose_numbers.hpp"
 #include "ninedof/math/control.hpp"
 
 namespace ninedof {
-
-/// Numbers of a pose, in groups that are computed together. NaN, where a pose has no number, is never least.
-class PoseNumbers {
- public:
-  virtual ~PoseNumbers() = default;
-  /// How many numbers each group has.
-  virtual std::vector<int> groups() const = 0;
-  /// Goes to a pose of the region.
-  virtual void go(const Vec6& at) = 0;
-  /// The numbers of a group there; `out` has room for them.
-  virtual void evaluate(int group, double* out) = 0;
-  /// Whether a number is smooth, so that it has `slopes`: then descents follow them. They go by coordinates otherwise.
-  virtual bool smooth(int /*group*/, int /*number*/) const { return false; }
-  /// One number of a group at a pose of the region or beside it, and its derivatives by the coordinates.
-  virtual double slopes(int /*group*/, int /*number*/, const Vec6& /*at*/, Vec6& /*by_at*/) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  /// Below which value of each number a descent is worth while, for the least values of the sample; always by default.
-  virtual std::vector<double> worthwhile(const std::vector<double>& sampled) const {
-    return std::vector<double>(sampled.size(), std::numeric_limits<double>::infinity());
-  }
-};
 
 struct RegionSettings {
   long samples = 100'000;  ///< of region_sample
@@ -44,12 +21,6 @@ struct RegionSettings {
   /// Poses where descents begin too: those of each number that is there within `near` of its least.
   std::vector<Vec6> known = {};
   double near = 0.05;
-};
-
-/// A number, and the coordinates of the pose where it was met.
-struct MetNumber {
-  double value;
-  Vec6 at;
 };
 
 struct RegionExtremes {
