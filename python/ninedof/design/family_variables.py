@@ -6,17 +6,11 @@ import math
 
 import numpy as np
 
-from ninedof import _core
-from ninedof.design.study import Study
+from ninedof.design.study import Study, variable_kinds
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 
 SAME = 1e-12  # of the largest coordinate
-
-
-def variable_kinds(family: str) -> dict[str, str]:
-    """Return the variables of a family by name: "length", "coordinate" or "angle"."""
-    return {name: kind for name, kind, *_ in _core.family_variables(family)}
 
 
 def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dict[str, float] | None:
@@ -31,9 +25,8 @@ def variables_of(family: str, geometry: Geometry, neutral: Configuration) -> dic
         A single one; of a family's designs p and O are on the z axis, and the platform turns about it alone.
 
     """
-    known = [name for name, *_ in _core.family_variables(family)]
     found = _heights(neutral) | _hexagon(geometry) | _polar(geometry) | _coordinates(geometry)
-    values = {name: found[name] for name in known}
+    values = {name: found[name] for name in variable_kinds(family)}
     try:
         point = Study(family, variables=values).evaluate(values)
     except ValueError:  # a side below 0, zs above zp

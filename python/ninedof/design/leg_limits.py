@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ninedof import _core
-from ninedof.design.limits import ROWS, each, for_core
+from ninedof.design.limits import ROWS
 from ninedof.design.study import Study
 from ninedof.robot.leg_names import LEGS as LEG_NAMES
 from ninedof.support.arrays import Floats
@@ -32,10 +32,9 @@ def leg_limits_of(study: Study, zp: float) -> tuple[Floats, Floats]:
 
     """
     low, high = np.zeros(9), np.full(9, math.inf)
-    for name, limit in each(study.constraints):
-        given = for_core(name, limit)
-        if name in LEGS and given["at"] == "poses":
-            unit, legs = zp if given["of"] == "zp" else 1.0, list(LEGS[name])
-            low[legs] = np.maximum(low[legs], unit * given["low"])
-            high[legs] = np.minimum(high[legs], unit * given["high"])
+    for limit in study.limits:
+        if limit.name in LEGS and limit.at == "poses":
+            unit, legs = zp if limit.of == "zp" else 1.0, LEGS[limit.name]
+            low[legs] = np.maximum(low[legs], unit * limit.low)
+            high[legs] = np.minimum(high[legs], unit * limit.high)
     return low, high

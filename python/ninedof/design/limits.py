@@ -1,23 +1,20 @@
-"""Limits of constraints: parse what a study gives, write it to files, convert it for the core."""
+"""Limits of a study: the table of constraints of the core, and one limit as a study file has it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
-from typing import Any, NamedTuple, cast
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ninedof import _core
-from ninedof.support.angles import degrees_of, exact_degrees
+from ninedof.support.angles import angle_entry, degrees_of, half_turn, in_radians
 from ninedof.support.arguments import Vector, choice, known_keys, number, pair, shown, vector, whole
-
-Limit = tuple[float | None, float | None] | Mapping[str, Any]
-"""(low, high), None for an open side; with options a mapping of min, max and the options."""
-
-Limits = Limit | Sequence[Limit]
-"""What a study has for a name: one limit, or one for each value of `at`, then in normal form a tuple of mappings."""
+from ninedof.support.fixed import Fixed
+from ninedof.support.schema import Check, plain, within
 
 
 class Row(NamedTuple):
@@ -42,60 +39,104 @@ class Row(NamedTuple):
 
 
 ROWS = {row.name: row for row in (Row(*values) for values in _core.constraint_table)}
-CONSTRAINTS = tuple(ROWS)
 STEPS, MOST_STEPS = _core.singularity_free_steps  # parts of the way from the neutral pose that singularity_free tests
 AT = ("poses", "neutral")
 """Where a limit holds: at every pose of the objective, the default, or at the neutral pose alone."""
 
 
-def parse(name: str, value: Any) -> Limits:
-    """Return what a study has for a name in its normal form: checked, angles in radians, defaults left out.
+@dataclass(frozen=True)
+class Limit:
+    """One limit of a study."""
+
+    name: str
+    low: float = 0.0
+    """0 for an open side; angles in radians."""
+    high: float = math.inf
+    """Infinite for an open side."""
+    of: str = "length"
+    axis: Vector | tuple[()] = ()
+    """Of a cone, as it was given; () for the directions of the legs at the neutral pose."""
+    steps: int = STEPS
+    at: str = AT[0]
+
+    @property
+    def row(self) -> Row:
+        """Its row in the table of constraints."""
+        return ROWS[self.name]
+
+    @property
+    def label(self) -> str:
+        """Its name in margins, prices and messages, as in the core: "base_cone", "base_cone at neutral"."""
+        return label(self.name, self.at)
+
+    @property
+    def kind(self) -> str:
+        """As in its row; "ratio" for a length over zp or a radius."""
+        return "ratio" if self.of != "length" else self.row.kind
+
+    @property
+    def sides(self) -> dict[str, float]:
+        """The sides that are not open, "min" before "max"."""
+        sides = {"min": self.low} if self.low != 0.0 else {}
+        return sides | ({"max": self.high} if self.high != math.inf else {})
+
+    def unit(self, of_lengths: str = "") -> str:
+        """Return the unit in which it is shown: "deg" for an angle, that of lengths for a length, "" for a ratio."""
+        return {"angle": "deg", "length": of_lengths}.get(self.kind, "")
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What differs from the defaults beside the two sides."""
+        values = {"of": self.of, "axis": self.axis, "steps": self.steps, "at": self.at}
+        return {name: value for name, value in values.items() if value != getattr(Limit, name)}
+
+    @property
+    def entries(self) -> dict[str, Any]:
+        """Its sides and options; beside an option at least one side, though it may be open."""
+        first = self.row.sides[0]
+        sides = self.sides or ({first: self.low if first == "min" else self.high} if self.options else {})
+        return sides | self.options
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the table of a study file; `parse` reads it back to the same bits."""
+        angles = self.row.sides if self.row.is_angle else ()
+        entries = (angle_entry(*item) if item[0] in angles else item for item in self.entries.items())
+        return {name: plain(value) for name, value in entries}
+
+    def for_core(self) -> dict[str, Any]:
+        """Return the limit as the core takes it: the axis of unit length."""
+        return vars(self) | {"axis": _unit(self.axis) if self.axis else ()}
+
+
+def parse(name: str, value: Any) -> tuple[Limit, ...]:
+    """Return the limits that a study has for a name, checked: one, or one for each value of `at` in their order.
 
     `value` is (low, high), None for an open side, or a mapping of min, max (max_deg for angles) and the options of the
-    constraint; or a sequence of those with a mapping among them, at most one for each value of `at`.
+    constraint; or a sequence of those with a mapping among them.
     """
-    if not isinstance(value, list | tuple) or not any(isinstance(entry, Mapping) for entry in value):
-        return _parse_one(name, value)
-    found: dict[str, Limit] = {}
-    for entry in value:
-        limit = _parse_one(name, entry)
-        if (where := place(limit)) in found:
-            raise ValueError(f'{name}.at: got "{where}" twice, expected one limit for each of {", ".join(AT)}')
-        found[where] = limit
-    if len(found) == 1:
-        return next(iter(found.values()))
-    return tuple(MappingProxyType(_table(*parts(found[where]))) for where in AT)
+    where, row = f"constraints.{name}", ROWS[name]
+    if not isinstance(value, list | tuple) or not any(isinstance(one, Mapping | Limit) for one in value):
+        return (_parse(where, row, value),)
+    limits = {}
+    for k, one in enumerate(value):
+        limit = _parse(f"{where}[{k}]", row, one)
+        if limit.at in limits:
+            raise ValueError(f'{where}.at: got "{limit.at}" twice, expected one limit for each of {", ".join(AT)}')
+        limits[limit.at] = limit
+    return tuple(limits[at] for at in AT if at in limits)
 
 
-def each(constraints: Mapping[str, Limits]) -> list[tuple[str, Limit]]:
-    """Return every limit with the name of its constraint, those stated twice one after the other."""
-    out: list[tuple[str, Limit]] = []
-    for name, limits in constraints.items():
-        out += [(name, limit) for limit in _each_of(limits)]
-    return out
-
-
-def place(limit: Limit) -> str:
-    """Return where a limit holds, "poses" or "neutral"."""
-    return str(limit.get("at", AT[0])) if isinstance(limit, Mapping) else AT[0]
+def form(limits: Sequence[Limit]) -> Any:
+    """Return limits of one name as `Study.constraints` has them: (low, high) or, with options, a mapping or several."""
+    forms = [Fixed(one.entries) for one in limits]
+    if len(forms) > 1:
+        return tuple(forms)
+    return forms[0] if limits[0].options else (forms[0].get("min"), forms[0].get("max"))
 
 
 def label(name: str, at: str) -> str:
-    """Return what margins, prices and messages call a limit, as in the core: "base_cone", "base_cone at neutral"."""
+    """Return the label of a limit by its name and place."""
     return name if at == AT[0] else f"{name} at {at}"
-
-
-def shown_unit(name: str, limit: Limit, unit: str = "") -> str:
-    """Return the unit in which a limit is shown: "deg" for an angle, that of lengths for a length, "" for a ratio."""
-    if ROWS[name].is_angle:
-        return "deg"
-    plain = ROWS[name].kind == "length" and parts(limit)[2].get("of", ROWS[name].units[0]) == "length"
-    return unit if plain else ""
-
-
-def kind_of(name: str) -> str:
-    """Return the kind of a limit by its row; "ratio" for one that is no constraint, whose margin is a share too."""
-    return ROWS[name].kind if name in ROWS else "ratio"
 
 
 def split_label(text: str) -> tuple[str, str]:
@@ -104,26 +145,9 @@ def split_label(text: str) -> tuple[str, str]:
     return name, at or AT[0]
 
 
-def _parse_one(name: str, value: Any) -> Limit:
-    row = ROWS[name]
-    if isinstance(value, Mapping):
-        low, high, options = _from_mapping(row, value)
-    else:
-        expected = "(low, high), None for an open side, or a mapping"
-        low, high = (None if x is None else number(name, x) for x in pair(name, value, expected))
-        options = {}
-    named = label(name, options.get("at", AT[0]))
-    if low is None:
-        low = row.default_low
-    for side, limit in (("min", low), ("max", high)):
-        if limit is not None and side not in row.sides:
-            raise ValueError(f"{named}: got a {side}, {limit:g}, expected only a {row.sides[0]}")
-    _require_sensible(row, named, low, high)
-    if not options:
-        return low, high
-    if low is None and high is None:
-        raise ValueError(f"{named}: got {', '.join(options)} alone, expected {' or '.join(row.sides)} too")
-    return MappingProxyType(_table(low, high, options))
+def kind_of(name: str) -> str:
+    """Return the kind of a limit by its row; "ratio" for one that is no constraint, whose margin is a share too."""
+    return ROWS[name].kind if name in ROWS else "ratio"
 
 
 def names_with_max() -> list[str]:
@@ -131,99 +155,35 @@ def names_with_max() -> list[str]:
     return [name for name, row in ROWS.items() if "max" in row.sides]
 
 
-def to_table(name: str, limits: Limits) -> dict[str, Any] | list[dict[str, Any]]:
-    """Return the table of a study file, or an array of tables; `parse` reads it back to the same bits."""
-    tables = [_to_table(name, limit) for limit in _each_of(limits)]
-    return tables if len(tables) > 1 else tables[0]
-
-
-def _to_table(name: str, limit: Limit) -> dict[str, Any]:
-    low, high, options = parts(limit)
-    out: dict[str, Any] = {}
-    for side, value in (("min", low), ("max", high)):
-        if value is not None:
-            degrees = exact_degrees(value) if ROWS[name].is_angle else None
-            out |= {side: value} if degrees is None else {f"{side}_deg": degrees[0]}
-    return out | {key: list(v) if isinstance(v, tuple) else v for key, v in options.items()}
-
-
-def for_core(name: str, limit: Limit) -> dict[str, Any]:
-    """Return the limit as the core takes it: open sides 0 and infinity, the axis of unit length."""
-    low, high, options = parts(limit)
-    axis = options.get("axis", ())
-    return {
-        "name": name,
-        "low": 0.0 if low is None else low,
-        "high": math.inf if high is None else high,
-        "of": options.get("of", "length"),
-        "axis": _unit(axis) if axis else [],
-        "steps": options.get("steps", STEPS),
-        "at": place(limit),
-    }
-
-
-def _unit(axis: Sequence[float]) -> list[float]:
-    """Return the direction of an axis; its largest entry first, so that no square over- or underflows."""
-    scaled = np.array(axis) / max(abs(v) for v in axis)
-    return [float(v) for v in scaled / np.linalg.norm(scaled)]
-
-
-def _each_of(limits: Limits) -> Sequence[Limit]:
-    """Return one limit or several in normal form as a sequence; a pair of numbers is one limit."""
-    if isinstance(limits, tuple) and isinstance(limits[0], Mapping):
-        return cast("tuple[Limit, ...]", limits)
-    return (cast("Limit", limits),)
-
-
-def _table(low: float | None, high: float | None, options: Mapping[str, Any]) -> dict[str, Any]:
-    sides = {side: limit for side, limit in (("min", low), ("max", high)) if limit is not None}
-    return sides | dict(options)
-
-
-def parts(limit: Limit) -> tuple[float | None, float | None, dict[str, Any]]:
-    """Return low, high and the options of a limit in normal form."""
-    if isinstance(limit, tuple):
-        return *limit, {}
-    options = {key: value for key, value in limit.items() if key not in ("min", "max")}
-    return limit.get("min"), limit.get("max"), options
-
-
-def _from_mapping(row: Row, given: Mapping[str, Any]) -> tuple[float | None, float | None, dict[str, Any]]:
-    """Return low, high and the options that are not at their default."""
-    name = row.name
-    at = choice(f"{name}.at", given.get("at", AT[0]), AT)
-    named = label(name, at)
-    sides = [*row.sides, *(f"{side}_deg" for side in row.sides if row.is_angle)]
-    of = ["of"] if len(row.units) > 1 else []
-    known_keys(label(f"constraints.{name}", at), given, [*sides, *of, *row.options, "at"])
-    low, high = _side(named, given, "min"), _side(named, given, "max")
-    if given.get("radius") is not None:
-        if low is not None:
-            raise ValueError(f"{named}: got both min and radius, expected one of the two (min is twice the radius)")
-        low = 2.0 * number(label(f"{name}.radius", at), given["radius"])
-    options: dict[str, Any] = {}
-    if choice(label(f"{name}.of", at), given.get("of", row.units[0]), row.units) != row.units[0]:
-        options["of"] = given["of"]
-    if "axis" in given:
-        options["axis"] = _axis(label(f"{name}.axis", at), given["axis"])
-    if at != AT[0]:
-        options["at"] = at
-        if "steps" in given:
-            got = shown(given["steps"])
-            raise ValueError(f"{label(f'{name}.steps', at)}: got {got}, expected none: no way leads to this pose")
-    steps = whole(f"{name}.steps", given.get("steps", STEPS), 1, MOST_STEPS)
-    if steps != STEPS:
-        options["steps"] = steps
-    return low, high, options
-
-
-def _side(name: str, given: Mapping[str, Any], side: str) -> float | None:
-    plain, degrees = given.get(side), given.get(f"{side}_deg")
-    if plain is not None and degrees is not None:
-        raise ValueError(f"{name}: got both {side} and {side}_deg, expected one of the two")
-    if degrees is not None:
-        return math.radians(number(name, degrees))
-    return None if plain is None else number(name, plain)
+def _parse(where: str, row: Row, value: Any) -> Limit:
+    if isinstance(value, Limit):
+        value = value.entries
+    if not isinstance(value, Mapping):
+        low, high = pair(where, value, "(low, high), None for an open side, or a table")
+        value = {"min": low, "max": high}
+    table = {key: one for key, one in value.items() if one is not None}
+    checks: dict[str, Check] = dict.fromkeys(row.sides, number)
+    angles = dict(checks) if row.is_angle else {}
+    if len(row.units) > 1:
+        checks["of"] = partial(choice, known=row.units)
+    checks |= {option: OPTIONS[option] for option in row.options} | {"at": partial(choice, known=AT)}
+    known_keys(where, table, [*checks, *(f"{name}_deg" for name in angles)])
+    with within(where):
+        entries = {key: checks[key](key, one) for key, one in in_radians(table, angles).items()}
+        if "radius" in entries:
+            if "min" in entries:
+                raise ValueError("min: got both min and radius, expected one of the two (min is twice the radius)")
+            entries["min"] = 2.0 * entries.pop("radius")
+        if "steps" in entries and entries.get("at") == "neutral":
+            raise ValueError(f"steps: got {entries['steps']}, expected none: no way leads to the neutral pose")
+        if row.is_angle and "max" in entries:
+            half_turn("max", entries["max"])
+    low, high = entries.pop("min", row.default_low), entries.pop("max", None)
+    _require_sensible(where, row, low, high)
+    limit = Limit(row.name, low or 0.0, math.inf if high is None else high, **entries)
+    if limit.options and low is None and high is None:
+        raise ValueError(f"{where}: got {', '.join(limit.options)} alone, expected {' or '.join(row.sides)} too")
+    return limit
 
 
 def _axis(name: str, value: Any) -> Vector:
@@ -233,15 +193,26 @@ def _axis(name: str, value: Any) -> Vector:
     return axis
 
 
-def _require_sensible(row: Row, name: str, low: float | None, high: float | None) -> None:
+OPTIONS: dict[str, Check] = {
+    "radius": number,
+    "axis": _axis,
+    "steps": partial(whole, least=1, most=MOST_STEPS),
+}
+
+
+def _require_sensible(where: str, row: Row, low: float | None, high: float | None) -> None:
     """Raise for limits that no design can meet or that have no effect."""
     least, most = 0.0 if low is None else low, math.inf if high is None else high
     if not (0.0 <= least <= most and least < math.inf and most > 0.0):
         ends = [None if end is None else degrees_of(end) if row.is_angle else end for end in (low, high)]
         got = f"({ends[0]}, {ends[1]}){' degrees' * row.is_angle}"
-        raise ValueError(f"{name}: got {got}, expected 0 <= low <= high, high above 0")
-    if high is not None and row.is_angle and not high <= math.pi:
-        got = f"{high:g} radians, {degrees_of(high):g} degrees"
-        raise ValueError(f"{name}: got {got}, expected at most pi, 180 degrees (degrees are given as max_deg)")
+        raise ValueError(f"{where}: got {got}, expected 0 <= low <= high, high above 0")
     if row.kind == "sign" and not 0.0 < least < 1.0:
-        raise ValueError(f"{name}: got min = {least:g}, expected a number between 0 and 1")
+        raise ValueError(f"{where}: got min = {least:g}, expected a number between 0 and 1")
+
+
+def _unit(axis: Vector) -> Vector:
+    """Return the direction of an axis; its largest entry first, so that no square over- or underflows."""
+    scaled = np.array(axis) / max(abs(v) for v in axis)
+    x, y, z = (scaled / np.linalg.norm(scaled)).tolist()
+    return x, y, z

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from inspect import signature
-from typing import Any, TypeVar
+from itertools import chain
+from typing import Any, Self
 
 from ninedof.design import poses
 from ninedof.design.indices import objectives
-from ninedof.design.pose import POSE_KEYS, Pose
-from ninedof.design.region import REGION_KEYS, Region
-from ninedof.support.arguments import choice, finite, items, known_keys, number, shown, table, text, whole
+from ninedof.design.pose import Pose
+from ninedof.design.region import Region
+from ninedof.support.arguments import choice, finite, items, known_keys, number, text, whole
+from ninedof.support.schema import Table, entry, keys, read, within
 from ninedof.support.short import short_repr
-
-Made = TypeVar("Made")
 
 AGGREGATES = {
     "worst": "worst {index}",
@@ -23,14 +24,48 @@ AGGREGATES = {
     "weighted": "worst and harmonic mean, weighted, of the {index}",
 }
 CONDITION_LIMITS = ("condition_limit", "neutral_condition_limit")
-NUMBERS = ("aggregate", "weight", *CONDITION_LIMITS)
 SETS: dict[str, Callable[..., tuple[Pose, ...]]] = {"box": poses.box, "ball": poses.ball, "path": poses.path}
-SET_KEYS = {name: list(signature(make).parameters) for name, make in SETS.items()}  # the first of each is required
+SHARED = ("internal_point", "unit")
+"""Keys of the table [objective] that are defaults of its poses, sets and region."""
+
+
+def _index(name: str, value: Any) -> str:
+    """Return the core's word for an index of the table."""
+    known = objectives()
+    return str(known[choice(name, value, known)].objective)
+
+
+def _condition_limit(name: str, value: Any) -> float | None:
+    return None if number(name, value) == math.inf else finite(name, value, least=1.0)
+
+
+def _poses(name: str, value: Any, **defaults: Any) -> tuple[Pose, ...]:
+    """Return poses, each made from a table if one is given."""
+    listed = items(name, value, "a list of poses")
+    if len(listed) > poses.MOST_POSES:
+        raise ValueError(f"{name}: got {len(listed)}, expected at most {poses.MOST_POSES}")
+    return tuple(
+        one if isinstance(one, Pose) else read(Pose, one, f"{name}[{k}]", **defaults) for k, one in enumerate(listed)
+    )
+
+
+def _region(name: str, value: Any, **defaults: Any) -> Region:
+    return value if isinstance(value, Region) else read(Region, value, name, **defaults)
+
+
+def _set(name: str, value: Any, shared: Mapping[str, Any]) -> tuple[Pose, ...]:
+    """Return the poses of a table such as [objective.box]: the arguments of the function of that name."""
+    arguments = list(signature(SETS[name]).parameters)
+    known_keys(name, value, arguments)
+    if (first := arguments[0]) not in value:
+        raise ValueError(f"{name}.{first}: got nothing, expected a value")
+    with within(name):
+        return SETS[name](**{**shared, **value})
 
 
 @short_repr
 @dataclass(frozen=True)
-class Objective:
+class Objective(Table):
     """The number that an optimization minimizes. By default the condition number at the neutral pose.
 
     Parameters
@@ -68,39 +103,25 @@ class Objective:
 
     """
 
-    index: str = "condition_number"
-    aggregate: str = "worst"
-    weight: float = 0.5
-    condition_limit: float | None = None
-    neutral_condition_limit: float | None = None
-    poses: tuple[Pose, ...] = ()
-    region: Region | None = None
+    index: str = entry(_index, "condition_number")
+    aggregate: str = entry(partial(choice, known=AGGREGATES), "worst")
+    weight: float = entry(partial(finite, least=0.0, most=1.0), 0.5)
+    condition_limit: float | None = entry(_condition_limit, None)
+    neutral_condition_limit: float | None = entry(_condition_limit, None)
+    poses: tuple[Pose, ...] = entry(_poses, ())
+    region: Region | None = entry(_region, None)
 
     def __post_init__(self) -> None:
-        """Check and normalize every entry."""
-        listed = items("objective.poses", self.poses, "a sequence of poses")
-        for name, value in {
-            "index": _index(self.index),
-            "aggregate": choice("objective.aggregate", self.aggregate, AGGREGATES),
-            "weight": finite("objective.weight", self.weight, 0.0, 1.0),
-            **{name: _condition_limit(name, getattr(self, name)) for name in CONDITION_LIMITS},
-            "poses": tuple(_pose(k, pose) for k, pose in enumerate(listed)),
-            "region": _region(self.region),
-        }.items():
-            object.__setattr__(self, name, value)
-        if len(self.poses) > poses.MOST_POSES:
-            raise ValueError(f"objective.poses: got {len(self.poses)}, expected at most {poses.MOST_POSES}")
-        if self.poses and objectives()[self.index].function is None:
-            raise ValueError(
-                f"objective.poses: got {len(self.poses)}, expected none: {self.index} is for the neutral pose only"
-            )
-        if self.region is not None:
-            if objectives()[self.index].function is None:
-                raise ValueError(f"objective.region: got a region, expected none: {self.index} is for the neutral pose")
-            if self.aggregate != "worst" and self.region.internal_point == "best":
-                raise ValueError(f'objective.aggregate: got "{self.aggregate}", expected "worst" where O is best')
-            if self.aggregate != "worst" and any(pose.weight > 0.0 for pose in self.poses):
-                raise ValueError("objective.poses: got poses beside a mean over a region, expected weight = 0 for them")
+        """Check every entry, and that they go together."""
+        super().__post_init__()
+        mean, region = self.aggregate != "worst", self.region
+        if objectives()[self.index].function is None and (self.poses or region):
+            name, got = ("region", "a region") if region else ("poses", len(self.poses))
+            raise ValueError(f"{name}: got {got}, expected none: {self.index} is for the neutral pose only")
+        if mean and region and region.internal_point == "best":
+            raise ValueError(f'aggregate: got "{self.aggregate}", expected "worst" where O is best')
+        if mean and region and any(pose.weight > 0.0 for pose in self.poses):
+            raise ValueError("poses: got poses beside a mean over a region, expected weight = 0 for them")
 
     @property
     def mean_share(self) -> float:
@@ -117,52 +138,37 @@ class Objective:
 
         Of a region all poses count, or only so many imposed ones, at which O is not placed yet.
         """
-        index, imposed = objectives()[self.index].words, whole("imposed", imposed, 0)
-        unit = text("unit", unit)
-        if self.region is not None and imposed:
-            where = replace(self.region, internal_point="shifted").worded(unit)
-            return f"{AGGREGATES[self.aggregate].format(index=index)} over {imposed} poses of {where}"
-        if self.region is not None:
-            listed = f" and {len(self.poses)} poses" if self.poses else ""
-            return f"{AGGREGATES[self.aggregate].format(index=index)} over {self.region.worded(unit)}{listed}"
-        if not self.poses:
-            return index
-        over = "at one pose" if len(self.poses) == 1 else f"over {len(self.poses)} poses"
-        return f"{AGGREGATES[self.aggregate].format(index=index)} {over}"
+        unit, imposed = text("unit", unit), whole("imposed", imposed, 0)
+        index, count = objectives()[self.index].words, len(self.poses)
+        combined = AGGREGATES[self.aggregate].format(index=index)
+        if self.region is None:
+            return f"{combined} at one pose" if count == 1 else f"{combined} over {count} poses" if count else index
+        if imposed:
+            return f"{combined} over {imposed} poses of {replace(self.region, internal_point='shifted').worded(unit)}"
+        return f"{combined} over {self.region.worded(unit)}{f' and {count} poses' * (count > 0)}"
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Objective:
-        """Make an objective from the table [objective] of a study file; box, ball and path become poses."""
-        known_keys(
-            "objective",
-            data,
-            ["index", *NUMBERS, "internal_point", "unit", "poses", *SETS, "region"],
-        )
-        defaults = {name: data[name] for name in ("internal_point", "unit") if name in data}
-        found: list[Pose] = []
-        for k, entry in enumerate(items("objective.poses", data.get("poses", []), "tables [[objective.poses]]")):
-            found.append(_pose(k, entry, **defaults))
-        for name, make in SETS.items():
-            if name in data:
-                where = f"objective.{name}"
-                known_keys(where, table(where, data[name]), SET_KEYS[name])
-                if SET_KEYS[name][0] not in data[name]:
-                    raise ValueError(f"{where}.{SET_KEYS[name][0]}: got nothing, expected a value")
-                found.extend(_named(where, make, **(defaults | dict(data[name]))))
-        # A region has no shift of s of its own: only a word for where O is, is a default for it too.
-        region = _region(data.get("region"), **{k: v for k, v in defaults.items() if isinstance(v, str)})
-        if defaults:
-            _named("objective", Pose, **defaults)  # checked even where no pose uses the defaults
-        rest = {name: data[name] for name in ("index", *NUMBERS) if name in data}
-        return cls(poses=tuple(found), region=region, **rest)
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Make an objective from the table [objective] of a study file; box, ball and path become poses.
+
+        Its `unit` and `internal_point` are defaults for all of them.
+        """
+        known_keys("objective", data, [*keys(cls), *SETS, *SHARED])
+        table = dict(data)
+        with within("objective"):
+            shared = {name: table.pop(name) for name in SHARED if name in table}
+            Pose(**shared)  # checked even where no pose uses them
+            sets = [_set(name, table.pop(name), shared) for name in SETS if name in table]
+            listed = _poses("poses", table.pop("poses", ()), **shared)
+            if table.get("region") is not None:
+                # A region has no shift of s of its own: only a word for where O is, is a default for it too.
+                words = {name: word for name, word in shared.items() if isinstance(word, str)}
+                table["region"] = _region("region", table["region"], **words)
+            return cls(**table, poses=tuple(chain(listed, *sets)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table of a study file: the index, and what differs from the defaults."""
-        numbers = {name: getattr(self, name) for name in NUMBERS}
-        changed = {name: value for name, value in numbers.items() if value != getattr(Objective, name)}
-        poses = {"poses": [pose.to_dict() for pose in self.poses]} if self.poses else {}
-        region = {} if self.region is None else {"region": self.region.to_dict()}
-        return {"index": self.index, **changed, **poses, **region}
+        return {"index": self.index, **super().to_dict()}
 
     def for_core(self, over_region: bool = False) -> dict[str, Any]:
         """Return the objective as the core takes it; of a region, that over the listed poses, or over the region."""
@@ -174,42 +180,3 @@ class Objective:
             **{name: math.inf if (limit := getattr(self, name)) is None else limit for name in CONDITION_LIMITS},
             "poses": [pose.for_core() for pose in self.poses],
         }
-
-
-def _index(value: Any) -> str:
-    """Return the core's word for an index of the table."""
-    known = objectives()
-    return str(known[choice("objective.index", value, known)].objective)
-
-
-def _condition_limit(name: str, value: Any) -> float | None:
-    if value is None or (number(f"objective.{name}", value) == math.inf):
-        return None
-    return finite(f"objective.{name}", value, least=1.0)
-
-
-def _region(value: Any, **defaults: Any) -> Region | None:
-    """Return a region, made from a table if one is given."""
-    if value is None or isinstance(value, Region):
-        return value
-    entries = dict(table("objective.region", value))
-    known_keys("objective.region", entries, REGION_KEYS)
-    return _named("objective.region", Region.from_dict, defaults | entries)
-
-
-def _pose(index: int, value: Any, **defaults: Any) -> Pose:
-    """Return a pose, made from a table if one is given."""
-    if isinstance(value, Pose):
-        return value
-    if not isinstance(value, Mapping):
-        raise ValueError(f"objective.poses[{index}]: got {shown(value)}, expected a Pose or a table")
-    known_keys(f"objective.poses[{index}]", value, POSE_KEYS)
-    return _named(f"objective.poses[{index}]", Pose.from_dict, value, **defaults)
-
-
-def _named(where: str, make: Callable[..., Made], /, *arguments: Any, **named: Any) -> Made:
-    """Call `make` and prefix its error messages with the place of the entry."""
-    try:
-        return make(*arguments, **named)
-    except ValueError as error:
-        raise ValueError(f"{where}.{error}") from None

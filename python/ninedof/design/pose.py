@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
-from ninedof.redundancy.rules import study_rule
-from ninedof.support.angles import rotation_entry, vector_argument
-from ninedof.support.arguments import Vector, finite, known_keys, shown, vector
+from ninedof.redundancy.rules import STUDY_RULES
+from ninedof.support.arguments import Vector, choice, finite, vector
+from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
-from ninedof.support.units import scale_argument
+from ninedof.support.units import scale
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 DEFAULT_INTERNAL_POINT = "shifted"
-POSE_KEYS = ("position", "rotation", "rotation_deg", "internal_point", "unit", "weight")
+
+
+def _internal_point(name: str, value: Any) -> Vector | str:
+    return choice(name, value, STUDY_RULES) if isinstance(value, str) else vector(name, value)
 
 
 @short_repr
 @dataclass(frozen=True)
-class Pose:
+class Pose(Table):
     """A pose of the platform and of O, relative to the neutral pose of a design.
 
     Parameters
@@ -54,65 +57,21 @@ class Pose:
 
     """
 
-    position: Vector = ZERO
-    rotation: Vector = ZERO
-    internal_point: Vector | str = DEFAULT_INTERNAL_POINT
-    unit: str = "length"
-    weight: float = 1.0
+    position: Vector = entry(vector, ZERO)
+    rotation: Vector = entry(vector, ZERO, angle=True)
+    internal_point: Vector | str = entry(_internal_point, DEFAULT_INTERNAL_POINT)
+    unit: str = entry(scale, "length")
+    weight: float = entry(partial(finite, least=0.0), 1.0)
 
     def __post_init__(self) -> None:
-        """Check and normalize every entry."""
-        point = self.internal_point
-        if isinstance(point, str):
-            chosen: Vector | str = study_rule(point)
-        elif point is None:
-            raise ValueError(f"internal_point: got {shown(point)}, expected [x, y, z], 'shifted', 'held' or 'best'")
-        else:
-            chosen = vector("internal_point", point)
-        object.__setattr__(self, "position", vector("position", self.position))
-        object.__setattr__(self, "rotation", vector("rotation", self.rotation))
-        object.__setattr__(self, "internal_point", _named(chosen, self.position))
-        object.__setattr__(self, "unit", scale_argument(self.unit))
-        object.__setattr__(self, "weight", finite("weight", self.weight, least=0.0))
-
-    @classmethod
-    def from_dict(
-        cls, data: Mapping[str, Any], internal_point: Any = DEFAULT_INTERNAL_POINT, unit: Any = "length"
-    ) -> Pose:
-        """Make a pose from a table [[objective.poses]]; the last two arguments are the defaults of its entries."""
-        known_keys("pose", data, POSE_KEYS)
-        return cls(
-            position=data.get("position", ZERO),
-            rotation=vector_argument("rotation", data.get("rotation"), data.get("rotation_deg")),
-            internal_point=data.get("internal_point", internal_point),
-            unit=data.get("unit", unit),
-            weight=data.get("weight", 1.0),
-        )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the table of a study file: what differs from the neutral pose."""
-        out: dict[str, Any] = {}
-        if self.position != ZERO:
-            out["position"] = list(self.position)
-        if self.rotation != ZERO:
-            out |= rotation_entry("rotation", self.rotation)
-        if self.internal_point != DEFAULT_INTERNAL_POINT:
-            point = self.internal_point
-            out["internal_point"] = point if isinstance(point, str) else list(point)
-        if self.unit != "length":
-            out["unit"] = self.unit
-        if self.weight != 1.0:
-            out["weight"] = self.weight
-        return out
+        """Name the shift of s where it has a word, so that the same pose is equal to itself."""
+        super().__post_init__()
+        shift = ZERO if self.internal_point == "held" else self.internal_point
+        word = "shifted" if shift == self.position else "held" if shift == ZERO else shift
+        object.__setattr__(self, "internal_point", word)
 
     def for_core(self) -> tuple[Vector, Vector, Vector, bool, bool, float]:
         """Return position, rotation vector, shift of s, whether the optimizer chooses s or shifts are in zp, weight."""
         point = self.internal_point
         shift = point if not isinstance(point, str) else self.position if point == "shifted" else ZERO
         return self.position, self.rotation, shift, self.internal_point == "best", self.unit == "zp", self.weight
-
-
-def _named(point: Vector | str, position: Vector) -> Vector | str:
-    """Return the word for a shift of s that has one, so that the same pose is equal to itself."""
-    shift = ZERO if point == "held" else point
-    return "shifted" if shift == position else "held" if shift == ZERO else point

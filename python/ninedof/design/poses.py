@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ninedof.design.pose import DEFAULT_INTERNAL_POINT, ZERO, Pose
-from ninedof.support.angles import vector_argument
-from ninedof.support.arguments import Vector, finite, items, vector, whole
+from ninedof.support.angles import DEG, in_radians
+from ninedof.support.arguments import Vector, finite, vector, vectors, whole
+from ninedof.support.schema import Check
 
 __all__ = ["Pose", "ball", "box", "path"]
 
@@ -124,10 +126,12 @@ def path(
     [0.0, 0.5, 1.0]
 
     """
-    corners = [vector(f"positions[{k}]", p) for k, p in enumerate(items("positions", positions, "a list of [x, y, z]"))]
+    corners = vectors("positions", positions)
     if len(corners) < 2:
         raise ValueError(f"positions: got {len(corners)} corners, expected at least two")
-    turns = _turns(rotations, rotations_deg, len(corners))
+    turns = _radians("rotations", rotations, rotations_deg, vectors) or (ZERO,) * len(corners)
+    if len(turns) != len(corners):
+        raise ValueError(f"rotations: got {len(turns)} rotations, expected one a corner, {len(corners)}")
     count = whole("points", points, 2, MOST_POSES)
     with np.errstate(over="ignore"):  # of huge numbers, see below
         steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
@@ -156,24 +160,16 @@ def _grid(half: float, count: int) -> list[float]:
 
 def _with_tilts(places: list[Vector], tilt: Any, tilt_deg: Any, internal_point: Any, unit: str) -> tuple[Pose, ...]:
     """Return poses at the places, and the neutral pose turned by plus and minus each angle that is not zero."""
-    angles = vector_argument("tilt", tilt, tilt_deg, least=0.0)
+    angles = _radians("tilt", tilt, tilt_deg, partial(vector, least=0.0)) or ZERO
     turns = [sign * angle * np.eye(3)[k] for k, angle in enumerate(angles) if angle > 0.0 for sign in (1.0, -1.0)]
-    given = [(p, ZERO) for p in places] + [(ZERO, tuple((turn + 0.0).tolist())) for turn in turns]
-    return tuple(Pose(p, turn, internal_point, unit) for p, turn in given)
+    every = [(p, ZERO) for p in places] + [(ZERO, tuple((turn + 0.0).tolist())) for turn in turns]
+    return tuple(Pose(p, turn, internal_point, unit) for p, turn in every)
 
 
-def _turns(rotations: Any, rotations_deg: Any, count: int) -> list[Vector]:
-    if rotations is not None and rotations_deg is not None:
-        raise ValueError("rotations: got both rotations and rotations_deg, expected one of the two")
-    given, name = (rotations, "rotations") if rotations_deg is None else (rotations_deg, "rotations_deg")
-    if given is None:
-        return [ZERO] * count
-    found = [vector(f"{name}[{k}]", q) for k, q in enumerate(items(name, given, "a list of [x, y, z]"))]
-    if len(found) != count:
-        raise ValueError(f"{name}: got {len(found)} rotations, expected one a corner, {count}")
-    if rotations_deg is None:
-        return found
-    return [(math.radians(x), math.radians(y), math.radians(z)) for x, y, z in found]
+def _radians(name: str, radians: Any, degrees: Any, check: Check) -> Any:
+    """Return an argument that has a second name for degrees; None without one."""
+    named = {key: value for key, value in ((name, radians), (name + DEG, degrees)) if value is not None}
+    return check(name, in_radians(named, {name: check})[name]) if named else None
 
 
 def _few_enough(count: int) -> None:

@@ -3,25 +3,36 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import ROUND_FLOOR, Context
+from functools import partial
 from typing import Any
 
-from ninedof.redundancy.rules import study_rule
-from ninedof.support.angles import exact_degrees
-from ninedof.support.arguments import Vector, finite, items, known_keys, pair, text, vector
+from ninedof.redundancy.rules import STUDY_RULES
+from ninedof.support.angles import exact_degrees, half_turn
+from ninedof.support.arguments import Vector, choice, finite, pair, text, vector, vectors
+from ninedof.support.schema import Table, entry
 from ninedof.support.short import short_repr
-from ninedof.support.units import amount, scale_argument
+from ninedof.support.units import amount, scale
 
 SHAPES = ("box", "ball", "cylinder", "path")
-ANGLES = ("tilt", "yaw")
-REGION_KEYS = (*SHAPES, *ANGLES, *(f"{name}_deg" for name in ANGLES), "internal_point", "unit")
+
+
+def _cylinder(name: str, value: Any) -> tuple[float, float]:
+    radius, height = pair(name, value, "(radius, half height)")
+    return finite(name, radius, least=0.0), finite(name, height, least=0.0)
+
+
+def _corners(name: str, value: Any) -> tuple[Vector, ...]:
+    corners = vectors(name, value)
+    if len(set(corners)) < 2:
+        raise ValueError(f"{name}: got {len(corners)} corners, expected at least two different ones")
+    return corners
 
 
 @short_repr
 @dataclass(frozen=True)
-class Region:
+class Region(Table):
     """Every tilt and yaw at every position of a box, ball, cylinder or path: the poses a machine is built for.
 
     Limits hold and the index is the worst in all of it, not at listed poses. Q = exp(tilt) Rz(yaw) Q_neutral; the tilt
@@ -63,59 +74,23 @@ class Region:
 
     """
 
-    box: Vector | None = None
-    ball: float | None = None
-    cylinder: tuple[float, float] | None = None
-    path: tuple[Vector, ...] | None = None
-    tilt: float = 0.0
-    yaw: float = 0.0
-    internal_point: str = "shifted"
-    unit: str = "length"
+    box: Vector | None = entry(partial(vector, least=0.0), None)
+    ball: float | None = entry(partial(finite, least=0.0), None)
+    cylinder: tuple[float, float] | None = entry(_cylinder, None)
+    path: tuple[Vector, ...] | None = entry(_corners, None)
+    tilt: float = entry(partial(finite, least=0.0), 0.0, angle=True)
+    yaw: float = entry(partial(finite, least=0.0), 0.0, angle=True)
+    internal_point: str = entry(partial(choice, known=STUDY_RULES), "shifted")
+    unit: str = entry(scale, "length")
 
     def __post_init__(self) -> None:
-        """Check and normalize every entry."""
-        given = [name for name in SHAPES if getattr(self, name) is not None]
-        if len(given) > 1:
-            raise ValueError(f"region: got {' and '.join(given)}, expected one of {', '.join(SHAPES)}")
-        for name, value in {
-            "box": None if self.box is None else vector("box", self.box, least=0.0),
-            "ball": None if self.ball is None else finite("ball", self.ball, least=0.0),
-            "cylinder": None if self.cylinder is None else _cylinder(self.cylinder),
-            "path": None if self.path is None else _corners(self.path),
-            "tilt": finite("tilt", self.tilt, 0.0, math.pi),
-            "yaw": finite("yaw", self.yaw, 0.0, math.pi),
-            "internal_point": study_rule(self.internal_point),
-            "unit": scale_argument(self.unit),
-        }.items():
-            object.__setattr__(self, name, value)
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Region:
-        """Make a region from the table [objective.region] of a study file; angles may be in degrees."""
-        known_keys("region", data, REGION_KEYS)
-        entries = dict(data)
-        for name in ANGLES:
-            if f"{name}_deg" in entries:
-                if name in entries:
-                    raise ValueError(f"{name}: got both {name} and {name}_deg, expected one of the two")
-                entries[name] = math.radians(finite(f"{name}_deg", entries.pop(f"{name}_deg"), 0.0, 180.0))
-        return cls(**entries)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the table of a study file: what differs from the defaults."""
-        out: dict[str, Any] = {}
-        for name in SHAPES:
-            value = getattr(self, name)
-            if value is not None:
-                out[name] = [list(p) for p in value] if name == "path" else value if name == "ball" else list(value)
-        for name in ANGLES:
-            if angle := getattr(self, name):
-                degrees = exact_degrees(angle)
-                out |= {name: angle} if degrees is None else {f"{name}_deg": degrees[0]}
-        for name in ("internal_point", "unit"):
-            if getattr(self, name) != getattr(Region, name):
-                out[name] = getattr(self, name)
-        return out
+        """Check every entry, and that they go together."""
+        super().__post_init__()
+        shapes = [name for name in SHAPES if getattr(self, name) is not None]
+        if len(shapes) > 1:
+            raise ValueError(f"{shapes[-1]}: got {' and '.join(shapes)}, expected one of {', '.join(SHAPES)}")
+        for name in ("tilt", "yaw"):
+            half_turn(name, getattr(self, name))
 
     @property
     def words(self) -> str:
@@ -135,31 +110,21 @@ class Region:
             where = f"a cylinder of radius {radius} and half height {half}"
         elif self.path is not None:
             where = f"a path of {len(self.path)} corners"
-        turns = [("tilts", self.tilt), ("yaws", self.yaw)]
         if self.internal_point == "best":
             where += " with O placed at every pose"
-        said = [f"{name} of at most {_degrees(angle)} degrees" for name, angle in turns if angle > 0.0]
-        return ", ".join([where, *said])
+        turns = [("tilts", self.tilt), ("yaws", self.yaw)]
+        return ", ".join([where, *(f"{name} of at most {_degrees(angle)} degrees" for name, angle in turns if angle)])
 
     @property
     def reach(self) -> tuple[float, ...]:
         """Greatest moduli of the six coordinates of a pose: shift of p, tilt about x and y, yaw."""
-        size = self.for_core()["size"]
-        place = (1.0, 0.0, 0.0) if self.path is not None else size
-        if self.ball is not None:
-            place = (self.ball,) * 3
-        if self.cylinder is not None:
-            place = (self.cylinder[0], self.cylinder[0], self.cylinder[1])
+        shape, size = self._shape()
+        place = {"path": (1.0, 0.0, 0.0), "ball": size[:1] * 3, "cylinder": (size[0], *size[::2])}.get(shape, size)
         return (*place, self.tilt, self.tilt, self.yaw)
 
     def for_core(self) -> dict[str, Any]:
         """Return the region as the core takes it."""
-        shape = next((name for name in SHAPES if getattr(self, name) is not None), "box")
-        size = self.box or (0.0, 0.0, 0.0)
-        if self.ball is not None:
-            size = (self.ball, 0.0, 0.0)
-        if self.cylinder is not None:
-            size = (self.cylinder[0], 0.0, self.cylinder[1])
+        shape, size = self._shape()
         return {
             "shape": shape,
             "size": size,
@@ -170,6 +135,14 @@ class Region:
             "placed": self.internal_point == "best",
             "in_zp": self.unit == "zp",
         }
+
+    def _shape(self) -> tuple[str, Vector]:
+        """Return the core's word for the shape, and its size; a region of turns alone is an empty box."""
+        if self.ball is not None:
+            return "ball", (self.ball, 0.0, 0.0)
+        if self.cylinder is not None:
+            return "cylinder", (self.cylinder[0], 0.0, self.cylinder[1])
+        return "box" if self.path is None else "path", self.box or (0.0, 0.0, 0.0)
 
 
 def _plain(x: float) -> str:
@@ -182,15 +155,3 @@ def _degrees(angle: float) -> str:
     if exact := exact_degrees(angle):
         return _plain(exact[0])
     return _plain(float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal_from_float(math.degrees(angle))))
-
-
-def _cylinder(value: Any) -> tuple[float, float]:
-    radius, height = pair("cylinder", value, "(radius, half height)")
-    return finite("cylinder", radius, least=0.0), finite("cylinder", height, least=0.0)
-
-
-def _corners(value: Any) -> tuple[Vector, ...]:
-    corners = tuple(vector(f"path[{k}]", p) for k, p in enumerate(items("path", value, "a list of [x, y, z]")))
-    if len(corners) < 2 or len(set(corners)) < 2:
-        raise ValueError(f"path: got {len(corners)} corners, expected at least two different ones")
-    return corners

@@ -4,30 +4,92 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
+from functools import partial
+from itertools import chain
 from typing import Any
 
 from ninedof import _core
 from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.conditioning.characteristic_length import length_argument
-from ninedof.design import limits
 from ninedof.design.design_point import DesignPoint, design_point
+from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
-from ninedof.design.study_file import read_toml, study_arguments, study_tables, write_toml
 from ninedof.robot.configuration import Configuration
-from ninedof.support.angles import DEG, degrees_of, in_radians
-from ninedof.support.arguments import choice, finite, is_number, known_keys, number, pair, shown, text, whole
+from ninedof.support.angles import DEG, angle_entry, degrees_of, in_radians
+from ninedof.support.arguments import (
+    bound,
+    choice,
+    finite,
+    flag,
+    is_number,
+    known_keys,
+    number,
+    pair,
+    shown,
+    table,
+    text,
+    whole,
+)
+from ninedof.support.fixed import Fixed
+from ninedof.support.schema import Check, check_entries, entry, plain
 from ninedof.support.short import short_repr
-from ninedof.support.units import unit_argument
+from ninedof.support.toml import read_toml, write_toml
+from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
 Bound = float | tuple[float, float]
 """A fixed value, or (low, high)."""
 
 LENGTH = "characteristic_length"
 UNGIVEN = float("1.0")  # an object of its own: told from a 1.0 that was given
+TABLES = {
+    "design": ("family", LENGTH),
+    "variables": (),
+    "constraints": (),
+    "objective": (),
+    "solver": ("starts", "seed"),
+}
+"""The tables of a study file, and the arguments that are keys of one; the others are arguments as a whole."""
 MOST_STARTS = 1_000_000  # each may be searched four times, and all ends are kept
+
+
+def variable_kinds(family: str) -> dict[str, str]:
+    """Return the variables of a family by name: "length", "coordinate" or "angle"."""
+    return {name: kind for name, kind, *_ in _core.family_variables(family)}
+
+
+def _in_radians(where: str, values: Any, kinds: Mapping[str, str], check: Check) -> dict[str, Any]:
+    """Return named values with angles in radians; raise for unknown names."""
+    angles = [name for name, kind in kinds.items() if kind == "angle"]
+    known_keys(where, values, [*kinds, *(name + DEG for name in angles)])
+    return in_radians(values, dict.fromkeys(angles, check))
+
+
+def _family(name: str, value: Any) -> str:
+    return choice(name, value, _core.design_family_names())
+
+
+def _constraints(name: str, value: Any) -> Any:
+    known_keys(name, value, ROWS)
+    return value
+
+
+def _length(name: str, value: Any) -> float | str | tuple[float, float]:
+    if isinstance(value, str) or is_number(value):
+        return length_argument(value)
+    low, high = (finite(name, x) for x in pair(name, value, "a number, a kind, or (low, high)"))
+    if not 0.0 < low <= high:
+        raise ValueError(f"{name}: got {shown(value)}, expected 0 < low <= high")
+    return low if low == high else (low, high)
+
+
+def _objective(name: str, value: Any) -> Objective:
+    return value if isinstance(value, Objective) else Objective.from_dict(value)
+
+
+def _unit(name: str, value: Any) -> str:
+    return unit_argument(value)
 
 
 @short_repr
@@ -90,46 +152,45 @@ class Study:
 
     """
 
-    family: str = "hexagonal"
-    variables: Mapping[str, Bound] = field(default_factory=dict)
-    constraints: Mapping[str, limits.Limits] = field(default_factory=dict)
-    characteristic_length: float | str | tuple[float, float] = UNGIVEN
-    starts: int = 64
-    seed: int = 0
-    objective: Objective = field(default_factory=Objective)
-    unit: str = ""
+    family: str = entry(_family, "hexagonal")
+    variables: Mapping[str, Bound] = entry(table, Fixed())
+    constraints: Mapping[str, Any] = entry(_constraints, Fixed())
+    characteristic_length: float | str | tuple[float, float] = entry(_length, UNGIVEN)
+    starts: int = entry(partial(whole, least=1, most=MOST_STARTS), 64)
+    seed: int = entry(partial(whole, least=0), 0)
+    objective: Objective = entry(_objective, Objective())
+    unit: str = entry(_unit, "")
     """Name of the length unit; "" without one."""
+    limits: tuple[Limit, ...] = field(default=(), init=False, compare=False, repr=False)
+    """The constraints, one after the other; those stated twice have two."""
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
     """Whether the characteristic length was not given."""
+    _problems: dict[bool, _core.Problem] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     __hash__ = None  # type: ignore[assignment]  # mappings inside
 
     def __post_init__(self) -> None:
         """Complete the variables, normalize numbers, and validate the problem in the core."""
-        family = choice("family", self.family, _core.design_family_names())
-        known = _core.family_variables(family)
         assumed = self.characteristic_length is UNGIVEN
-        length = 1.0 if assumed else _length(self.characteristic_length)  # not UNGIVEN again: copies have it given
-        given = self._known("variables", self.variables, [name for name, *_ in known])
-        known_keys("constraints", self.constraints, limits.CONSTRAINTS)
+        if assumed:
+            object.__setattr__(self, LENGTH, 1.0)  # not UNGIVEN: copies have it given
+        check_entries(self)
+        named = _in_radians("variables", self.variables, variable_kinds(self.family), bound)
         variables: dict[str, Bound] = {}
-        for name, kind, low, high in known:
+        for name, kind, *ends in _core.family_variables(self.family):
+            length = self.characteristic_length
             unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
-            default: Bound = low * unit if low == high else (low * unit, high * unit)
-            variables[name] = _bound(name, given.get(name, default))
-        objective = self.objective
+            low, high = (end * unit for end in ends)
+            variables[name] = bound(name, named[name]) if name in named else low if low == high else (low, high)
+        limits = {name: parse(name, value) for name, value in self.constraints.items()}
         for name, value in {
-            "variables": MappingProxyType(variables),
-            "constraints": MappingProxyType({n: limits.parse(n, value) for n, value in self.constraints.items()}),
-            "characteristic_length": length,
-            "objective": objective if isinstance(objective, Objective) else Objective.from_dict(objective),
-            "starts": whole("starts", self.starts, 1, MOST_STARTS),
-            "seed": whole("seed", self.seed, 0),
-            "unit": unit_argument(self.unit),
+            "variables": Fixed(variables),
+            "constraints": Fixed({name: form(one) for name, one in limits.items()}),
+            "limits": tuple(chain.from_iterable(limits.values())),
             "length_assumed": assumed,
-            "defaulted": tuple(n for n, b in variables.items() if n not in given and isinstance(b, tuple)),
+            "defaulted": tuple(n for n, b in variables.items() if n not in named and isinstance(b, tuple)),
         }.items():
             object.__setattr__(self, name, value)
         self.problem()
@@ -158,11 +219,36 @@ class Study:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Study:
         """Make a study from the tables of a study file."""
-        return cls(**study_arguments(data))
+        if isinstance(data, Mapping) and "geometry" in data:
+            raise ValueError(
+                "study: got a design (it has a table [geometry]), expected a study; see `ninedof evaluate`"
+            )
+        known_keys("study", data, ["unit", *TABLES])
+        tables = {name: table(name, data.get(name, {})) for name in TABLES}
+        require_unit_at_top({name: entries for name, entries in tables.items() if name != "objective"})
+        arguments = {"unit": data.get("unit", "")}
+        for name, names in TABLES.items():
+            known_keys(name, tables[name], names or tables[name])
+            arguments |= tables[name] if names else {name: tables[name]}
+        return cls(**arguments)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tables of a study file; `Study.from_dict` reads them back."""
-        return study_tables(vars(self))
+        design = {"family": self.family, "characteristic_length": plain(self.characteristic_length)}
+        if self.length_assumed and self.unit:
+            del design["characteristic_length"]  # so that a study read back says so again
+        constraints: dict[str, list[dict[str, Any]]] = {}
+        for limit in self.limits:
+            constraints.setdefault(limit.name, []).append(limit.to_dict())
+        variables = (angle_entry(n, b) if n in self.angles else (n, b) for n, b in self.variables.items())
+        return {
+            **unit_entry(self.unit),
+            "design": design,
+            "variables": {name: plain(value) for name, value in variables},
+            "constraints": {name: one if len(one) > 1 else one[0] for name, one in constraints.items()},
+            "objective": self.objective.to_dict(),
+            "solver": {"starts": self.starts, "seed": self.seed},
+        }
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the study as a TOML file."""
@@ -189,7 +275,7 @@ class Study:
     @property
     def angles(self) -> tuple[str, ...]:
         """Names of the variables that are angles, in radians; in files and on screens in degrees."""
-        return tuple(name for name, kind, *_ in _core.family_variables(self.family) if kind == "angle")
+        return tuple(name for name, kind in variable_kinds(self.family).items() if kind == "angle")
 
     def unit_of(self, variable: str) -> str:
         """Return the unit in which a variable is shown: "deg" for an angle, else that of lengths."""
@@ -205,17 +291,14 @@ class Study:
         """The objective in words, with the unit of lengths."""
         return self.objective.worded(self.unit)
 
-    def _known(self, where: str, given: Any, names: list[str]) -> dict[str, Any]:
-        """Return named values with angles in radians; raise for unknown names."""
-        known_keys(where, given, [*names, *(name + DEG for name in self.angles)])
-        return in_radians(where, given, self.angles)
-
     def problem(self, over_region: bool = False) -> _core.Problem:
         """Return the study as the core's problem, validated there; of a region, without it, or to be solved over it."""
-        bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
-        constraints = [limits.for_core(name, limit) for name, limit in limits.each(self.constraints)]
-        objective = self.objective.for_core(over_region)
-        return _core.Problem(self.family, bounds, constraints, self.characteristic_length, objective)
+        if flag("over_region", over_region) not in self._problems:
+            bounds = [b if isinstance(b, tuple) else (b, b) for b in self.variables.values()]
+            limits, objective = [limit.for_core() for limit in self.limits], self.objective.for_core(over_region)
+            problem = _core.Problem(self.family, bounds, limits, self.characteristic_length, objective)
+            self._problems[over_region] = problem
+        return self._problems[over_region]
 
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
         """Return objective, condition numbers, margins and exact gradients of one design.
@@ -237,7 +320,8 @@ class Study:
         """
         problem = self.problem()
         names = list(problem.names)
-        given = self._known("variables", variables, names)
+        kinds = dict.fromkeys(names, "") | variable_kinds(self.family)
+        given = _in_radians("variables", variables, kinds, finite)
         out = []
         for name in names:
             bound = self.variables.get(name, 0.0)
@@ -259,35 +343,5 @@ class Study:
         return min(max(best if math.isfinite(best) else 1.0, low), high)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return plain dictionaries: read-only views cannot be pickled or copied."""
-        constraints = {n: _converted(v, Mapping, dict) for n, v in self.constraints.items()}
-        return self.__dict__ | {"variables": dict(self.variables), "constraints": constraints}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Make the dictionaries read-only again."""
-        constraints = {n: _converted(v, dict, MappingProxyType) for n, v in state["constraints"].items()}
-        views = {"variables": MappingProxyType(state["variables"]), "constraints": MappingProxyType(constraints)}
-        self.__dict__.update(state | views)
-
-
-def _converted(limits: Any, kind: type, to: Callable[[Any], Any]) -> Any:
-    """Return limits with every mapping of a kind converted, those of a sequence too."""
-    if isinstance(limits, tuple):
-        return tuple(_converted(limit, kind, to) for limit in limits)
-    return to(limits) if isinstance(limits, kind) else limits
-
-
-def _bound(name: str, value: Any) -> Bound:
-    if is_number(value):
-        return finite(name, value)
-    low, high = pair(name, value, "a number, or (low, high)")
-    return number(name, low), number(name, high)
-
-
-def _length(value: Any) -> float | str | tuple[float, float]:
-    if isinstance(value, str) or is_number(value):
-        return length_argument(value)
-    low, high = (finite(LENGTH, x) for x in pair(LENGTH, value, "a number, a kind, or (low, high)"))
-    if not 0.0 < low <= high:
-        raise ValueError(f"{LENGTH}: got {shown(value)}, expected 0 < low <= high")
-    return low if low == high else (low, high)
+        """Leave out the problems of the core, which are made again."""
+        return self.__dict__ | {"_problems": {}}

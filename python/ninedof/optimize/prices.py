@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from ninedof.design.limits import Limit, each, label, parts, place, shown_unit, split_label
 from ninedof.design.study import LENGTH, Study
 from ninedof.support.angles import degrees_of
 from ninedof.support.units import amount
@@ -43,17 +42,12 @@ def _part(study: Study, variables: Mapping[str, float], name: str, share: float 
     if name in variables:
         value, unit = variables[name], "deg" if name in study.angles else study.unit
     else:
-        limit = _stated(study).get(name)
-        sides = [] if limit is None else [side for side in parts(limit)[:2] if side is not None]
-        if limit is None or len(sides) != 1:
+        limit = next((limit for limit in study.limits if limit.label == name), None)
+        if limit is None or len(limit.sides) != 1:
             return ""
-        value, unit = sides[0], shown_unit(split_label(name)[0], limit, study.unit)
+        (value,), unit = limit.sides.values(), limit.unit(study.unit)
     value = degrees_of(value) if unit == "deg" else value
     return f" ({amount(f'{share * value:.6g}', unit)})" if unit and value != 0.0 and math.isfinite(value) else ""
-
-
-def _stated(study: Study) -> dict[str, Limit]:
-    return {label(constraint, place(limit)): limit for constraint, limit in each(study.constraints)}
 
 
 def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
@@ -65,11 +59,5 @@ def _direction(study: Study, variables: Mapping[str, float], name: str) -> str:
         low, high = bound
         value = variables[name]
         return "less" if abs(value - low) < abs(high - value) else "more"
-    stated = _stated(study)
-    if name not in stated:
-        return "more"
-    limit = stated[name]
-    low_side, high_side = limit if isinstance(limit, tuple) else (limit.get("min"), limit.get("max"))
-    if low_side is not None and high_side is not None:
-        return "wider"
-    return "more" if low_side is None else "less"
+    sides = next((limit.sides for limit in study.limits if limit.label == name), {})
+    return "wider" if len(sides) > 1 else "less" if "min" in sides else "more"

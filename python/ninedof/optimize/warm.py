@@ -10,7 +10,7 @@ import numpy as np
 from ninedof.design.study import LENGTH, Study
 from ninedof.optimize.result import Candidate, Result
 from ninedof.support.angles import in_radians
-from ninedof.support.arguments import shown
+from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
 
 Warm = Result | Candidate | Mapping[str, float]
@@ -54,9 +54,9 @@ def listed(warm: Warm | Iterable[Warm] | None) -> list[Mapping[str, float]]:
 
 def _row(study: Study, names: set[str], start: Mapping[str, Any]) -> list[float]:
     fixed = {name: bound for name, bound in study.variables.items() if not isinstance(bound, tuple)}
-    start = in_radians("warm", start, study.angles)
-    named = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
     try:
+        start = in_radians(start, dict.fromkeys(study.angles, finite))
+        named = {n: v for n, v in start.items() if n in names or not _of_the_poses(n)}
         return study.vector(named | {name: value for name, value in fixed.items() if name in named})
     except ValueError as error:
         raise ValueError(f"warm: {error}") from None

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ninedof.design.indices import objectives
-from ninedof.design.limits import AT, ROWS, each, label, names_with_max, place, shown_unit, split_label
+from ninedof.design.limits import AT, ROWS, Limit, label, names_with_max, split_label
 from ninedof.design.study import Study
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import did_you_mean, shown
@@ -41,7 +41,7 @@ def unit_of(study: Study, against: str) -> str:
     plain, degrees = without_degrees(against)
     if plain == CONDITION_LIMIT:
         return ""
-    unit = shown_unit(split_label(plain)[0], {"max": None} | _entry(study, plain), study.unit)
+    unit = _limit(study, plain).unit(study.unit)
     return "rad" if unit == "deg" and not degrees else unit
 
 
@@ -79,21 +79,18 @@ def limited(study: Study, against: str, value: float | None) -> Study:
     """Return the study with another `max` of a limit, None for no max; its other options are kept."""
     if against == CONDITION_LIMIT:
         return replace(study, objective=replace(study.objective, condition_limit=value))
-    entry = _entry(study, against) | {"max": value}
-    name, at = split_label(against)
-    others = {n: limits for n, limits in study.constraints.items() if n != name}
-    same = [limit for n, limit in each(study.constraints) if n == name and place(limit) != at]
-    if value is not None or entry.get("min") is not None:
-        same.append({k: v for k, v in entry.items() if v is not None})
-    return replace(study, constraints=others | ({name: same if len(same) > 1 else same[0]} if same else {}))
+    limit = replace(_limit(study, against), high=math.inf if value is None else value)
+    others = {name: limits for name, limits in study.constraints.items() if name != limit.name}
+    same = [one for one in study.limits if one.name == limit.name and one.at != limit.at]
+    same += [limit] * bool(limit.sides)
+    return replace(study, constraints=others | ({limit.name: same} if same else {}))
 
 
 def own_value(study: Study, against: str) -> float | None:
     """Return the value of the limit in the study; None without one."""
     if against == CONDITION_LIMIT:
         return study.objective.condition_limit
-    found = _entry(study, against).get("max")
-    return None if found is None or not math.isfinite(found) else float(found)
+    return _limit(study, against).sides.get("max")
 
 
 def value_at(study: Study, against: str, variables: Mapping[str, float]) -> float:
@@ -101,11 +98,9 @@ def value_at(study: Study, against: str, variables: Mapping[str, float]) -> floa
 
     A margin is 1 - value / limit, known to rounding of 1: a second step gives a small value all its digits.
     """
-    name = split_label(against)[0]
-    options = {key: value for key, value in _entry(study, against).items() if key not in ("min", "max")}
-    limit = own_value(study, against) or 1.0
+    own, limit = _limit(study, against), own_value(study, against) or 1.0
     for _ in range(MOST_STEPS):
-        alone = replace(study, constraints={name: options | {"max": limit}})
+        alone = replace(study, constraints={own.name: replace(own, low=0.0, high=limit)})
         margin = alone.evaluate(variables).margins[against]
         limit *= max(1.0 - margin, EPS)
         if abs(margin) <= SMALL:
@@ -118,13 +113,10 @@ def value_at(study: Study, against: str, variables: Mapping[str, float]) -> floa
 def floor_of(study: Study, against: str) -> float:
     """Return the lower bound of the limit for any design: 1 for a ratio of maximum to minimum, or its own min."""
     least = 1.0 if split_label(against)[0] in (CONDITION_LIMIT, "leg_ratio", "stroke_ratio") else 0.0
-    return least if against == CONDITION_LIMIT else max(least, _entry(study, against).get("min") or 0.0)
+    return least if against == CONDITION_LIMIT else max(least, _limit(study, against).low)
 
 
-def _entry(study: Study, against: str) -> dict[str, Any]:
-    """Return a limit as a mapping; without one, where it would hold and nothing else."""
+def _limit(study: Study, against: str) -> Limit:
+    """Return a limit of the study; one without sides where it has none."""
     name, at = split_label(against)
-    for n, limit in each(study.constraints):
-        if n == name and place(limit) == at:
-            return dict(limit) if isinstance(limit, Mapping) else dict(zip(("min", "max"), limit, strict=True))
-    return {} if at == AT[0] else {"at": at}
+    return next((limit for limit in study.limits if limit.label == against), Limit(name, at=at))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ninedof.support.arguments import choice
 from ninedof.support.units import amount
 
 RULES = ("carried", "shifted", "held", "best")
@@ -27,16 +26,6 @@ MEANING = {
 
 STUDY_RULES = ("shifted", "held", "best")
 """Those that a study takes."""
-
-
-def study_rule(rule: str) -> str:
-    """Return a rule for O in a study; earlier studies said "carried" where they meant "shifted"."""
-    if isinstance(rule, str) and rule == "carried":
-        raise ValueError(
-            f"internal_point: got 'carried', expected one of {', '.join(STUDY_RULES)}; what studies called 'carried' "
-            f"before, {MEANING['shifted']}, is now 'shifted'"
-        )
-    return choice("internal_point", rule, STUDY_RULES)
 
 
 def where_o(rule: Any, unit: str = "") -> str:

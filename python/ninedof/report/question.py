@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ninedof.design.limits import Limit, each, label, parts, place, shown_unit
+from ninedof.design.limits import Limit
 from ninedof.design.study import Study
 from ninedof.optimize.result_html import MOST_FIXED
 from ninedof.redundancy.rules import MEANING, WORDS
@@ -72,7 +72,7 @@ def variables_table(study: Study) -> Html:
 def limits_table(study: Study) -> Html:
     """Return the limits; nothing without one."""
     several = bool(study.objective.poses) or study.objective.region is not None
-    rows = [_limit_row(study, name, limit, several) for name, limit in each(study.constraints)]
+    rows = [_limit_row(limit, study.unit, several) for limit in study.limits]
     if not rows:
         return paragraphs(["No limit is set beside these bounds and 0 < zs < zp."])
     if not any(row[-1] for row in rows):
@@ -80,14 +80,12 @@ def limits_table(study: Study) -> Html:
     return table("Limits", ("limit", "least", "greatest", "how"), rows, words=(3,))
 
 
-def _limit_row(study: Study, name: str, limit: Limit, several: bool) -> tuple[str, ...]:
-    low, high, options = parts(limit)
-    unit = shown_unit(name, limit, study.unit)
-    ends = ["" if x is None else amount(_end(degrees_of(x) if unit == "deg" else x), unit) for x in (low, high)]
-    said = ["of " + str(options["of"])] if options.get("of", "length") != "length" else []
-    said += [f"{key.replace('_', ' ')} {_option(value)}" for key, value in options.items() if key not in ("of", "at")]
-    where = "at the neutral pose" if place(limit) == "neutral" else "at every pose" if several else ""
-    return label(name, "poses").replace("_", " "), *ends, ", ".join([*([where] if where else []), *said])
+def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:
+    unit = limit.unit(unit)
+    sides = {side: amount(_end(degrees_of(x) if unit == "deg" else x), unit) for side, x in limit.sides.items()}
+    words = ["at the neutral pose" if limit.at == "neutral" else "at every pose"] * (several or limit.at == "neutral")
+    words += [f"{key} {_option(value)}" for key, value in limit.options.items() if key != "at"]
+    return limit.name.replace("_", " "), sides.get("min", ""), sides.get("max", ""), ", ".join(words)
 
 
 def _option(value: object) -> str:

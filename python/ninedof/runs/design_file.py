@@ -13,13 +13,13 @@ import numpy as np
 from ninedof.conditioning.characteristic_length import KINDS, characteristic_length
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.indices import computed
-from ninedof.design.study_file import read_toml, require_unit_at_top, write_toml
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.support.angles import in_radians
-from ninedof.support.arguments import is_number, known_keys, number, path_argument, table
+from ninedof.support.arguments import finite, is_number, known_keys, number, path_argument, table
 from ninedof.support.short import short_repr
-from ninedof.support.units import unit_argument, unit_entry
+from ninedof.support.toml import read_toml, write_toml
+from ninedof.support.units import require_unit_at_top, unit_argument, unit_entry
 
 
 @short_repr
@@ -107,7 +107,7 @@ def _from_tables(data: Mapping[str, Any]) -> Design:
     require_unit_at_top({"geometry": geometry, "configuration": configuration})
     if "zp" in configuration or "zs" in configuration:
         known_keys("configuration", configuration, ("zp", "zs", "theta_z", "theta_z_deg"))
-        configuration = in_radians("configuration", configuration, ["theta_z"])
+        configuration = in_radians(configuration, {"theta_z": finite})
         zp, zs = (_present(f"configuration.{name}", configuration, name) for name in ("zp", "zs"))
         c = Configuration.neutral(zp, zs, configuration.get("theta_z", 0.0))
         if c.shape:

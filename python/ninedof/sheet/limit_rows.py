@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ninedof.design.design_point import DesignPoint
-from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.objective import CONDITION_LIMITS
 from ninedof.design.study import Study
 from ninedof.support.units import amount
@@ -43,16 +42,11 @@ def limit_rows(study: Study, variables: Mapping[str, float]) -> tuple[LimitRow, 
     """Return a row for each side of each limit, in the order of the study."""
     rows = []
     no_limit: dict[str, Any] = dict.fromkeys(CONDITION_LIMITS)
-    for name, limit in each(study.constraints):
-        given = for_core(name, limit)
-        options = {k: v for k, v in limit.items() if k not in ("min", "max")} if isinstance(limit, Mapping) else {}
-        kind = "ratio" if given["of"] != "length" else ROWS[name].kind
-        for side, bound in (("min", given["low"]), ("max", given["high"])):
-            if side not in ROWS[name].sides or not math.isfinite(bound) or bound <= 0.0:
-                continue
+    for limit in study.limits:
+        for side, bound in limit.sides.items():
             objective = replace(study.objective, **no_limit)
-            alone = replace(study, constraints={name: options | {side: bound}}, objective=objective)
-            rows.append(_row(side, bound, kind, alone.evaluate(variables)))
+            alone = replace(study, constraints={limit.name: limit.options | {side: bound}}, objective=objective)
+            rows.append(_row(side, bound, limit.kind, alone.evaluate(variables)))
     for name in CONDITION_LIMITS:
         if (bound := getattr(study.objective, name)) is not None:
             objective = replace(study.objective, **(no_limit | {name: bound}))

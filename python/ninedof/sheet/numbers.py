@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ninedof import _core
-from ninedof.design.limit_numbers import CONES, PARTS, exempt_pairs
-from ninedof.design.limits import ROWS, each, for_core
+from ninedof.design.limit_numbers import PARTS, exempt_pairs
+from ninedof.design.limits import ROWS
 from ninedof.design.pose import Pose
 from ninedof.design.region_placed import Placing
 from ninedof.design.region_stack import configurations_at, poses_at
@@ -77,9 +77,9 @@ def _limits(study: Study | None) -> list[tuple[str, Any]]:
     """Return limits at poses and axes of cones: each about the neutral directions, and about the axes of the study."""
     none = (0.0, 0.0, 0.0)
     found: list[tuple[str, Any]] = [(name, none) for name in PARTS if len(ROWS[name].sides) == 1]
-    for name, entry in each(study.constraints if study is not None else {}):
-        if name in CONES and len(axis := for_core(name, entry)["axis"]):
-            found.append((name, axis))
+    for limit in study.limits if study is not None else ():
+        if limit.axis:
+            found.append((limit.name, limit.for_core()["axis"]))
     return found
 
 

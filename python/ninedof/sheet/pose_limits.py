@@ -11,7 +11,6 @@ import numpy as np
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limit_numbers import PARTS, apart, limit_numbers
-from ninedof.design.limits import ROWS, each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -72,16 +71,14 @@ def pose_limits(
 
     """
     found = list[PoseLimit]()
-    for name, entry in each(study.constraints):
-        given = for_core(name, entry)
-        if given["at"] != "poses":
+    for limit in study.limits:
+        if limit.at != "poses":
             continue
-        unit = float(neutral.position[2]) if given["of"] == "zp" else 1.0
-        for part, values in _values(study, name, given["axis"], g, c, neutral, beside):
-            for side, limit in (("min", unit * given["low"]), ("max", unit * given["high"])):
-                if side in ROWS[name].sides and math.isfinite(limit) and limit > 0.0:
-                    margin = margin_of(ROWS[name].kind, side, limit, values)
-                    found.append(PoseLimit(name, part, side, limit, values, margin))
+        unit = float(neutral.position[2]) if limit.of == "zp" else 1.0
+        for part, values in _values(study, limit.name, limit.for_core()["axis"], g, c, neutral, beside):
+            for side, bound in limit.sides.items():
+                margin = margin_of(limit.row.kind, side, unit * bound, values)
+                found.append(PoseLimit(limit.name, part, side, unit * bound, values, margin))
     if (most := study.objective.condition_limit) is not None:
         kappa = np.asarray(condition_number(g, c, characteristic_length))
         found.append(PoseLimit("condition_limit", "", "max", most, kappa, margin_of("ratio", "max", most, kappa)))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
-
-from ninedof.support.arguments import Vector, is_number, number, pair, vector
 
 DIGITS = 9  # decimals of degrees: more than a person types
 DEG = "_deg"
@@ -22,24 +20,14 @@ def exact_degrees(*radians: float) -> tuple[float, ...] | None:
     return degrees if same else None
 
 
-def vector_argument(name: str, radians: Any, degrees: Any, least: float = -math.inf) -> Vector:
-    """Return three angles in radians, given as `name` or, in degrees, as `name`_deg; zero by default."""
-    if radians is not None and degrees is not None:
-        raise ValueError(f"{name}: got both {name} and {name}_deg, expected one of the two")
-    if degrees is not None:
-        x, y, z = vector(f"{name}_deg", degrees, least)
-        return math.radians(x), math.radians(y), math.radians(z)
-    return (0.0, 0.0, 0.0) if radians is None else vector(name, radians, least)
+def in_radians(given: Mapping[str, Any], checks: Mapping[str, Callable[[str, Any], Any]]) -> dict[str, Any]:
+    """Return a mapping with the entries `angle`_deg in radians, under their own names.
 
-
-def rotation_entry(name: str, radians: Vector) -> dict[str, list[float]]:
-    """Return the entry of a file for three angles, in degrees if that is exact."""
-    degrees = exact_degrees(*radians)
-    return {name: list(radians)} if degrees is None else {f"{name}_deg": list(degrees)}
-
-
-def in_radians(where: str, given: Mapping[str, Any], angles: Iterable[str]) -> dict[str, Any]:
-    """Return a mapping with the entries `angle`_deg of numbers or pairs of numbers in radians, under their own names.
+    Parameters
+    ----------
+    given : mapping
+    checks : mapping
+        For each angle by name the check of its value: numbers in any nesting of lists.
 
     Raises
     ------
@@ -47,25 +35,17 @@ def in_radians(where: str, given: Mapping[str, Any], angles: Iterable[str]) -> d
         If an angle is given both ways; the message names both.
 
     """
-    keys = {name + DEG: name for name in angles}
-    found: dict[str, Any] = {}
-    for key, value in given.items():
-        if key not in keys:
-            found[key] = value
-            continue
-        if keys[key] in given:
-            raise ValueError(f"{where}: got both {keys[key]} and {key}, expected one of the two")
-        found[keys[key]] = _radians(value, key)
-    return found
+    out = dict(given)
+    for name, check in checks.items():
+        if (key := name + DEG) in given:
+            if name in given:
+                raise ValueError(f"{name}: got both {name} and {key}, expected one of the two")
+            out[name] = _radians(check(key, out.pop(key)))
+    return out
 
 
-def _radians(value: Any, name: str) -> Any:
-    if is_number(value):
-        return math.radians(number(name, value))
-    low, high = (number(name, end) for end in pair(name, value, "a number of degrees, or (low, high)"))
-    if not low <= high:
-        raise ValueError(f"{name}: got [{low:g}, {high:g}], expected low <= high, in degrees")
-    return math.radians(low), math.radians(high)
+def _radians(degrees: Any) -> Any:
+    return tuple(map(_radians, degrees)) if isinstance(degrees, tuple) else math.radians(degrees)
 
 
 def plain_name(name: str) -> str:
@@ -73,16 +53,16 @@ def plain_name(name: str) -> str:
     return name.removesuffix(DEG)
 
 
-def angle_entry(name: str, radians: float | tuple[float, float]) -> tuple[str, float | list[float]]:
-    """Return key and value of a file for an angle or its bounds: in degrees if that is exact.
+def angle_entry(name: str, radians: float | tuple[float, ...]) -> tuple[str, float | tuple[float, ...]]:
+    """Return key and value of a file for one or more angles: in degrees if that is exact.
 
     0 and infinity are the same in both, and keep the plain name.
     """
     ends = radians if isinstance(radians, tuple) else (radians,)
     degrees = exact_degrees(*ends)
     if degrees is None or all(x == 0.0 or math.isinf(x) for x in ends):
-        return name, list(ends) if isinstance(radians, tuple) else radians
-    return name + DEG, list(degrees) if isinstance(radians, tuple) else degrees[0]
+        return name, radians
+    return name + DEG, degrees if isinstance(radians, tuple) else degrees[0]
 
 
 def degrees_of(radians: float) -> float:
@@ -90,3 +70,10 @@ def degrees_of(radians: float) -> float:
     exact, near = exact_degrees(radians), math.degrees(radians)
     tried = exact or (near, math.nextafter(near, math.inf), math.nextafter(near, -math.inf))
     return next((degrees for degrees in tried if math.radians(degrees) == radians), near)
+
+
+def half_turn(name: str, radians: float) -> None:
+    """Raise unless an angle is at most half a turn."""
+    if not radians <= math.pi:
+        got = f"{radians:g} radians, {degrees_of(radians):g} degrees"
+        raise ValueError(f"{name}: got {got}, expected at most pi, 180 degrees (degrees are given as {name}{DEG})")

@@ -174,6 +174,16 @@ def pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
     return found[0], found[1]
 
 
+def bound(name: str, value: Any) -> float | tuple[float, float]:
+    """Return a finite number, or the bounds (low, high), which may be infinite."""
+    if is_number(value):
+        return finite(name, value)
+    low, high = (number(name, end) for end in pair(name, value, "a number, or (low, high)"))
+    if not low <= high:
+        raise ValueError(f"{name}: got {shown(value)}, expected low <= high")
+    return low, high
+
+
 def vector(name: str, value: Any, least: float = -math.inf) -> Vector:
     """Return three finite numbers."""
     expected = "three finite numbers [x, y, z]"
@@ -182,3 +192,8 @@ def vector(name: str, value: Any, least: float = -math.inf) -> Vector:
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
     x, y, z = (finite(name, x, least) for x in found)
     return x, y, z
+
+
+def vectors(name: str, value: Any) -> tuple[Vector, ...]:
+    """Return a list of three finite numbers each."""
+    return tuple(vector(f"{name}[{k}]", one) for k, one in enumerate(items(name, value, "a list of [x, y, z]")))

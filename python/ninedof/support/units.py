@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ninedof.support.arguments import choice, did_you_mean, shown
@@ -26,11 +27,18 @@ def unit_argument(value: Any) -> str:
     raise ValueError(f"unit: got {shown(value)}, expected the name of a length unit, one of {', '.join(UNITS)}{hint}")
 
 
-def scale_argument(value: Any) -> str:
+def scale(name: str, value: Any) -> str:
     """Return the scale of pose shifts, "length" or "zp"."""
     if isinstance(value, str) and value in UNITS:
-        raise ValueError(f"unit: got {shown(value)}, expected one of {', '.join(SCALES)}, a scale; {AT_TOP}")
-    return choice("unit", value, SCALES)
+        raise ValueError(f"{name}: got {shown(value)}, expected one of {', '.join(SCALES)}, a scale; {AT_TOP}")
+    return choice(name, value, SCALES)
+
+
+def require_unit_at_top(tables: Mapping[str, Mapping[str, Any]]) -> None:
+    """Raise where the length unit stands in a table: in TOML a key below [solver] is one of that table."""
+    for name, entries in tables.items():
+        if "unit" in entries:
+            raise ValueError(f"{name}.unit: got {shown(entries['unit'])}, expected no unit here: {AT_TOP}")
 
 
 def unit_entry(unit: str) -> dict[str, str]:

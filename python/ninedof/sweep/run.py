@@ -192,7 +192,7 @@ def sweep_designs(
     grid = axes_of(over, known, angles)
     named = unit_argument(unit)
     known_keys("design", design, [*known, *(name + DEG for name in angles)])
-    design = in_radians("design", design, angles)
+    design = in_radians(design, dict.fromkeys(angles, finite))
     swept = [plain_name(axis.name) for axis in grid.axes]
     if both := [name for name in swept if name in design]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")

@@ -13,8 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ninedof.design.limits import Limit as Entry
-from ninedof.design.limits import each, for_core
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
@@ -46,13 +44,7 @@ class Limit:
 
 def limits_of(study: Study) -> list[Limit]:
     """Return the limits of a study."""
-    return [limit_of(name, entry) for name, entry in each(study.constraints)]
-
-
-def limit_of(name: str, entry: Entry) -> Limit:
-    """Return one limit of `Study.constraints`."""
-    given = for_core(name, entry)
-    return Limit(name, given["low"], given["high"], given["of"], tuple(given["axis"]), given["steps"], given["at"])
+    return [Limit(**limit.for_core()) for limit in study.limits]
 
 
 def margins(limit: Limit, robot: Robot) -> Floats:

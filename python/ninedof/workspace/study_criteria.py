@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
-from ninedof.design import limits
 from ninedof.design.limits import Limit
 from ninedof.support.arrays import Floats
 
@@ -25,7 +24,7 @@ EASE = 1e-9
 """Share by which limits are eased: an optimum lies on some of them, and rounding would put its home pose outside."""
 
 
-def study_criteria(constraints: Mapping[str, limits.Limits], zp: float) -> tuple[dict[str, Any], list[str]]:
+def study_criteria(limits: Iterable[Limit], zp: float) -> tuple[dict[str, Any], list[str]]:
     """Return the limits of a study that a pose alone can meet, and the names of the others.
 
     Ranges of leg lengths keep the names of their constraints; `leg_ranges` makes leg limits of them. Limits in zp are
@@ -33,19 +32,18 @@ def study_criteria(constraints: Mapping[str, limits.Limits], zp: float) -> tuple
     """
     found: dict[str, Any] = {}
     left: list[str] = []
-    for name, limit in limits.each(constraints):
-        low, high, options = limits.parts(limit)
-        unit = zp if options.get("of") == "zp" else 1.0
-        low = None if low is None else unit * low * (1.0 - EASE)
-        high = None if high is None else unit * high * (1.0 + EASE)
-        if limits.place(limit) != "poses":
-            left.append(limits.label(name, limits.place(limit)))
+    for limit in limits:
+        name, unit = limit.name, zp if limit.of == "zp" else 1.0
+        low, high = unit * limit.low * (1.0 - EASE), unit * limit.high * (1.0 + EASE)
+        if limit.at != "poses":
+            left.append(limit.label)
         elif name in LEGS:
-            found[name] = (0.0 if low is None else low, math.inf if high is None else high)
-        elif name in ("base_cone", "platform_cone"):
-            found[name] = _cone(limit, None if high is None else min(high, math.pi))
+            found[name] = (low, high)
+        elif limit.row.is_angle:
+            angle = min(high, math.pi) if "max" in limit.sides else None
+            found[name] = {"max": angle, "axis": limit.axis} if limit.axis else angle
         elif name == "leg_clearance":
-            found |= {} if low is None else {name: low}
+            found |= {name: low} if low > 0.0 else {}
         elif name == "singularity_free":
             found[name] = True
         else:
@@ -84,8 +82,3 @@ def own_fraction(upper: Floats, lower: Floats, point: Floats) -> float | None:
         return None
     fraction = float(arm @ line) / square
     return fraction if float(np.linalg.norm(arm - fraction * line)) <= 1e-9 * math.sqrt(square) else None
-
-
-def _cone(limit: Limit, high: float | None) -> Any:
-    axis = limit.get("axis") if isinstance(limit, Mapping) else None
-    return high if axis is None else {"max": high, "axis": axis}

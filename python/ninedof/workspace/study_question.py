@@ -57,7 +57,7 @@ def study_question(result: Result) -> StudyQuestion:
 
 def study_limits(study: Study, zp: float) -> tuple[dict[str, Any], list[str]]:
     """Return `study_criteria` of a study, the limit of its condition number among them."""
-    found, left = study_criteria(study.constraints, zp)
+    found, left = study_criteria(study.limits, zp)
     if study.objective.condition_limit is not None:
         found["condition_number"] = study.objective.condition_limit * (1.0 + EASE)
     return found, left

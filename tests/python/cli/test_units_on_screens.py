@@ -257,7 +257,7 @@ def test_errors_speak_in_degrees(capsys, here, line, words):
     [
         (
             DESIGN.replace("theta_z_deg", "theta_z = 0.1\ntheta_z_deg"),
-            "configuration: got both theta_z and theta_z_deg",
+            "theta_z: got both theta_z and theta_z_deg",
         ),
         ('unit = "zp"\n' + DESIGN, "design.toml: unit: got 'zp'"),
         (DESIGN + 'unit = "mm"\n', "configuration.unit: got 'mm', expected no unit here"),

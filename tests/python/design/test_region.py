@@ -62,32 +62,6 @@ def test_random_poses_are_in_the_region(region):
             assert (np.abs(pose.position) <= reach[:3] * (1.0 + 1e-12)).all()
 
 
-BAD = {
-    "two shapes": ({"box": (1, 1, 1), "ball": 1}, r"region: got box and ball, expected one of"),
-    "negative": ({"ball": -1}, r"objective\.region\.ball: got -1"),
-    "angle": ({"tilt_deg": 200}, r"objective\.region\.tilt_deg: got"),
-    "both": ({"yaw": 0.1, "yaw_deg": 5}, r"objective\.region\.yaw: got both"),
-    "word": ({"internal_point": "stay"}, r"objective\.region\.internal_point: got 'stay'"),
-    "old word": ({"internal_point": "carried"}, r"got 'carried', .* is now 'shifted'"),
-    "key": ({"bal": 1}, r"^objective\.region: got the entry 'bal', .*did you mean 'ball'"),
-    "corners": ({"path": [[0, 0, 0], [0, 0, 0]]}, r"objective\.region\.path: got 2 corners"),
-    "cylinder": ({"cylinder": 1}, r"objective\.region\.cylinder: got 1"),
-}
-
-
-@pytest.mark.parametrize(("entry", "words"), BAD.values(), ids=BAD)
-def test_bad_entries(entry, words):
-    with pytest.raises(ValueError, match=words):
-        nd.Study(objective={"region": entry})
-
-
-def test_what_a_region_excludes():
-    with pytest.raises(ValueError, match=r"objective\.poses: got poses beside a mean over a region"):
-        nd.Objective(region=REGIONS["box"], aggregate="mean_inverse", poses=[nd.Pose()])
-    with pytest.raises(ValueError, match=r"objective\.region: got a region, expected none"):
-        nd.Objective(region=REGIONS["box"], index="six_legged")
-
-
 def test_the_objective_has_defaults_for_its_region():
     table = {"internal_point": "held", "unit": "zp", "region": {"ball": 0.1}}
     assert nd.Objective.from_dict(table).region == nd.Region(ball=0.1, internal_point="held", unit="zp")

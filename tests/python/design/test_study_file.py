@@ -1,4 +1,5 @@
-"""A study as a TOML file: what is written is read back, and every bad entry is named with its file."""
+"""A study as a TOML file: what is written is read back, and the example of the interface. Bad files are in
+test_bad_entries.py."""
 
 import math
 
@@ -159,88 +160,3 @@ def test_what_was_typed_in_degrees_is_written_in_degrees():
 def test_empty_file_is_the_study_without_constraints(write):
     assert nd.Study.load(write("")) == nd.Study()
     assert nd.Study.load(write("# nothing\r\n[design]\r\n")) == nd.Study()
-
-
-BAD_FILES = {
-    "unknown table": ('[desgin]\nfamily = "hexagonal"', "desgin.*did you mean 'design'"),
-    "unknown design key": ('[design]\nfamly = "hexagonal"', "design.*famly.*did you mean 'family'"),
-    "unknown variable": ("[variables]\ntheta = 0.0", "variables.*theta.*did you mean 'theta_z'"),
-    "unknown constraint": ("[constraints]\nradius_rato = { max = 2 }", "radius_rato.*did you mean 'radius_ratio'"),
-    "unknown limit": ("[constraints]\nradius_ratio = { maxi = 2 }", "radius_ratio.*maxi.*did you mean 'max'"),
-    "unknown solver key": ("[solver]\nstart = 3", "solver.*start.*did you mean 'starts'"),
-    "unknown objective key": ("[objective]\nindx = 'x'", "objective.*indx.*did you mean 'index'"),
-    "unknown index": ("[objective]\nindex = 'manipulability'", "objective.index.*manipulability"),
-    "entry outside tables": ("a1 = 3", "a1"),
-    "table as number": ("variables = 3", "variables.*table"),
-    "objective as text": ("objective = 'condition_number'", "objective.*table"),
-    "array of tables": ('[[design]]\nfamily = "hexagonal"', "design.*table"),
-    "constraint as number": ("[constraints]\nradius_ratio = 2", "radius_ratio.*table"),
-    "family as number": ("[design]\nfamily = 3", "family.*3"),
-    "length as text": ('[design]\ncharacteristic_length = "one"', "characteristic_length.*one"),
-    "length nan": ("[design]\ncharacteristic_length = nan", "characteristic_length.*nan"),
-    "variable as text": ('[variables]\na1 = "3"', "a1.*'3'"),
-    "bound as text": ('[variables]\na1 = [0, "3"]', "a1.*'3'"),
-    "three bounds": ("[variables]\na1 = [0, 1, 2]", r"a1.*\[0, 1, 2\]"),
-    "no bounds": ("[variables]\na1 = []", r"a1.*\[\]"),
-    "variable nan": ("[variables]\nzs = nan", "zs.*nan"),
-    "bound nan": ("[variables]\nzs = [nan, 1.0]", "zs.*nan"),
-    "low > high": ("[variables]\na1 = [2, 1]", "a1.*low <= high"),
-    "variable bool": ("[variables]\na1 = true", "a1.*True"),
-    "bound bool": ("[variables]\na1 = [false, true]", "a1.*False"),
-    "variable date": ("[variables]\na1 = 1979-05-27", "a1.*1979"),
-    "variable as table": ("[variables.a1]\nmin = 0", "a1.*min"),
-    "huge whole number": (f"[variables]\na1 = {'9' * 400}", "a1.*999"),
-    "limit bool": ("[constraints]\nleg_ratio = { max = true }", "leg_ratio.*True"),
-    "limit nan": ("[constraints]\nleg_ratio = { max = nan }", "leg_ratio.*nan"),
-    "limit low > high": ("[constraints]\nleg_ratio = { min = 3, max = 2 }", "leg_ratio.*low <= high"),
-    "cone in degrees by mistake": ("[constraints]\nbase_cone = { max = 45 }", "base_cone.*max_deg"),
-    "cone twice": ("[constraints]\nbase_cone = { max = 1, max_deg = 45 }", "base_cone.*max_deg"),
-    "axis of zero": ("[constraints]\nbase_cone = { max = 1, axis = [0, 0, 0] }", "base_cone.axis.*direction"),
-    "axis of two": ("[constraints]\nbase_cone = { max = 1, axis = [0, 1] }", "base_cone.axis.*three"),
-    "option of another": ("[constraints]\nradius_ratio = { max = 2, of = 'zp' }", "radius_ratio.*'of'"),
-    "no such unit": ("[constraints]\nstroke = { max = 2, of = 'zs' }", "stroke.of.*did you mean 'zp'"),
-    "pose misspelt": ("[[objective.poses]]\npositon = [0, 0, 0]", r"poses\[0\].*did you mean 'position'"),
-    "pose as number": ("[objective]\nposes = [3]", r"objective.poses\[0\].*3"),
-    "poses as table": ("[objective.poses]\nposition = [0, 0, 0]", "objective.poses.*position"),
-    "pose nan": ("[[objective.poses]]\nposition = [0, nan, 0]", r"objective.poses\[0\].position.*nan"),
-    "two rotations": ("[[objective.poses]]\nrotation = [0, 0, 1]\nrotation_deg = [0, 0, 1]", "rotation.*both"),
-    "box without half": ("[objective.box]\npoints = 3", "objective.box.half: got nothing"),
-    "box misspelt": ("[objective.box]\nhalf = [0, 0, 0]\npoint = 3", "objective.box.*did you mean 'points'"),
-    "box as list": ("[objective]\nbox = [0.1, 0.1, 0.1]", "objective.box.*table"),
-    "ball negative": ("[objective.ball]\nradius = -1.0", "objective.ball.radius.*-1.0"),
-    "path of one": ("[objective.path]\npositions = [[0, 0, 0]]", "objective.path.positions.*at least two"),
-    "unknown aggregate": ("[objective]\naggregate = 'wurst'", "objective.aggregate.*did you mean 'worst'"),
-    "weight too large": ("[objective]\nweight = 1.5", "objective.weight.*1.5"),
-    "limit below one": ("[objective]\ncondition_limit = 0.5", "objective.condition_limit.*0.5"),
-    "unit unused": ("[objective]\nunit = 'zs'", "objective.unit.*did you mean 'zp'"),
-    "digits without end": (f"[variables]\na1 = {'9' * 5000}", "not a TOML file"),
-    "starts as decimal": ("[solver]\nstarts = 1.5", "starts.*1.5"),
-    "starts bool": ("[solver]\nstarts = true", "starts.*True"),
-    "no starts": ("[solver]\nstarts = 0", "starts.*0"),
-    "seed as text": ('[solver]\nseed = "1"', "seed.*'1'"),
-    "not toml": ("a1 = = 3", "not a TOML file.*line 1"),
-    "twice": ("[solver]\nstarts = 1\nstarts = 2", "not a TOML file"),
-    "too deep": ("a = " + "[" * 5000 + "]" * 5000, "TOML"),
-    "binary": (bytes(range(256)), "not UTF-8 text"),
-    "utf-16": ("[design]".encode("utf-16"), "not UTF-8 text"),
-    "zeros": (b"\0\0\0\0", "not a TOML file"),
-}
-
-
-@pytest.mark.parametrize(("text", "says"), BAD_FILES.values(), ids=BAD_FILES.keys())
-def test_bad_file(write, text, says):
-    path = write(text)
-    with pytest.raises(ValueError, match=rf"(?s)^{path}: .*{says}"):
-        nd.Study.load(path)
-
-
-def test_unreadable_file(tmp_path):
-    for path, says in ((tmp_path / "none.toml", "No such file"), (tmp_path, "directory")):
-        with pytest.raises(ValueError, match=rf"^{path}: cannot be read \(.*{says}"):
-            nd.Study.load(path)
-
-
-@pytest.mark.parametrize("data", [{"design": 1}, {"variables": []}, {"solver": {"starts": "x"}}, {"x": {}}], ids=str)
-def test_bad_dictionary(data):
-    with pytest.raises(ValueError, match=r"got .+, expected .+"):
-        nd.Study.from_dict(data)

@@ -71,7 +71,7 @@ row("Pose")(
     }
 )
 row("Pose.from_dict", nd.Pose.from_dict, words={"data": ("pose",)})(
-    lambda: {"data": {"position": [0.1, 0.0, 0.0]}, "internal_point": "shifted", "unit": "zp"}
+    lambda: {"data": {"position": [0.1, 0.0, 0.0], "unit": "zp"}}
 )
 row("Pose.to_dict", lambda: nd.Pose((0.1, 0.0, 0.0)).to_dict())(dict)
 row("Pose.for_core", lambda: nd.Pose((0.1, 0.0, 0.0)).for_core())(dict)

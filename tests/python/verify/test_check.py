@@ -8,7 +8,6 @@ import pytest
 from sizes import size
 
 import ninedof as nd
-from ninedof.design.limits import each, label, place
 from ninedof.verify import Check, Finding, check
 
 FEW = [
@@ -112,7 +111,7 @@ def test_an_optimum_passes(name):
     assert found
     names = [finding.name for finding in found.findings]
     assert names[:3] == ["design", "condition numbers", "objective"]
-    stated = [label(name, place(limit)) for name, limit in each(result.study.constraints)]
+    stated = [limit.label for limit in result.study.limits]
     assert [f"limit: {name}" for name in stated] == [n for n in names if n.startswith("limit")]
     assert {"stationarity", "perturbations", "bound: isotropy"} <= set(names)
     assert ("bound: hexagonal" in names) == (result.study.family == "hexagonal")

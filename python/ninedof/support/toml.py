@@ -1,0 +1,44 @@
+"""TOML files of users: studies and designs."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from ninedof.support.arguments import path_argument, shown
+from ninedof.support.files import write_whole
+from ninedof.support.reading import DEEPEST, TOML, deep_key, read_text
+
+
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Read a TOML file, with or without a byte order mark.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it cannot be read or is not TOML.
+
+    """
+    name = str(path_argument("path", path))
+    try:
+        text = read_text(path, TOML)
+        if key := deep_key(text):
+            raise ValueError(f"got the key {shown(key)}, expected at most {DEEPEST} parts")
+        return tomllib.loads(text)
+    except OSError as error:
+        raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{name}: cannot be read (not UTF-8 text)") from None
+    except RecursionError:
+        raise ValueError(f"{name}: not a TOML file we can read: nested too deep") from None
+    except ValueError as error:  # invalid TOML, or an integer of thousands of digits
+        raise ValueError(f"{name}: not a TOML file: {error}") from None
+
+
+def write_toml(path: str | os.PathLike[str], tables: Mapping[str, Any]) -> None:
+    """Write tables as a TOML file."""
+    import tomli_w
+
+    write_whole(path_argument("path", path), tomli_w.dumps(tables).encode())
