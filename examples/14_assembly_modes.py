@@ -40,7 +40,7 @@ if "--figure" in sys.argv:
 
     picks = [where[k] for k in np.argsort(-kinds[:, 0])[:3]]
     panels = [
-        plot.Mechanism(f"zp {upright.position[k, 2]:.3f}, tilt {tilt[k]:.0f}°", geometry, upright[k], rows[k, 3])
+        plot.Robot(f"zp {upright.position[k, 2]:.3f}, tilt {tilt[k]:.0f}°", geometry, upright[k], rows[k, 3])
         for k in picks
     ]
     plot.mechanisms(panels).savefig(sys.argv[sys.argv.index("--figure") + 1])

@@ -55,5 +55,5 @@ if "--figure" in sys.argv:
         box_inside = (found.box_low[drawn], found.box_high[drawn])
         plane = found.slice(name, at, smooth=True)
         sections.append(plot.Section(plane, ball, box_inside, home=home.position[drawn]))
-    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels)
+    figure = plot.workspace(found, sections)
     figure.savefig(sys.argv[sys.argv.index("--figure") + 1])

@@ -44,7 +44,8 @@ def write(file: str) -> None:
 
     def draw(k: int) -> None:
         space.clear()
-        plot.draw_mechanism(space, g, best[k], limits=(3.7, 0.0, 5.4), legend=False)
+        robot = plot.Robot("", g, best[k])
+        plot.mechanism(robot, ax=space, corners=([-3.7, -3.7, 0.0], [3.7, 3.7, 5.4]), legend=False)
         dot.set_data([degrees[k]], [curves["O at its best"][k]])
 
     FuncAnimation(figure, draw, frames=FRAMES).save(file, writer=PillowWriter(fps=14), dpi=100)

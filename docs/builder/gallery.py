@@ -91,7 +91,7 @@ def draw(source: Path, file: Path) -> None:
     if isinstance(found, nd.Result) and found.status != nd.Status.OPTIMAL:
         return
     kappa = float(nd.condition_number(found.geometry, found.configuration, found.characteristic_length))
-    panel = nd.plot.Mechanism("", found.geometry, found.configuration, kappa)
+    panel = nd.plot.Robot("", found.geometry, found.configuration, kappa)
     with DRAWING:
         nd.plot.mechanisms([panel]).savefig(file, dpi=110, bbox_inches="tight")
 

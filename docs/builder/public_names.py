@@ -24,6 +24,7 @@ ROOMS = {
     "sheet": "The engineering sheet",
     "sweep": "Sweeps",
     "atlas": "Many designs at once",
+    "paper": "The paper",
     "runs": "Files and run folders",
     "export": "Exports",
     "report": "The report",

@@ -46,6 +46,7 @@ from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
 from ninedof.optimize.optimize import Trace, optimize, trace
 from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.paper.sweeps import sweep_figure
 from ninedof.pareto import Front, pareto
 from ninedof.position.forward_position import AssemblyModes, PositionStatus, forward_position
 from ninedof.position.tracking import Tracked, TrackStatus, track
@@ -85,7 +86,7 @@ from ninedof.singularity.singularity_distance import SingularityDistance, distan
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
-from ninedof.sweep import SweepResult, sweep, sweep_designs, sweep_figure
+from ninedof.sweep import SweepResult, sweep, sweep_designs
 from ninedof.verify import check
 from ninedof.viewer.view import view
 from ninedof.workspace import (

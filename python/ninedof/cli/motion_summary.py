@@ -105,10 +105,7 @@ def draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory
     from ninedof import plot
 
     margins = _margins(found) | of_study.margins if of_study else None
-    figure = plot.motion(
-        found.time, found.leg_lengths, found.condition_number, found.limits, found.unit, margins=margins
-    )
-    return plot.save(figure, directory, "motion")
+    return plot.save(plot.motion(found, margins), directory, "motion")
 
 
 def _margins(found: Followed) -> dict[str, Floats]:

@@ -124,8 +124,7 @@ def draw(
     if region is not None:
         middle = home.position
     sections = [_section(found, home, region, middle, *plane) for plane in _planes(found, home, middle)]
-    unit = "rad" if found.of_angles else found.unit
-    figure = plot.workspace(sections, found.limit_names, found.limits(), found.percentiles, found.levels, unit)
+    figure = plot.workspace(found, sections)
     files = plot.save(figure, directory, "workspace")
     if found.of_angles:
         return files
@@ -151,11 +150,8 @@ def _draw_certified(
     for fixed, at in _planes(found, home, middle)[::2]:
         place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
         section = _section(found, home, region, middle, fixed, place)
-        panels.append(
-            plot.CertifiedPanel(
-                proved.section(found.coordinates[fixed], place), section.plane, section.region, section.home
-            )
-        )
+        plane = proved.section(found.coordinates[fixed], place)
+        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=section.plane))  # type: ignore[arg-type]
     return plot.save(plot.certified_workspace(panels, found.unit), directory, "certified_workspace")
 
 

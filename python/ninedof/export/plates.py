@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ninedof.plot.plates import outlines
 from ninedof.robot.geometry import Geometry
+from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 
 SAME = 1e-9

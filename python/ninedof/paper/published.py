@@ -24,6 +24,16 @@ A1, B1, ZP, KAPPA = 0.0, 5.8124, 3.9828, 3.9110
 BASE_SIDE, PLATFORM_SIDE = B1, B1 / 2  # the reading that reproduces eq. (40)
 PLATES = {"a1": A1, "a2": BASE_SIDE, "b1": PLATFORM_SIDE, "b2": 0.0}
 
+FIGURES = {
+    "figure_1": "Fig. 1, the architecture",
+    "figure_2": "Fig. 2, the first prototype",
+    "figure_3": "Fig. 3, the second prototype",
+    "figure_4": "Fig. 4, the ellipsoids",
+    "figure_5": "Fig. 5, the plates",
+    "figure_6": "Fig. 6, condition number against displacement",
+    "figure_7": "Fig. 7, condition number against the ratio of sides",
+}
+
 STUDIES: dict[str, Callable[[], Study]] = {
     # eq. (39) with the names of eqs. (37)-(38)
     "as printed": lambda: Study(variables={"a1": A1, "b1": B1, "zp": ZP}),

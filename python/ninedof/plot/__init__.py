@@ -1,49 +1,47 @@
-"""Figures of given geometries, configurations and arrays; only the layout is computed here.
+"""Figures of what the functions return; only the layout is computed here.
 
-Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state.
+Every figure is a `matplotlib.figure.Figure` of its own, made without pyplot: no window, no global state. A figure of
+one panel draws on the axes `ax` instead where they are given, one of several in the `figure` or part of one that is
+given.
 """
 
-import ninedof.plot.agg  # noqa: F401, before matplotlib
+import os as _os
+import sys as _sys
+from contextlib import suppress as _suppress
+
+# matplotlib refuses to be imported with a backend that it does not know; figures do without one.
+if "matplotlib" not in _sys.modules and (_backend := _os.environ.pop("MPLBACKEND", "")):
+    try:
+        import matplotlib as _matplotlib
+    finally:
+        _os.environ["MPLBACKEND"] = _backend
+    with _suppress(ValueError):
+        _matplotlib.rcParams["backend"] = _backend
+
 from ninedof.plot.atlas import atlas
-from ninedof.plot.body import workspace_body
-from ninedof.plot.certified import CertifiedPanel, certified_workspace
 from ninedof.plot.convergence import convergence
-from ninedof.plot.dimensions import figure_5
-from ninedof.plot.ellipsoid import EllipsoidPanel, ellipsoids
 from ninedof.plot.files import save
-from ninedof.plot.front import Sketch, front
+from ninedof.plot.front import front
 from ninedof.plot.landscape import DesignCurves, condition_curves
-from ninedof.plot.mechanism import Mechanism, draw_mechanism, mechanisms
 from ninedof.plot.motion import motion
-from ninedof.plot.paper_figures import figure_1, figure_2, figure_3, figure_4
-from ninedof.plot.paper_sweeps import figure_6, figure_7
-from ninedof.plot.pose_conditions import PoseConditions, poses
-from ninedof.plot.section import Section
+from ninedof.plot.poses import poses
+from ninedof.plot.space.body import workspace_body
+from ninedof.plot.space.ellipsoid import ellipsoids
+from ninedof.plot.space.mechanism import Robot, mechanism, mechanisms
 from ninedof.plot.sweep import sweep
-from ninedof.plot.workspace import workspace
+from ninedof.plot.workspace import Section, certified_workspace, workspace
 
 __all__ = [
-    "CertifiedPanel",
     "DesignCurves",
-    "EllipsoidPanel",
-    "Mechanism",
-    "PoseConditions",
+    "Robot",
     "Section",
-    "Sketch",
     "atlas",
     "certified_workspace",
     "condition_curves",
     "convergence",
-    "draw_mechanism",
     "ellipsoids",
-    "figure_1",
-    "figure_2",
-    "figure_3",
-    "figure_4",
-    "figure_5",
-    "figure_6",
-    "figure_7",
     "front",
+    "mechanism",
     "mechanisms",
     "motion",
     "poses",

@@ -12,10 +12,10 @@ from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, PercentForm
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.plot.arguments import number, runs
 from ninedof.support.arrays import Floats
 
 FLOOR, CEILING = 1e-10, 1e4  # range of gaps: smaller ones are rounding, larger ones starts far from an optimum
+TICKS = FixedLocator([1, 3, 10, 30, 100, 300, 1000, 3000])
 
 
 def convergence(
@@ -23,6 +23,7 @@ def convergence(
     plain: Sequence[ArrayLike],
     best: float,
     tolerance: float = 1e-6,
+    figure: Figure | None = None,
 ) -> Figure:
     """Return a figure of the distance to the best known condition number against evaluations.
 
@@ -39,6 +40,8 @@ def convergence(
         The best known condition number.
     tolerance : float
         Largest distance of a run that has converged.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
 
     Examples
     --------
@@ -50,40 +53,43 @@ def convergence(
     >>> figure = plot.convergence(runs["minimax"], runs["plain"], best=nd.optimize(study).condition_number)
 
     """
-    number("best", best, positive=True)
-    number("tolerance", tolerance, positive=True)
-    of_methods = runs("minimax", minimax), runs("plain", plain)
-    titles = (("minimax SQP", style.SERIES[1]), ("plain SQP", style.SERIES[0]))
-    longest = max(run.size for each in of_methods for run in each)
+    methods = [
+        ("minimax SQP", style.SERIES[1], style.DASHES[0], [np.asarray(run, dtype=np.float64) for run in minimax]),
+        ("plain SQP", style.SERIES[0], style.DASHES[1], [np.asarray(run, dtype=np.float64) for run in plain]),
+    ]
+    for name, _, _, runs in methods:
+        style.counted(name, runs, 10**6)
+    longest = max(run.size for *_, runs in methods for run in runs)
     near = style.power_of_ten(tolerance)
-    with style.settings():
-        figure = style.new_figure(style.TWO_COLUMNS, 4.6)
+    with style.page(figure, style.TWO_COLUMNS, 4.6) as figure:
         share = figure.add_axes((0.095, 0.09, 0.885, 0.235))
-        for x, dashes, (name, colour), each in zip((0.095, 0.5525), style.DASHES, titles, of_methods, strict=False):
-            gaps = [np.maximum(run - best, FLOOR) for run in each]
+        for x, (name, colour, dashes, runs) in zip((0.095, 0.5525), methods, strict=True):
+            gaps = [np.maximum(run - best, FLOOR) for run in runs]
             held = np.array([np.append(gap, np.full(longest - gap.size, gap[-1])) for gap in gaps])
             axes = figure.add_axes((x, 0.465, 0.4275, 0.475))
             axes.set_title(f"{name}: {sum(gap[-1] <= tolerance for gap in gaps)} of {len(gaps)} starts arrive")
-            _runs(axes, gaps, held, colour, tolerance, near)
+            _runs(axes, gaps, held, colour, tolerance)
+            _evaluations(axes, longest)
+            if x < 0.5:
+                axes.set_ylabel("condition number\nabove the best")
+            axes.tick_params(labelleft=x < 0.5)
             _share(share, name, (held <= tolerance).mean(axis=0), colour, dashes)
-        first, second = figure.axes[1:]
-        first.set_ylabel("condition number\nabove the best")
-        for axes in (first, second):
-            axes.set_xlabel("evaluations")
-        second.tick_params(labelleft=False)
-        for axes in figure.axes:
-            axes.set(xscale="log", xlim=(1, 1.1 * longest))
-            axes.xaxis.set_major_locator(FixedLocator([1, 3, 10, 30, 100, 300, 1000, 3000]))
-            axes.xaxis.set_minor_locator(NullLocator())
-            axes.xaxis.set_major_formatter("{x:.0f}")
+        _evaluations(share, longest)
         share.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0, ncols=2, handlelength=3.0)
-        share.set(ylim=(0, 1.05), xlabel="evaluations", ylabel=f"starts within {near}")
+        share.set(ylim=(0, 1.05), ylabel=f"starts within {near}")
         share.yaxis.set_major_locator(FixedLocator([0, 0.25, 0.5, 0.75, 1]))
         share.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
     return figure
 
 
-def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: float, near: str) -> None:
+def _evaluations(axes: Any, longest: int) -> None:
+    axes.set(xscale="log", xlim=(1, 1.1 * longest), xlabel="evaluations")
+    axes.xaxis.set_major_locator(TICKS)
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter("{x:.0f}")
+
+
+def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: float) -> None:
     """Draw one line per start, the median of all (`held` continues each run with its last value), the tolerance."""
     there = [_steps(gap) for gap in gaps if gap[-1] <= tolerance]
     stuck = [_steps(gap) for gap in gaps if gap[-1] > tolerance]
@@ -91,8 +97,9 @@ def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: f
     axes.add_collection(LineCollection(there, colors=colour, linewidths=0.5, alpha=0.35, zorder=2))
     axes.add_collection(LineCollection(stuck, colors=style.ALARM, linewidths=0.8, alpha=0.85, zorder=3))
     axes.add_collection(LineCollection([_steps(median)], colors=style.INK, linewidths=1.6, zorder=4))
-    ends = np.array([line[-1] for line in stuck if len(line)]).reshape(-1, 2)
-    axes.plot(*ends.T, "o", color=style.ALARM, ms=3.5, mec="white", mew=0.6, zorder=5)
+    end: dict[str, Any] = {"marker": "o", "ms": 3.5, "mec": "white", "mew": 0.6}
+    for line in stuck:
+        axes.plot(*line[-1:].T, color=style.ALARM, ls="", zorder=5, **end)
     axes.axhline(tolerance, color=style.INK, lw=0.8, ls=(0, (5, 3)), zorder=1)
     axes.set(yscale="log", ylim=(FLOOR, CEILING))
     axes.yaxis.set_major_locator(LogLocator(numticks=8))
@@ -100,8 +107,7 @@ def _runs(axes: Any, gaps: list[Floats], held: Floats, colour: str, tolerance: f
     axes.yaxis.set_minor_locator(NullLocator())
     keys = [style.key(colour, lw=1.2, label="one start"), style.key(style.INK, lw=1.6, label="median")]
     if stuck:
-        label = f"stuck above {near}"
-        keys.append(style.key(style.ALARM, lw=1.2, marker="o", ms=3.5, mec="white", mew=0.6, label=label))
+        keys.append(style.key(style.ALARM, lw=1.2, label=f"stuck above {style.power_of_ten(tolerance)}", **end))
     axes.legend(handles=keys, loc="lower left", frameon=True, framealpha=0.85, edgecolor="none")
 
 

@@ -5,154 +5,122 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from textwrap import fill
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from ninedof.plot import style
-from ninedof.plot.arguments import SMALLEST, number, things
-from ninedof.plot.plates import outlines
-from ninedof.robot.geometry import Geometry
-from ninedof.support.arguments import choice, flag, instance, items, text
+from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 from ninedof.support.units import amount
 
+if TYPE_CHECKING:
+    from ninedof.optimize.result import Candidate
+    from ninedof.pareto import Front
 
-class Sketch(NamedTuple):
-    """A design of the front, for a drawing from above."""
-
-    limit: float
-    geometry: Geometry
-    theta_z: float = 0.0
-    """Twist of its platform, radians."""
-
+Row = Mapping[str, Any]
 
 # Joints are told apart by shape too; where two coincide the smaller lies on the larger.
-JOINTS: tuple[tuple[str, str, dict[str, Any]], ...] = (
-    ("base, external", style.EXTERNAL, {"marker": "o", "ms": 6.5, "mec": "white", "mew": 0.5, "ls": ""}),
-    ("base, internal", style.LOWER, {"marker": "s", "ms": 3.8, "mec": "white", "mew": 0.5, "ls": ""}),
-    ("platform, external", style.EXTERNAL, {"marker": "o", "ms": 6.5, "mfc": "white", "mew": 1.1, "ls": ""}),
-    ("platform, internal", style.UPPER, {"marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""}),
-)
-
-COLUMNS = ("limit", "status", "objective", "price", "dominated")
-MOST_SKETCHES = 5
+JOINTS: dict[str, dict[str, Any]] = {
+    "base, external": {"color": style.EXTERNAL, "marker": "o", "ms": 6.5, "mec": "white", "mew": 0.5, "ls": ""},
+    "base, internal": {"color": style.LOWER, "marker": "s", "ms": 3.8, "mec": "white", "mew": 0.5, "ls": ""},
+    "platform, external": {"color": style.EXTERNAL, "marker": "o", "ms": 6.5, "mfc": "white", "mew": 1.1, "ls": ""},
+    "platform, internal": {"color": style.UPPER, "marker": "D", "ms": 3.2, "mec": "white", "mew": 0.4, "ls": ""},
+}
 MOST_LETTERS = 72  # of a line of the title
-MARKS = {"optimal": "o", "stopped": "D"}
+FOUND = {  # marks of a limit with a design
+    "optimal": {"color": style.SERIES[0], "marker": "o"},
+    "no better than a tighter limit": {"color": style.SERIES[0], "marker": "o", "mfc": "white"},
+    "found, not an optimum": {"color": style.ALARM, "marker": "D"},
+}
 NONE = {"infeasible": ("X", "no design"), "unbounded": ("v", "unbounded"), "stopped": ("P", "nothing found")}
 
 
-def front(
-    rows: Sequence[Mapping[str, Any]],
-    against: str,
-    objective: str = "condition number",
-    unit: str = "",
-    sketches: Sequence[Sketch] = (),
-) -> Figure:
+def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figure:
     """Return a figure of a front.
 
     Top: the objective at each limit; limits without a design are crosses on a grey background. Below: the price of each
-    limit, and the plates of a few designs from above.
+    limit, and the plates of a few designs from above. Limits on angles are drawn in degrees.
 
     Parameters
     ----------
-    rows : sequence of mappings
-        The rows of `ninedof.pareto.Front.table`: limit, status, objective, price, dominated.
-    against : str
-        Name of the limit; of "base_cone_deg" the limits are in degrees.
-    objective : str
-        Name of the objective.
-    unit : str
-        Of the limit, as `ninedof.Front.unit`. Limits in "rad" are drawn in degrees.
-    sketches : sequence of Sketch
-        At most five designs.
+    front : Front
+    sketches : int
+        Number of designs whose plates are drawn, from the tightest limit to the loosest; at most five.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
 
     Raises
     ------
     ValueError
-        If there are no rows, or none with a finite limit.
+        If no limit of the front is finite.
 
     Examples
     --------
+    >>> import ninedof as nd
     >>> from ninedof import plot
-    >>> from ninedof.plot.front import front
-    >>> rows = [
-    ...     {"limit": 1.5, "status": "optimal", "objective": 3.94, "price": 0.2, "dominated": False},
-    ...     {"limit": 2.0, "status": "optimal", "objective": 3.76, "price": 0.1, "dominated": False},
-    ... ]
-    >>> figure = front(rows, "radius_ratio")
+    >>> figure = plot.front(nd.pareto(nd.Study.paper(), "radius_ratio", values=[1.5, 2.0, 3.0]))
 
     """
-    rows = _rows(rows)
-    for name, words in (("against", against), ("objective", objective), ("unit", unit)):
-        text(name, words)
-    sketches = things("sketches", sketches, Sketch, MOST_SKETCHES, least=0)
-    for k, sketch in enumerate(sketches):
-        number(f"sketches[{k}].limit", sketch.limit)
-        instance(f"sketches[{k}].geometry", sketch.geometry, Geometry)
-        number(f"sketches[{k}].theta_z", sketch.theta_z)
-    if "_deg" in against:
-        against, unit = against.replace("_deg", ""), "deg"
-    shown = [row for row in rows if math.isfinite(row["limit"])]
-    if unit == "rad":
-        shown, unit = [{**row, "limit": math.degrees(row["limit"])} for row in shown], "deg"
-        sketches = [sketch._replace(limit=math.degrees(sketch.limit)) for sketch in sketches]
-    if not shown:
-        raise ValueError(f"rows: got {len(rows)} without a finite limit, expected at least one")
-    with style.settings():
-        figure = style.new_figure(style.TWO_COLUMNS, 6.1 if sketches else 4.3)
-        share = 1.8 / 6.1 if sketches else 0.0
+    radians = front.unit == "rad"
+    scale, unit = (180.0 / math.pi, "deg") if radians else (1.0, front.unit)
+    rows = [{**row, "limit": scale * row["limit"]} for row in front.table() if math.isfinite(row["limit"])]
+    if not rows:
+        raise ValueError(f"front: got {len(front.limits)} limits, none of them finite, expected at least one")
+    designs = _designs(front, min(sketches, 5))
+    with style.page(figure, style.TWO_COLUMNS, 6.1 if designs else 4.3) as figure:
+        share = 1.8 / 6.1 if designs else 0.0
         upper = figure.add_axes((0.09, share + 0.44 * (1 - share), 0.895, 0.475 * (1 - share)))
         lower = figure.add_axes((0.09, share + 0.115 * (1 - share), 0.895, 0.225 * (1 - share)), sharex=upper)
-        name = style.with_unit(f"largest {against.replace('_', ' ')} allowed", unit)
-        _objective(upper, shown, objective)
-        _prices(lower, shown, name)
-        _limits(upper, shown)
-        if sketches:
-            _sketches(figure, upper, sketches, share, unit)
-        _legend(figure, upper, shown)
+        _objective(upper, rows, front.study.words)
+        _prices(lower, rows)
+        lower.set_xlabel(style.with_unit(f"largest {front.limit_name.replace('_', ' ')} allowed", unit))
+        _limits((upper, lower), rows)
+        if designs:
+            titles = [f"at {amount(f'{scale * front.limits[k]:.4g}', unit)}" for k in designs]
+            _sketches(figure, dict(zip(titles, designs.values(), strict=True)), share)
     return figure
 
 
-def _rows(rows: Any) -> list[Mapping[str, Any]]:
-    """Return the rows, each with what is drawn of it."""
-    out = []
-    for k, row in enumerate(items("rows", rows, "the rows of a front")):
-        where = f"rows[{k}]"
-        if missing := [key for key in COLUMNS if key not in instance(where, row, Mapping)]:  # type: ignore[type-abstract]
-            raise ValueError(f"{where}: got a row without {', '.join(missing)}, expected {', '.join(COLUMNS)}")
-        number(f"{where}.limit", row["limit"], infinite=True)
-        for key in ("objective", "price"):
-            if row[key] is not None:
-                number(f"{where}.{key}", row[key])
-        text(f"{where}.status", row["status"])
-        if row["objective"] is None:
-            choice(f"{where}.status", row["status"], NONE)
-        flag(f"{where}.dominated", row["dominated"])
-        out.append(row)
-    return out
+def _designs(front: Front, most: int) -> dict[int, Candidate]:
+    """Return a few designs by the number of their limit, from the tightest to the loosest."""
+    good = {k: result.best for k, result in enumerate(front.results) if not math.isnan(front.objectives[k])}
+    picked = np.linspace(0, len(good) - 1, min(most, len(good))).round().astype(int)
+    return {k: good[k] for k in np.array(list(good), dtype=int)[picked].tolist()}  # type: ignore[misc]
 
 
-def _objective(axes: Any, rows: Sequence[Mapping[str, Any]], objective: str) -> None:
-    found = [row for row in rows if row["objective"] is not None]
-    x, y = (np.array([row[key] for row in found], dtype=np.float64) for key in ("limit", "objective"))
+def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:
+    known = [row for row in rows if row["objective"] is not None]
+    x, y = (np.array([row[key] for row in known], dtype=np.float64) for key in ("limit", "objective"))
     axes.plot(x, y, color=style.SERIES[0], zorder=2)
-    for row in found:
-        colour = style.ALARM if row["status"] != "optimal" else style.SERIES[0]
-        face = "white" if row["dominated"] else colour
-        mark = MARKS.get(row["status"], "D")
-        axes.plot(row["limit"], row["objective"], mark, ms=5, mfc=face, mec=colour, mew=1.1, zorder=4)
+    used = set()
+    for row in known:
+        kind = list(FOUND)[2 if row["status"] != "optimal" else int(row["dominated"])]
+        mark = FOUND[kind] | {"mfc": "white"} if row["dominated"] else FOUND[kind]
+        axes.plot(row["limit"], row["objective"], **mark, ms=5, mew=1.1, zorder=4)
+        used |= {kind} | ({list(FOUND)[1]} if row["dominated"] else set())
     axes.set_title(fill(f"{objective}: the least for each limit", MOST_LETTERS))
     axes.set_ylabel(fill(objective, 34) if len(objective) < 70 else "objective")
     if len(y):
         room = 0.08 * max(float(np.ptp(y)), 0.02 * float(y.max()))
         axes.set_ylim(float(y.min()) - room, float(y.max()) + 1.6 * room)
+    else:
+        axes.set(ylim=(0.0, 1.0), yticks=[])
+    bottom = axes.get_ylim()[0]
     axes.tick_params(labelbottom=False)
+    keys = [style.key(**mark, ls="", ms=5, mew=1.1, label=kind) for kind, mark in FOUND.items() if kind in used]
+    for status, (marker, words) in NONE.items():
+        without = [row["limit"] for row in rows if row["objective"] is None and row["status"] == status]
+        cross: dict[str, Any] = {"color": style.ALARM, "marker": marker, "ls": "", "ms": 8, "mec": "white"}
+        for limit in without:
+            axes.plot(limit, bottom, **cross, clip_on=False, zorder=6)
+        keys += [style.key(**cross, mew=0.8, label=words)] * bool(without)
+    axes.legend(handles=keys, loc="upper right")
 
 
-def _prices(axes: Any, rows: Sequence[Mapping[str, Any]], name: str) -> None:
+def _prices(axes: Any, rows: Sequence[Row]) -> None:
     priced = [(row["limit"], row["price"]) for row in rows if row["price"] is not None]
     if priced:
         x, y = np.array(priced, dtype=np.float64).T
@@ -162,79 +130,52 @@ def _prices(axes: Any, rows: Sequence[Mapping[str, Any]], name: str) -> None:
     else:
         axes.set_yticks([])
     axes.set_title("price: what a limit 1 % looser gains", size=style.TEXT_SIZE)
-    axes.set(xlabel=name, ylabel="gain (%)")
+    axes.set_ylabel("gain (%)")
 
 
-def _limits(axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Set the axis of limits, logarithmic for a wide range, and mark limits without a design."""
+def _limits(panels: Sequence[Any], rows: Sequence[Row]) -> None:
+    """Set the axis of limits, logarithmic for a wide range, with a grey background where no design exists."""
     limits = np.array([row["limit"] for row in rows], dtype=np.float64)
     low, high = float(limits.min()), float(limits.max())
-    if high > 4.0 * low > SMALLEST:
+    if high > 4.0 * low > 0.0:
         margin = (high / low) ** 0.035
         view = (low / margin, high * margin)
-        axes.set_xscale("log")
-        style.one_two_five(axes.xaxis)
+        panels[0].set_xscale("log")
+        style.one_two_five(panels[0].xaxis)
     else:
-        margin = max(0.035 * max(high - low, 0.1 * abs(high)), 1e-9)  # a denormal limit has a place too
+        margin = 0.035 * max(high - low, 0.1 * abs(high))
         view = (low - margin, high + margin)
-    axes.set_xlim(view)
-    first = min((row["limit"] for row in rows if row["objective"] is not None), default=None)
-    infeasible = [row["limit"] for row in rows if row["status"] == "infeasible"]
-    bottom = axes.get_ylim()[0]
-    for row in rows:
-        if row["objective"] is None:
-            mark = NONE[row["status"]][0]
-            axes.plot(row["limit"], bottom, mark, ms=8, color=style.ALARM, mec="white", clip_on=False, zorder=6)
-    if infeasible and (first is None or max(infeasible) < first):
-        for each in axes.figure.axes:
-            each.axvspan(view[0], max(infeasible), color=style.GRID, lw=0, zorder=0)
+    panels[0].set_xlim(view)
+    first = min((row["limit"] for row in rows if row["objective"] is not None), default=math.inf)
+    last = max((row["limit"] for row in rows if row["status"] == "infeasible"), default=math.inf)
+    if last < first:
+        for axes in panels:
+            axes.axvspan(view[0], last, color=style.GRID, lw=0, zorder=0)
 
 
-def _legend(figure: Figure, axes: Any, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Add a legend of the marks in the figure."""
-    plain: dict[str, Any] = {"ls": "", "ms": 5, "mew": 1.1}
-    keys = []
-    if any(row["status"] == "optimal" and not row["dominated"] for row in rows):
-        keys.append(style.key(style.SERIES[0], marker="o", label="optimal", **plain))
-    if any(row["dominated"] for row in rows):
-        label = "no better than a tighter limit"
-        keys.append(style.key(style.SERIES[0], marker="o", mfc="white", label=label, **plain))
-    if any(row["status"] != "optimal" and row["objective"] is not None for row in rows):
-        keys.append(style.key(style.ALARM, marker="D", label="found, not an optimum", **plain))
-    for status, (mark, words) in NONE.items():
-        if any(row["status"] == status and row["objective"] is None for row in rows):
-            keys.append(style.key(style.ALARM, marker=mark, label=words, ls="", ms=8, mec="white", mew=0.8))
-    axes.legend(handles=keys, loc="upper right")
-
-
-def _sketches(figure: Figure, upper: Any, sketches: Sequence[Sketch], share: float, unit: str) -> None:
-    """Draw plates from above in one row, in the order of their limits."""
-    ordered = sorted(sketches, key=lambda sketch: sketch.limit)
-    width = 0.895 / len(ordered)
+def _sketches(figure: Any, designs: Mapping[str, Candidate], share: float) -> None:
+    """Draw plates from above in one row."""
+    width = 0.895 / len(designs)
     words = "plates from above, each at its own scale, base dark, platform light; joints:"
     figure.text(0.09, share - 0.02, words, size=style.SMALL_SIZE)
-    keys = [style.key(colour, label=words, **mark) for words, colour, mark in JOINTS]
+    keys = [style.key(**mark, label=kind) for kind, mark in JOINTS.items()]
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, share - 0.02), ncols=4, columnspacing=1.0)
-    for k, sketch in enumerate(ordered):
-        reach = float(np.abs(_joints(sketch)[:, :2]).max())
+    for k, (title, design) in enumerate(designs.items()):
+        joints = _joints(design)
+        reach = 1.12 * float(np.abs(joints).max())
         axes = figure.add_axes((0.09 + k * width, 0.005, width, share - 0.095))
-        axes.set(xlim=(-1.12 * reach, 1.12 * reach), ylim=(-1.12 * reach, 1.12 * reach), aspect="equal")
+        axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
         axes.set_axis_off()
-        axes.set_title(
-            f"at {amount(f'{sketch.limit:.4g}', unit)}", size=style.SMALL_SIZE, loc="center", pad=2, weight="normal"
-        )
-        joints = _joints(sketch)
+        axes.set_title(title, size=style.SMALL_SIZE, loc="center", pad=2, weight="normal")
         for body, colour, alpha in ((joints[:6], style.BASE, 0.88), (joints[6:], style.PLATFORM, 0.62)):
-            flat = np.column_stack([body[:, :2], np.zeros(6)])
-            for outline in outlines(flat):
+            for outline in outlines(np.column_stack([body, np.zeros(6)])):
                 axes.add_patch(Polygon(outline[:, :2], fc=colour, ec=style.INK, lw=0.8, alpha=alpha))
-        for (_, colour, mark), three in zip(JOINTS, np.split(joints, 4), strict=True):
-            axes.plot(*three[:, :2].T, color=colour, **mark)
+        for mark, three in zip(JOINTS.values(), np.split(joints, 4), strict=True):
+            axes.plot(*three.T, **mark)
 
 
-def _joints(sketch: Sketch) -> Floats:
-    """Return base joints, then platform joints turned by the twist, shape (12, 3)."""
-    g, cosine, sine = sketch.geometry, math.cos(sketch.theta_z), math.sin(sketch.theta_z)
-    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+def _joints(design: Candidate) -> Floats:
+    """Return base joints, then platform joints turned by the twist, from above: shape (12, 2)."""
+    g, turn = design.geometry, design.configuration.rotation
     platform = np.vstack([g.platform_external, g.platform_internal]) @ turn.T
-    return np.vstack([g.base_external, g.base_internal, platform])
+    return np.vstack([g.base_external, g.base_internal, platform])[:, :2]

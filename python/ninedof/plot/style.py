@@ -1,9 +1,9 @@
-"""The style of all figures: sizes as printed, colours, dashes, axes, and how a figure is created."""
+"""The style of all figures: sizes as printed, colours, dashes, axes, and how a figure or its axes are made."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Sized
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,6 +12,7 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter
 from numpy.typing import ArrayLike
 
@@ -41,6 +42,9 @@ CONDITION = "cividis_r"  # condition numbers, dark if large; safe for colour-bli
 DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 MARKS = ("o", "s", "^", "D")
 
+HOME: dict[str, Any] = {"marker": "P", "ms": 6.5, "color": INK, "mec": "white", "mew": 0.9, "ls": "", "zorder": 8}
+"""The mark of the home pose."""
+
 # Inches: figures are made at the width they are printed at, so that these are the sizes of the text on paper.
 ONE_COLUMN = 86.0 / 25.4
 TWO_COLUMNS = 178.0 / 25.4
@@ -51,6 +55,9 @@ SMALL_SIZE = 7.0
 THICK, CURVE, THIN = 2.0, 1.4, 0.7  # points, of lines
 
 DPI = 200
+
+Rectangle = tuple[float, float, float, float]
+"""Left, bottom, width and height, in fractions of a figure."""
 
 _SETTINGS: Any = {
     "axes.axisbelow": True,
@@ -109,10 +116,29 @@ def settings() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float, layout: Any = None) -> Figure:
-    """Return an empty figure of the given size in inches, with its own Agg canvas."""
+    """Return an empty figure of a size in inches, with its own Agg canvas."""
     figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
     FigureCanvasAgg(figure)
     return figure
+
+
+@contextmanager
+def page(figure: Figure | None, width: float, height: float, layout: Any = None) -> Iterator[Figure]:
+    """Yield what to draw into, in the settings of all figures: the figure given, or a new one of a size in inches."""
+    with settings():
+        yield new_figure(width, height, layout) if figure is None else figure
+
+
+@contextmanager
+def panel(ax: Any, width: float, height: float, place: Rectangle, **options: Any) -> Iterator[tuple[Figure, Any]]:
+    """Yield the figure and the axes given, or a new one of a size in inches and axes that fill a part of it."""
+    with page(None if ax is None else ax.figure, width, height) as figure:
+        yield figure, figure.add_axes(place, **options) if ax is None else ax
+
+
+def inches(figure: Any) -> Floats:
+    """Return width and height of a figure, or of its part."""
+    return np.asarray(figure.bbox.size / figure.dpi)
 
 
 def power_of_ten(value: float, position: object = None) -> str:
@@ -170,6 +196,22 @@ def round_to(value: float, span: float) -> float:
     return float(f"{round(value / step) * step:.12g}") + 0.0
 
 
-def key(colour: str, **line: Any) -> Line2D:
+def key(color: str, **line: Any) -> Line2D:
     """Return a legend entry without data."""
-    return Line2D([], [], color=colour, **line)
+    return Line2D([], [], color=color, **line)
+
+
+def arrow(colour: str, width: float, ends: str = "-|>") -> dict[str, Any]:
+    """Return the properties of an arrow from point to point."""
+    return {"arrowstyle": ends, "color": colour, "lw": width, "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0}
+
+
+def rim(width: float) -> Any:
+    """Return a path effect: a white rim about a line or letters, in points."""
+    return withStroke(linewidth=width, foreground="white")
+
+
+def counted(name: str, things: Sized, most: int) -> None:
+    """Raise unless there are things to draw, and room for them."""
+    if not 0 < len(things) <= most:
+        raise ValueError(f"{name}: got {len(things)}, expected 1 to {most}")

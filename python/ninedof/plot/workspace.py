@@ -1,56 +1,84 @@
-"""A workspace: sections, its limits, the condition number in it, and the convergence of the volume."""
+"""A workspace: sections, its limits, the condition number in it, the convergence of the volume; what is certified."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from contourpy import contour_generator
+from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.patches import Circle, Rectangle
+from matplotlib.path import Path
 from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
 from ninedof.plot import style
-from ninedof.plot.arguments import number, numbers, texts, things
-from ninedof.plot.section import BOUNDARY, KINDS, Section, draw_section, home_mark, kind_of
-from ninedof.support.arguments import instance, text
-from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.printable import escaped
+from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
+
+if TYPE_CHECKING:
+    from ninedof.workspace import CertifiedSection, WorkspaceMap, WorkspaceSlice
 
 MOST_SECTIONS = 3
 MOST_SHARES = 9
 LOWER = 1.93  # inches, the height of the lower row
 USUAL, MORE = 95, 0.5  # the colours end at this percentile, or at the greatest value if it is so little above it
+BOUNDARY = 2.2  # points
+DASHED = (0, (3, 1.5))
+
+KINDS: dict[str, tuple[str, str, Any]] = {  # limits: beginning of the name, words, colour, dashes
+    "l": ("external legs", style.EXTERNAL, "-"),
+    "q": ("upper internal legs", style.UPPER, (0, (2.4, 0.8))),
+    "r": ("lower internal legs", style.LOWER, (0, (0.9, 0.7))),
+    "base_cone": ("joint cones of the base", "#AA3377", (0, (3.5, 0.7, 0.8, 0.7))),
+    "platform_cone": ("joint cones of the platform", "#CC79A7", (0, (3.5, 0.7, 0.8, 0.7, 0.8, 0.7))),
+    "leg_clearance": ("leg clearance", "#7B4B00", (0, (5.0, 1.0))),
+    "condition_number": ("condition number", style.INK, "-"),
+    "det": ("singularity", "#CC3311", (0, (1.5, 0.6))),
+    "region": ("region", style.MUTED, (0, (2.0, 1.6))),
+    "box": ("box of the map", style.MUTED, (0, (2.0, 1.6))),
+    "internal_point": ("no admissible O", "#999933", (0, (4.0, 1.5))),
+}
+ALLOWED, OPEN, EDGE = "#A9CCE3", "#E8871E", "#7FB0D1"  # proved, not decided, edges of proved boxes
 
 
-def workspace(
-    sections: Sequence[Section],
-    limit_names: Sequence[str],
-    shares: Mapping[str, float],
-    percentiles: ArrayLike,
-    levels: ArrayLike,
-    unit: str = "",
-) -> Figure:
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A plane section of a workspace and what is marked in it, in the two coordinates drawn."""
+
+    plane: WorkspaceSlice | CertifiedSection
+    """As `WorkspaceMap.slice` returns it (smooth for contours), or `CertifiedWorkspace.section`."""
+    ball: tuple[ArrayLike, float] | None = None
+    """Centre and radius of the section of the ball."""
+    box: tuple[ArrayLike, ArrayLike] | None = None
+    """Low and high corner."""
+    region: ArrayLike | None = None
+    """Outline of the region of a study, points (n, 2)."""
+    home: ArrayLike | None = None
+    """The home pose."""
+    estimate: WorkspaceSlice | None = None
+    """The same plane of a map, to draw its boundary over what is certified."""
+
+
+def workspace(found: WorkspaceMap, sections: Sequence[Section], figure: Figure | None = None) -> Figure:
     """Return a figure of a workspace: sections above, the limits, the condition number and the volume below.
 
     Colours are bands between contours at round values, the same in all sections. Where the condition number goes on
-    beyond the last, the colour bar has an arrow and names the largest.
+    beyond the last, the colour bar has an arrow and names the largest. Angles are drawn in degrees.
 
     Parameters
     ----------
+    found : WorkspaceMap
     sections : sequence of Section
-        One to three.
-    limit_names : sequence of str
-        Names of the limits, indexed by the numbers in the sections.
-    shares : mapping of str to float
-        Share of the boundary by limit.
-    percentiles : array_like, shape (101,)
-        Of the condition number over the volume.
-    levels : array_like, shape (n, 4)
-        Cells, evaluations, volume and error after each level; none for a grid or a sample.
-    unit : str
-        Of the coordinates, for the labels. Those in "rad" are drawn in degrees.
+        One to three, of its slices.
+    figure : matplotlib.figure.Figure, optional
+        To draw in, with a constrained layout; a new one by default.
 
     Raises
     ------
@@ -60,94 +88,214 @@ def workspace(
     Examples
     --------
     >>> import ninedof as nd
-    >>> from ninedof.plot.workspace import Section, workspace
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> found = nd.workspace(g, ([-4, -4, 0], [4, 4, 8]), criteria={"leg_limits": (2.5, 6.5)})
-    >>> section = Section(found.slice("z", 5.4, smooth=True))
-    >>> figure = workspace([section], found.limit_names, found.limits(), found.percentiles, found.levels)
+    >>> figure = nd.plot.workspace(found, [nd.plot.Section(found.slice("z", 5.4, smooth=True))])
 
     """
-    things("sections", sections, Section, MOST_SECTIONS)
-    kinds = [kind_of(name) for name in texts("limit_names", limit_names)]
-    if (most_known := max(int(section.plane.limit.max()) for section in sections)) >= len(kinds):
-        raise ValueError(
-            f"limit_names: got {len(kinds)}, expected at least {most_known + 1}: the sections have so many"
-        )
-    for name, share in instance("shares", shares, Mapping).items():  # type: ignore[type-abstract]
-        kind_of(text("shares", name), "shares")
-        number(f"shares.{name}", share)
-    known = as_floats("percentiles", percentiles, ())
-    if known.size:  # no pose, no numbers
-        numbers("percentiles", known, 101, gaps=True, positive=True)
-    steps = as_floats("levels", levels, ())
-    steps = numbers("levels", steps, None, 4, gaps=True) if steps.size else np.zeros((0, 4))
-    if len(steps):
-        numbers("levels", steps[:, 1], None, positive=True)  # evaluations, along a logarithmic axis
-    text("unit", unit)
-    with style.settings():
-        upper = 3.37 if len(sections) < MOST_SECTIONS else 2.75  # inches
-        engine = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
-        figure = style.new_figure(style.TWO_COLUMNS, upper + LOWER, layout=engine)
+    style.counted("sections", sections, MOST_SECTIONS)
+    kinds = [kind_of(name) for name in found.limit_names]
+    upper = 3.37 if len(sections) < MOST_SECTIONS else 2.75  # inches
+    with style.page(figure, style.TWO_COLUMNS, upper + LOWER, layout=_layout()) as figure:
         parts: Any = figure.subfigures(2, 1, height_ratios=[upper, LOWER])
         above, below = parts
-        bands, most = _bands(known, sections)
-        shown: Any = None
+        bands, most = _bands(found.percentiles, sections)
+        filled: Any = None
         panels = above.subplots(1, len(sections), squeeze=False)[0]
         for axes, section in zip(panels, sections, strict=True):
-            shown = draw_section(axes, section, kinds, bands, most is not None, unit) or shown
-        if shown is not None:
-            bar = above.colorbar(shown, ax=list(panels), fraction=0.03, pad=0.02, aspect=28, ticks=bands)
+            turn, unit = (np.degrees, "deg") if found.of_angles else (np.asarray, found.unit)
+            filled = _fill(axes, section.plane, turn, bands, most is not None) or filled
+            _boundary(axes, section.plane, turn, kinds)
+            _marks(axes, section, turn, unit, style.INK)
+        if filled is not None:
+            bar = above.colorbar(filled, ax=list(panels), fraction=0.03, pad=0.02, aspect=28, ticks=bands)
             bar.ax.yaxis.set_major_formatter("{x:g}")
             bar.ax.yaxis.set_minor_locator(NullLocator())
             more = "" if most is None else f", {most:.4g} at most" if np.isfinite(most) else ", without a bound"
             bar.set_label("condition number" + more)
             bar.outline.set_linewidth(0.5)
-        _legend(figure, sections, kinds)
+        _legend(figure, _keys_of_limits(sections, kinds), sections, style.INK, 4)
         left, middle, right = below.subplots(1, 3)
-        _shares(left, shares)
-        _distribution(middle, known)
-        _levels(right, steps)
+        _shares(left, found.limits())
+        _distribution(middle, found.percentiles)
+        _levels(right, found.levels)
     return figure
+
+
+def certified_workspace(sections: Sequence[Section], unit: str = "", figure: Figure | None = None) -> Figure:
+    """Return a figure of a certified workspace: where poses are proved to be allowed, and where nothing is proved.
+
+    The rest is proved to be outside. Each pixel is judged at its middle: what is thinner may be missed. Edges
+    of inner boxes are drawn where they are not too many.
+
+    Parameters
+    ----------
+    sections : sequence of Section
+        One to three, of `CertifiedWorkspace.section`.
+    unit : str
+        Of the coordinates, for the labels.
+    figure : matplotlib.figure.Figure, optional
+        To draw in, with a constrained layout; a new one by default.
+
+    Raises
+    ------
+    ValueError
+        If there are no sections or too many.
+
+    """
+    style.counted("sections", sections, MOST_SECTIONS)
+    tall = 3.6 if len(sections) < MOST_SECTIONS else 2.9
+    with style.page(figure, style.TWO_COLUMNS, tall, layout=_layout()) as figure:
+        for axes, section in zip(figure.subplots(1, len(sections), squeeze=False)[0], sections, strict=True):
+            _certified(axes, section.plane)
+            if section.estimate is not None:
+                for line in _outline(section.estimate, np.asarray):
+                    axes.plot(*line.T, color=style.INK, lw=0.9, zorder=5)
+            _marks(axes, section, np.asarray, unit, style.REGION)
+        square: dict[str, Any] = {"ls": "", "marker": "s", "ms": 6}
+        keys = [
+            style.key(ALLOWED, **square, label="proved to be allowed"),
+            style.key(OPEN, **square, label="not decided"),
+            style.key(style.INK, **square, mfc="white", mew=0.6, label="proved not to be allowed"),
+        ]
+        if any(section.estimate is not None for section in sections):
+            keys.append(style.key(style.INK, lw=0.9, label="boundary of the estimate"))
+        _legend(figure, keys, sections, style.REGION, 3)
+    return figure
+
+
+def kind_of(name: str) -> str:
+    """Return the key of `KINDS` of a limit."""
+    first = name.split(" ")[0]
+    return first if first in KINDS else first[:1]
+
+
+def _layout() -> ConstrainedLayoutEngine:
+    return ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
 
 
 def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, float | None]:
     """Return the round values between the bands of colour, and the largest value if it is beyond them."""
-    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])
-    finite = [values[np.isfinite(values)] for values in (percentiles, drawn)]
-    known = finite[0] if finite[0].size else finite[1]  # the raster goes on a little beyond the boundary
+    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])  # type: ignore[union-attr]
+    of_volume = percentiles[np.isfinite(percentiles)]
+    known = of_volume if of_volume.size else drawn[np.isfinite(drawn)]  # the raster goes on beyond the boundary
     if not known.size:
         return np.array([1.0, 2.0]), None
     low, high = float(known.min()), float(known.max())
-    usual = float(finite[0][: USUAL + 1].max()) if finite[0].size > USUAL else high
+    usual = float(of_volume[: USUAL + 1].max()) if of_volume.size > USUAL else high
     top = high if high <= usual + MORE * (usual - low) else min(usual, style.RANGE * low)
     bands = style.round_levels(low, top)
-    most = np.inf if np.isposinf(percentiles if finite[0].size else drawn).any() else high
+    most = np.inf if np.isposinf(percentiles if of_volume.size else drawn).any() else high
     return bands, most if most > bands[-1] else None
 
 
-def _legend(figure: Figure, sections: Sequence[Section], kinds: Sequence[str]) -> None:
-    there = {kinds[n] for s in sections for n in np.unique(s.plane.limit[s.plane.state == 1]).tolist() if n >= 0}
-    entries: list[Any] = [
-        style.key(colour, ls=dashes, lw=BOUNDARY, label=words)
-        for kind, (words, colour, dashes) in KINDS.items()
-        if kind in there
-    ]
-    if any(section.region is not None for section in sections):
-        entries.append(style.key(style.INK, lw=1.2, label="region of the study"))
-    if any(section.ball is not None for section in sections):
-        entries.append(_ring(label="largest ball"))
-    if any(section.box is not None for section in sections):
-        entries.append(style.key(style.INK, lw=0.9, ls=(0, (3, 1.5)), label="largest box"))
-    if any(section.home is not None for section in sections):
-        entries.append(
-            style.key(label="home", colour=style.INK, **{k: v for k, v in home_mark().items() if k != "color"})
-        )
-    if entries:
-        figure.legend(handles=entries, loc="outside upper left", ncols=min(4, len(entries)), handlelength=3.0)
+def _fill(axes: Any, s: Any, turn: Any, levels: Floats, cut: bool) -> Any:
+    """Fill between contours, within the workspace alone; return the bands, None without a finite condition number."""
+    if not np.isfinite(s.condition_number).any():
+        return None
+    x, y = turn(s.horizontal), turn(s.vertical)
+    kappa = np.where(s.condition_number > 0.0, s.condition_number, np.inf)  # NaN outside too
+    kappa = np.where(s.fraction > 0.0, np.minimum(kappa, 4.0 * levels[-1]), np.nan)
+    extend: Any = "max" if cut else "neither"
+    if not cut:
+        kappa = np.clip(kappa, levels[0], levels[-1] * (1.0 - 1e-12))
+    norm = BoundaryNorm(levels, 256, extend=extend)
+    bands = axes.contourf(x, y, kappa, cmap=style.CONDITION, norm=norm, levels=levels, extend=extend)
+    lines = axes.contour(x, y, kappa, levels=levels, colors="white", linewidths=0.4, alpha=0.7)
+    outer: Any = contour_generator(x, y, s.fraction, fill_type="OuterCode").filled(0.5, np.inf)
+    points, codes = outer
+    path = Path(np.concatenate(points), np.concatenate(codes)) if points else Path(np.zeros((1, 2)))
+    for drawn in (bands, lines):
+        drawn.set_clip_path(path, axes.transData)
+    return bands
 
 
-def _ring(label: str) -> Any:
-    return style.key(style.INK, lw=0.9, label=label, marker="o", ms=7, mfc="none", ls="")
+def _outline(s: Any, turn: Any) -> list[Floats]:
+    """Return the boundary of a section, closed lines of points (n, 2)."""
+    return [np.asarray(line) for line in contour_generator(turn(s.horizontal), turn(s.vertical), s.fraction).lines(0.5)]
+
+
+def _boundary(axes: Any, s: Any, turn: Any, kinds: Sequence[str]) -> None:
+    """Draw the boundary in stretches of one kind of limit, and show the part of the plane about it."""
+    names = list(KINDS)
+    numbers = np.array([names.index(kind) for kind in kinds] + [-1])
+    lines = _outline(s, turn)
+    for line in lines:
+        at = []
+        for k, axis in enumerate((turn(s.horizontal), turn(s.vertical))):
+            near = np.round((line[:, k] - axis[0]) / (axis[1] - axis[0])).astype(int)
+            at.append(np.clip(near, 0, len(axis) - 1))
+        number = numbers[s.limit[at[1], at[0]]]
+        ends = [0, *(np.flatnonzero(number[1:] != number[:-1]) + 1).tolist(), len(line) - 1]
+        for first, last in pairwise(ends):
+            _, colour, dashes = KINDS[names[number[first]]] if number[first] >= 0 else ("", style.MUTED, "-")
+            part = line[first : last + 1].T
+            axes.plot(*part, color="white", lw=BOUNDARY, solid_capstyle="butt", zorder=4)
+            axes.plot(*part, color=colour, ls=dashes, lw=BOUNDARY, dash_capstyle="butt", zorder=5)
+    if lines:
+        every = np.concatenate(lines)
+        low, high = every.min(axis=0), every.max(axis=0)
+        room = 0.06 * float((high - low).max())
+        axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room))
+
+
+def _certified(axes: Any, s: Any) -> None:
+    """Draw what is proved, and show the part of the plane about it."""
+    dx, dy = (0.5 * float(a[1] - a[0]) for a in (s.horizontal, s.vertical))
+    x0, x1, y0, y1 = s.horizontal[0] - dx, s.horizontal[-1] + dx, s.vertical[0] - dy, s.vertical[-1] + dy
+    options: dict[str, Any] = {"origin": "lower", "extent": (x0, x1, y0, y1), "interpolation": "nearest"}
+    axes.imshow(s.state, cmap=ListedColormap(["white", OPEN, ALLOWED]), vmin=-1, vmax=1, **options)
+    a0, b0, a1, b1 = s.inner.T
+    corners = [np.column_stack(pair) for pair in ((a0, b0), (a1, b0), (a1, b1), (a0, b1), (a0, b0))]
+    axes.add_collection(LineCollection(list(np.stack(corners, axis=1)), colors=EDGE, linewidths=0.25))
+    ends = np.argwhere(s.state == 1 if (s.state == 1).any() else s.state >= 0)
+    if len(ends):
+        low, high = ends.min(axis=0), ends.max(axis=0)
+        x, y = s.horizontal[[low[1], high[1]]], s.vertical[[low[0], high[0]]]
+        room = 0.06 * float(max(np.ptp(x), np.ptp(y))) + max(dx, dy)
+        # Not past the section: of what lies there it says nothing, and white is proved to be outside.
+        axes.set(xlim=(max(x[0] - room, x0), min(x[1] + room, x1)), ylim=(max(y[0] - room, y0), min(y[1] + room, y1)))
+
+
+def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> None:
+    """Draw ball, box, region and home over a section, and name its axes and its plane."""
+    for ink, width in (("white", 2.0), (style.INK, 0.9)):
+        line: dict[str, Any] = {"fill": False, "lw": width, "ec": ink}
+        if section.ball is not None:
+            axes.add_patch(Circle(tuple(turn(section.ball[0])), float(turn(section.ball[1])), **line))
+        if section.box is not None:
+            low, high = (np.asarray(turn(corner), dtype=np.float64) for corner in section.box)
+            axes.add_patch(Rectangle(tuple(low), *(high - low), **line, ls="-" if ink == "white" else DASHED))
+    if section.region is not None:
+        for colour, width in (("white", 2.4), (region, 1.3)):
+            axes.plot(*turn(np.asarray(section.region, dtype=np.float64)).T, color=colour, lw=width, zorder=6)
+    if section.home is not None:
+        axes.plot(*turn(np.asarray(section.home, dtype=np.float64)), **style.HOME)
+    s = section.plane
+    axes.grid(visible=False)
+    axes.set(xlabel=style.with_unit(s.axes[0], unit), ylabel=style.with_unit(s.axes[1], unit), aspect="equal")
+    axes.set_title(f"{s.plane[0]} = {amount(style.signed(float(turn(s.plane[1]))), unit)}")
+
+
+def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[Any]:
+    planes = [section.plane for section in sections]
+    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}  # type: ignore[union-attr]
+    shown = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
+    return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in shown]
+
+
+def _legend(figure: Any, keys: list[Any], sections: Sequence[Section], region: str, columns: int) -> None:
+    """Write the legend: the keys, and those of the marks that the sections have."""
+    ring: dict[str, Any] = {"lw": 0.9, "marker": "o", "ms": 7, "mfc": "none", "ls": ""}
+    marks = {
+        "region": style.key(region, lw=1.3, label="region of the study"),
+        "ball": style.key(style.INK, **ring, label="largest ball"),
+        "box": style.key(style.INK, lw=0.9, ls=DASHED, label="largest box"),
+        "home": style.key(**style.HOME, label="home"),
+    }
+    keys = keys + [key for name, key in marks.items() if any(getattr(one, name) is not None for one in sections)]
+    if keys:
+        figure.legend(handles=keys, loc="outside upper left", ncols=min(columns, len(keys)), handlelength=3.0)
 
 
 def _shares(axes: Any, shares: Mapping[str, float]) -> None:
@@ -158,7 +306,7 @@ def _shares(axes: Any, shares: Mapping[str, float]) -> None:
         return
     colours = [KINDS[kind_of(name)][1] for name, _ in top]
     axes.barh(range(len(top)), [100.0 * share for _, share in top], color=colours, height=0.7)
-    axes.set_yticks(range(len(top)), [escaped(name.replace("_", " ")) for name, _ in top])
+    axes.set_yticks(range(len(top)), [name.replace("_", " ") for name, _ in top])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("% of the boundary")
@@ -166,12 +314,12 @@ def _shares(axes: Any, shares: Mapping[str, float]) -> None:
 
 def _distribution(axes: Any, percentiles: Floats) -> None:
     axes.set_title("condition number in it")
-    if not np.isfinite(percentiles).any():
+    finite = percentiles[np.isfinite(percentiles)]
+    if not finite.size:
         axes.set_axis_off()
         return
     axes.plot(percentiles, np.arange(percentiles.size), color=style.SERIES[0])
     axes.set(xlabel="condition number", ylabel="% of the volume below", ylim=(0, 100))
-    finite = percentiles[np.isfinite(percentiles)]
     if finite.max() > 10.0 * finite.min():
         axes.set_xscale("log")
         style.one_two_five(axes.xaxis)

@@ -6,8 +6,8 @@ from base64 import b64encode
 from collections.abc import Iterable
 from pathlib import Path
 
+from ninedof.paper.published import FIGURES
 from ninedof.report.markup import Html, joined, safe, tag
-from ninedof.runs.paper_figures import FIGURES
 
 CAPTIONS = {
     "mechanism": "The mechanism at its neutral pose.",

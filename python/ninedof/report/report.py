@@ -153,5 +153,5 @@ def _drawn(scene: Any, folder: Path) -> Path:
     pose = one["poses"][0]
     g = Geometry(*(one[body][k : k + 3] for body in ("base", "platform") for k in (0, 3)))
     c = Configuration(pose["p"], pose["q"], pose["s"])
-    plot.save(plot.mechanisms([plot.Mechanism(one["name"], g, c)], scene["unit"]), folder, STILL)
+    plot.save(plot.mechanisms([plot.Robot(one["name"], g, c)], scene["unit"]), folder, STILL)
     return folder

@@ -30,7 +30,7 @@ def machine(
 
     With lines of a region and the body of a workspace, where there are some.
     """
-    from ninedof.plot.plates import outlines
+    from ninedof.robot.plates import outlines
 
     stack = c if c.shape else Configuration(c.position[None], c.rotation[None], c.internal_point[None])
     base = np.vstack([g.base_external, g.base_internal])

@@ -66,7 +66,7 @@ def _figures(
     note = "" if compared else unit
     region = None if compared else result.study.objective.region
     panels = [
-        plot.Mechanism(name, g, c, kappa, _heights(c, note), () if region is None else region_lines(region, c))
+        plot.Robot(name, g, c, kappa, _heights(c, note), () if region is None else region_lines(region, c))
         for name, g, c, kappa, _ in designs
     ]
     files = plot.save(plot.mechanisms(panels, unit), directory, "mechanism")
@@ -75,11 +75,10 @@ def _figures(
     files += plot.save(plot.condition_curves(curves, unit), directory, "condition")
     if result.best is not None and len(result.best.conditions) > 1:
         say("drawing the condition number at each pose")
-        conditions = plot.PoseConditions("optimum", result.best.conditions)
         names = _pose_names(result, len(result.best.conditions))
         of_unit = f", in {unit}" if unit and any(p.unit != "zp" for p in result.solved.objective.poses) else ""
         words = f"Poses, numbered as in the sheet: shifts from the neutral pose{of_unit}, and the rotation vector"
-        files += plot.save(plot.poses([conditions], names, note=words), directory, "poses")
+        files += plot.save(plot.poses({"optimum": result.best.conditions}, names, note=words), directory, "poses")
     if not convergence:
         return files
     say("tracing the starts for the convergence, minimax and plain")

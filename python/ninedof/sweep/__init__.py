@@ -1,11 +1,10 @@
 """Sweeps: an index over a grid of configurations or of designs.
 
 `axis` has the points, `index` the quantities, `poses` and `variants` the robots at the points, `work` the chunks,
-`result` the labelled arrays. The public functions are in `run` and `figures`.
+`result` the labelled arrays. The public functions are in `run`.
 """
 
-from ninedof.sweep.figures import sweep_figure
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.run import sweep, sweep_designs
 
-__all__ = ["SweepResult", "sweep", "sweep_designs", "sweep_figure"]
+__all__ = ["SweepResult", "sweep", "sweep_designs"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.plot.plates import outlines
+from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 
 Faces = NDArray[np.uint32]

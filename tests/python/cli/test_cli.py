@@ -220,7 +220,7 @@ def test_paper_prints_a_verdict_on_every_number(capsys):
 def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkeypatch):
     """Without Figs. 6 and 7, whose sweeps have tests of their own."""
     few = {name: partial(nd.sweep_figure, name, points) for name, points in (("6", 5), ("7", 2))}
-    monkeypatch.setattr("ninedof.runs.paper_figures.sweep_figure", lambda name: few[name]())
+    monkeypatch.setattr("ninedof.paper.figures.sweep_figure", lambda name: few[name]())
 
     def save(figure, folder, stem):
         (folder / f"{stem}.png").touch()

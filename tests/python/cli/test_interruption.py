@@ -107,7 +107,7 @@ def test_an_interruption_while_drawing_leaves_the_record(tmp_path, monkeypatch, 
 def test_an_interruption_of_the_figures_of_the_paper(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(paper_command, "verdicts", lambda _: ())
-    monkeypatch.setattr("ninedof.plot.figure_1", lambda *_: signal.raise_signal(signal.SIGINT))
+    monkeypatch.setattr("ninedof.paper.figures.figure_1", lambda *_: signal.raise_signal(signal.SIGINT))
     with pytest.raises(SystemExit) as ended:
         main(["paper", "--figures", "--out", "drawn"])
     assert ended.value.code == 130

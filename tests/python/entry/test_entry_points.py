@@ -13,10 +13,10 @@ from memory import small
 from sizes import LONG
 
 import ninedof as nd
-from ninedof import plot, poses
+from ninedof import poses
 from ninedof.support.arguments import path_argument
 
-for tables in ("entry_rows_design", "entry_rows_places", "entry_rows_figures"):
+for tables in ("entry_rows_design", "entry_rows_places"):
     importlib.import_module(tables)
 
 
@@ -72,7 +72,7 @@ def members(cls):
 
 
 def names():
-    """Every name that can be called: functions, classes that callers make, methods, names of `poses` and `plot`."""
+    """Every name that can be called: functions, classes that callers make, methods, names of `poses`."""
     for name in nd.__all__:
         thing = getattr(nd, name)
         if not inspect.isclass(thing):
@@ -82,10 +82,8 @@ def names():
                 yield name, thing
             for member in members(thing):
                 yield f"{name}.{member}", getattr(thing, member)
-    for module in (poses, plot):
-        for name in module.__all__:
-            if (thing := getattr(module, name)) is not getattr(nd, name, None):
-                yield f"{module.__name__.rpartition('.')[2]}.{name}", thing
+    for name in poses.__all__:
+        yield f"poses.{name}", getattr(poses, name)
 
 
 def parameters(thing):

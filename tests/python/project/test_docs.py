@@ -68,9 +68,11 @@ def test_the_python_of_the_tour_runs_as_written(capsys):
 
 
 def test_the_page_of_figures_runs_as_written_and_leaves_out_none(tmp_path, monkeypatch):
-    from matplotlib.figure import Figure
+    """What a new figure needs besides its file and its name is its example there."""
+    from words import outside, overlaps
 
     from ninedof import plot
+    from ninedof.paper import figures
 
     monkeypatch.chdir(tmp_path)
     text = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
@@ -80,12 +82,14 @@ def test_the_page_of_figures_runs_as_written_and_leaves_out_none(tmp_path, monke
         exec(compile(ast.Module([statement], []), "figures.md", "exec"), known)
         if ast.unparse(statement).startswith("figure = "):
             drawn.append(known["figure"])
-    assert len(drawn) == code.count("figure = nd.plot.") == 20
-    assert all(isinstance(figure, Figure) for figure in drawn)
+    assert len(drawn) == 20
+    with plot.style.settings():
+        assert [pairs for figure in drawn[1:] if (pairs := overlaps(figure) + outside(figure))] == []
     assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == [
         f"mechanisms.{kind}" for kind in ("pdf", "png", "svg")
     ]
     assert [name for name in plot.__all__ if f"nd.plot.{name}(" not in code] == []
+    assert [name for name in figures.__all__[1:] if f"figures.{name}(" not in code] == []
 
 
 def test_the_citation_is_complete_and_of_this_version():

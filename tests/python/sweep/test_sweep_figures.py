@@ -19,7 +19,8 @@ import ninedof as nd
 from ninedof import plot
 from ninedof.cli.app import main
 from ninedof.paper import published
-from ninedof.sweep.figures import ratio_study
+from ninedof.paper.figures import figure_6, figure_7
+from ninedof.paper.sweeps import ratio_study
 
 
 @pytest.fixture(scope="module")
@@ -136,7 +137,7 @@ def lines(figure):
 
 
 def test_figure_6_draws_its_numbers(six):
-    figure = plot.figure_6(six)
+    figure = figure_6(six)
     drawn = [line.get_ydata() for line in lines(figure)]
     assert len(drawn) == 9
     for row, curve in zip(six["condition_number"], drawn, strict=True):
@@ -146,7 +147,7 @@ def test_figure_6_draws_its_numbers(six):
 
 
 def test_figure_7_draws_its_numbers(seven):
-    first, second = lines(plot.figure_7(seven))
+    first, second = lines(figure_7(seven))
     np.testing.assert_array_equal(first.get_ydata(), seven["condition_number"][0])
     np.testing.assert_array_equal(second.get_ydata(), seven["condition_number"][1])
 
@@ -415,7 +416,7 @@ def test_an_interrupted_command_is_resumed(here, capsys):
 
 
 def test_figure_6_says_which_curve_it_cuts_off(six):
-    figure = plot.figure_6(six)
+    figure = figure_6(six)
     rows = dict(zip(six["coordinate"].tolist(), six["condition_number"], strict=True))
     top = figure.axes[0].get_ylim()[1]
     said = [text.get_text() for axes in figure.axes for text in axes.texts]

@@ -66,13 +66,13 @@ def test_sections_show_every_state(published):
     for low_x, low_y, high_x, high_y in section.inner:
         covered = (x >= low_x) & (x <= high_x) & (y >= low_y) & (y <= high_y)
         assert (section.state[covered] == 1).all()
-    figure = nd.plot.certified_workspace([nd.plot.CertifiedPanel(section, home=(0.0, 0.0))], "mm")
+    figure = nd.plot.certified_workspace([nd.plot.Section(section, home=(0.0, 0.0))], "mm")
     assert figure.axes[0].get_xlabel() == "x (mm)"
     beside = nd.certified_workspace(published, ([-1, -1, 4], [1, 1, 5]), criteria={"leg_limits": (2.5, 6.5)})
-    axes = nd.plot.certified_workspace([nd.plot.CertifiedPanel(beside.section("z", 4.5, 40))]).axes[0]
+    axes = nd.plot.certified_workspace([nd.plot.Section(beside.section("z", 4.5, 40))]).axes[0]
     assert beside.beyond == "something"
     assert np.abs([*axes.get_xlim(), *axes.get_ylim()]).max() <= 1.0 + 1e-12  # white past the box would say too much
-    with pytest.raises(ValueError, match=r"panels: got 0, expected 1 to 3"):
+    with pytest.raises(ValueError, match=r"sections: got 0, expected 1 to 3"):
         nd.plot.certified_workspace([])
     with pytest.raises(ValueError, match="axis: got 'w'"):
         proved.section("w", 0.0)

@@ -1,5 +1,7 @@
 """Maps of workspaces: cells, limits, sections, files, figures, and arguments."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -223,21 +225,15 @@ def test_the_greatest_resolution_is_checked_first(published, method, most):
 
 
 def test_the_figure_has_the_given_sections_and_limits(found):
-    figure = plot.workspace(
-        [plot.Section(found.slice("y", 0.0)), plot.Section(found.slice("z", 4.8), ((0.0, 0.0), 0.8))],
-        found.limit_names,
-        found.limits(),
-        found.percentiles,
-        found.levels,
-        "m",
-    )
+    sections = [plot.Section(found.slice("y", 0.0)), plot.Section(found.slice("z", 4.8), ((0.0, 0.0), 0.8))]
+    figure = plot.workspace(replace(found, unit="m"), sections)
     titles = [axes.get_title(loc="left") for axes in figure.axes]
     assert titles[:2] == ["y = 0 m", "z = 4.8 m"]
     assert figure.axes[0].get_xlabel() == "x (m)"
     words = [text.get_text() for text in figure.legends[0].get_texts()]
     assert set(words) == {"external legs", "upper internal legs", "condition number", "largest ball"}
     with pytest.raises(ValueError, match="sections: got 0"):
-        plot.workspace([], found.limit_names, found.limits(), found.percentiles, found.levels)
+        plot.workspace(found, [])
 
 
 def test_a_section_shows_no_cell_without_an_allowed_part(published):

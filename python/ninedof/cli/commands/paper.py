@@ -16,7 +16,6 @@ from ninedof.cli.screen import Screen
 from ninedof.paper.verdicts import verdicts
 from ninedof.runs.directory import new_directory
 from ninedof.runs.folder import Record, write_drawn
-from ninedof.runs.paper_figures import paper_figures
 from ninedof.support.arrays import thread_argument
 
 PLACE = 7
@@ -55,8 +54,14 @@ def paper(
     else:
         record = Record("paper", {}, {"verdicts": rows})
         with told(screen, words, rows) as once:
-            drawing = with_report(partial(paper_figures, say=screen.say), report, screen, once)
+            drawing = with_report(partial(_draw, screen), report, screen, once)
             path = write_drawn(record, directory, drawing)
         made = f"{path.name}, figure_1 to figure_7 (PNG, SVG, PDF){report_words(directory)}"
         screen.print(f"run folder {directory}: {made}")
     screen.data(rows)
+
+
+def _draw(screen: Screen, directory: Path) -> list[Path]:
+    from ninedof.paper.figures import draw
+
+    return draw(directory, screen.say)

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.table import Table
@@ -29,12 +29,6 @@ from ninedof.runs.folder import write_run
 from ninedof.runs.objects import split
 from ninedof.support.arrays import thread_argument
 from ninedof.support.units import with_unit
-
-if TYPE_CHECKING:
-    from ninedof.plot.front import Sketch
-
-SKETCHED = 4  # designs drawn from above
-
 
 PLACE = 2
 EXAMPLES = """[bold]Examples[/bold]
@@ -171,23 +165,5 @@ def _limit(front: Front, value: float) -> str:
 def _draw(front: Front, screen: Screen, directory: Path) -> list[Path]:
     screen.say("drawing the front")
     from ninedof import plot
-    from ninedof.plot.front import front as front_figure
 
-    figure = front_figure(front.table(), front.limit_name, front.study.words, front.unit, _sketches(front))
-    return plot.save(figure, directory, "front")
-
-
-def _sketches(front: Front) -> list[Sketch]:
-    """Select a few designs, from the tightest limit to the loosest."""
-    from ninedof.plot.front import Sketch
-
-    good = [k for k, value in enumerate(front.objectives) if not math.isnan(value)]
-    count = min(SKETCHED, len(good))
-    picked = sorted({good[round(j * (len(good) - 1) / max(count - 1, 1))] for j in range(count)})
-    out = []
-    for k in picked:
-        best = front.results[k].best
-        assert best is not None
-        turn = best.configuration.rotation
-        out.append(Sketch(front.limits[k], best.geometry, math.atan2(turn[1, 0], turn[0, 0])))
-    return out
+    return plot.save(plot.front(front), directory, "front")

@@ -18,11 +18,12 @@ from ninedof.cli.screen import INTERRUPTED, Screen
 from ninedof.cli.sweep_summary import describe, json_data, summary_table
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
+from ninedof.paper.sweeps import sweep_figure
 from ninedof.runs.command_file import Input
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import thread_argument
-from ninedof.sweep import SweepResult, sweep_designs, sweep_figure
+from ninedof.sweep import SweepResult, sweep_designs
 from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION
@@ -190,8 +191,9 @@ def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: fl
 def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]:
     """Yield the name of each figure with the figure: one for each index."""
     from ninedof import plot
+    from ninedof.paper import figures
 
-    named = {"figure-6": plot.figure_6, "figure-7": plot.figure_7}
+    named: dict[str, Any] = {"figure-6": figures.figure_6, "figure-7": figures.figure_7}
     if what in named:
         yield "sweep", named[what](result)
         return

@@ -1,22 +1,16 @@
 """The figure of a workspace: one scale of round bands for all sections, arrows beyond it, limits told apart."""
 
+import math
+
 import numpy as np
 import pytest
+from figure_table import section, space
 from matplotlib.colors import to_hex
 
+import ninedof as nd
+from ninedof import plot
 from ninedof.plot import style
-from ninedof.plot.section import KINDS
-from ninedof.plot.workspace import Section, workspace
-from ninedof.workspace import WorkspaceSlice
-
-
-def section(kappa, limit=-1):
-    ticks = np.linspace(0.0, 1.0, kappa.shape[0])
-    state, limits = np.full(kappa.shape, 2, dtype=np.uint8), np.full(kappa.shape, limit, dtype=np.int16)
-    share = np.ones(kappa.shape)
-    share[[0, -1]] = share[:, [0, -1]] = 0.0
-    state[share == 0.0] = 1
-    return Section(WorkspaceSlice(("x", "z"), ("y", 0.0), ticks, ticks, state, limits, kappa, share))
+from ninedof.plot.workspace import KINDS
 
 
 @pytest.mark.parametrize(
@@ -28,7 +22,7 @@ def test_sections_share_round_bands_and_an_arrow_says_what_is_beyond(worst, top,
     near, far = rng.uniform(3.0, 4.0, (8, 8)), rng.uniform(5.0, 7.0, (8, 8))
     far[3, 3] = worst
     percentiles = np.append(np.linspace(3.0, 7.0, 100), max(worst, 7.0))
-    figure = workspace([section(near), section(far)], [], {}, percentiles, np.empty((0, 4)))
+    figure = plot.workspace(space(percentiles), [section(near), section(far)])
     bands = [next(c for c in axes.collections if hasattr(c, "levels")) for axes in figure.axes[:2]]
     for drawn in bands:
         assert drawn.levels.tolist() == pytest.approx(np.arange(3.0, top + 0.1, 0.5))
@@ -36,20 +30,42 @@ def test_sections_share_round_bands_and_an_arrow_says_what_is_beyond(worst, top,
     (bar,) = [axes for axes in figure.axes if axes.get_ylabel().startswith("condition number")]
     assert bar.get_ylabel() == "condition number" + words
     figure.draw_without_rendering()
+    with pytest.raises(ValueError, match=r"^sections: got 4, expected 1 to 3"):
+        plot.workspace(space(percentiles), [section(near)] * 4)
 
 
 def test_bounds_are_drawn_in_the_style_of_their_limits():
-    kappa = np.full((8, 8), 4.0)
-    figure = workspace([section(kappa, 1)], ["l1 low", "q2 high"], {"q2 high": 1.0}, np.empty(0), np.empty((0, 4)))
+    found = space(names=["l1 low", "q2 high"], shares={"q2 high": 1.0})
+    figure = plot.workspace(found, [section(np.full((8, 8), 4.0), 1)])
     colours = {to_hex(line.get_color()) for line in figure.axes[0].lines}
     assert colours == {"#ffffff", style.UPPER.lower()}
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["upper internal legs"]
+    assert len({str(KINDS[kind][2]) for kind in "lqr"}) == 3  # kinds differ without colours
 
 
-def test_kinds_of_limits_differ_without_colours():
-    legs = [str(KINDS[kind][2]) for kind in "lqr"]
-    assert len(set(legs)) == 3
+def test_a_workspace_of_orientations_is_drawn_in_degrees():
+    found = nd.workspace(
+        nd.Geometry.hexagonal(a1=0.0, a2=581.24, b1=290.62, b2=0.0),
+        archetype="orientation",
+        position=[0.0, 0.0, 398.28],
+        region={"angle": 0.5},
+        criteria={"leg_limits": (200.0, 520.0)},
+        tolerance=0.2,
+        resolution=4,
+    )
+    assert found.of_angles
+    section = plot.Section(found.slice("w_z", 0.2, smooth=True), ((0.0, 0.0), 0.1), ((-0.1, -0.1), (0.1, 0.1)))
+    axes = plot.workspace(found, [section]).axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title(loc="left")) == (
+        "w_x (deg)",
+        "w_y (deg)",
+        "w_z = 11.46 deg",
+    )
+    assert math.degrees(0.3) < axes.get_xlim()[1] < math.degrees(0.6)
+    circle, box = axes.patches[-2:]
+    assert circle.radius == pytest.approx(math.degrees(0.1))
+    assert box.get_width() == pytest.approx(math.degrees(0.2))
 
 
 @pytest.mark.parametrize(

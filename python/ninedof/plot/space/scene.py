@@ -12,23 +12,40 @@ from mpl_toolkits.mplot3d import proj3d  # type: ignore[import-untyped]
 from ninedof.plot import style
 from ninedof.support.arrays import Floats
 
-ELEVATION, AZIMUTH = 17.0, -76.0  # degrees: low enough to show the heights of base, O and platform
 ROOM = np.array([0.14, 0.36, 0.5, 0.2])  # inches beside the box: left, below, right, above
-
-Limits = tuple[float, float, float]
-"""Half width in x and y, lowest and highest z."""
+HALO = [style.rim(1.8)]
 
 
-def limits(points: Floats) -> Limits:
-    """Return limits that hold all points, shape (n, 3), and the origin."""
-    low, high = float(points[:, 2].min()), float(points[:, 2].max())
-    return 1.04 * float(np.abs(points[:, :2]).max()), min(low, 0.0), max(high, 0.0)
+class View:
+    """A direction of view and the directions that follow from it: towards the eye, and to the right and up."""
+
+    def __init__(self, elevation: float, azimuth: float) -> None:
+        """Take the angles in degrees."""
+        self.angles = {"elev": elevation, "azim": azimuth}
+        rise, turn = np.radians([elevation, azimuth])
+        self.right = np.array([-np.sin(turn), np.cos(turn), 0.0])
+        self.eye = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
+        self.up = np.cross(self.eye, self.right)
+
+    def seen(self, points: Floats) -> Floats:
+        """Return points (..., 3) as they lie in the picture, to the right and up: shape (..., 2)."""
+        return np.asarray(points @ np.column_stack([self.right, self.up]))
+
+    def turn(self, axes: Any) -> None:
+        """Look at axes from here: equal lengths stay equal at every depth, and what is drawn last is in front."""
+        axes.set_proj_type("ortho")
+        axes.view_init(**self.angles)
+        axes.computed_zorder = False
+        axes.patch.set_visible(False)
 
 
-def frame(axes: Any, unit: str, extent: Limits) -> None:
-    """Set limits about the z axis, scale, view and the style of panes, ticks and labels."""
-    half, low, high = extent
-    box(axes, ("x", "y", "z"), unit, np.array([-half, -half, low]), np.array([half, half, high]))
+VIEW = View(17.0, -76.0)  # low enough to show the heights of base, O and platform
+
+
+def corners(points: Floats) -> tuple[Floats, Floats]:
+    """Return the corners of a box about the z axis that holds all points, shape (n, 3), and the origin."""
+    half, heights = 1.04 * float(np.abs(points[:, :2]).max()), points[:, 2]
+    return np.array([-half, -half, min(heights.min(), 0.0)]), np.array([half, half, max(heights.max(), 0.0)])
 
 
 def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Floats) -> None:
@@ -36,10 +53,7 @@ def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Fl
     span = high - low
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(tuple(span), zoom=1.0)
-    axes.set_proj_type("ortho")  # equal lengths stay equal at every depth
-    axes.view_init(elev=ELEVATION, azim=AZIMUTH)
-    axes.computed_zorder = False  # seen from above: base, then legs, then platform
-    axes.patch.set_visible(False)
+    VIEW.turn(axes)
     for name, axis in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), strict=True):
         axis.pane.set_visible(False)
         axis.line.set_color(style.MUTED)
@@ -61,19 +75,18 @@ def box(axes: Any, names: tuple[str, str, str], unit: str, low: Floats, high: Fl
     axes.text(*at, style.with_unit(names[2], unit), ha="center", va="bottom", **text)
 
 
-def fit(axes: Any, low: Floats, high: Floats, rectangle: tuple[float, float, float, float]) -> None:
-    """Place axes so that their box, with room for ticks and names, fills a rectangle: left, bottom, width, height.
+def fit(axes: Any, low: Floats, high: Floats, rectangle: style.Rectangle) -> None:
+    """Place axes so that their box, with room for ticks and names, fills a rectangle.
 
-    In fractions of the figure. matplotlib leaves a third of the picture empty around a box.
+    matplotlib leaves a third of the picture empty around a box.
     """
-    size = axes.figure.get_size_inches()
+    size = style.inches(axes.figure)
     left, bottom, width, height = np.array(rectangle) * [*size, *size] + np.array([*ROOM[:2], -ROOM[0], -ROOM[1]])
     width, height = width - ROOM[2], height - ROOM[3]
     axes.set_position((0.0, 0.0, *(1.0 / size)))  # one inch each way
     axes.apply_aspect()
-    corners = np.array(list(product(*zip(low, high, strict=True))))
-    flat = np.column_stack(proj3d.proj_transform(*corners.T, axes.get_proj())[:2])
-    seen = axes.transData.transform(flat) / axes.figure.dpi
+    flat = np.column_stack(proj3d.proj_transform(*_corners(low, high).T, axes.get_proj())[:2])
+    seen = (axes.transData.transform(flat) - axes.figure.bbox.p0) / axes.figure.dpi
     first, last = seen.min(axis=0), seen.max(axis=0)
     scale = min(np.array([width, height]) / (last - first))
     start = np.array([left, bottom]) + 0.5 * (np.array([width, height]) - scale * (first + last))
@@ -82,25 +95,9 @@ def fit(axes: Any, low: Floats, high: Floats, rectangle: tuple[float, float, flo
 
 def height(low: Floats, high: Floats, width: float) -> float:
     """Return the height in inches that a box and its names need at a width, for `fit`."""
-    flat = seen(np.array(list(product(*zip(low, high, strict=True)))))
-    across, up = np.ptp(flat, axis=0)
+    across, up = np.ptp(VIEW.seen(_corners(low, high)), axis=0)
     return float((width - ROOM[0] - ROOM[2]) * up / across + ROOM[1] + ROOM[3])
 
 
-def towards_eye(elevation: float = ELEVATION, azimuth: float = AZIMUTH) -> Floats:
-    """Return the unit vector from the scene to the viewer; angles in degrees."""
-    rise, turn = np.radians([elevation, azimuth])
-    flat = np.array([np.cos(turn), np.sin(turn), 0.0])
-    return np.asarray(np.cos(rise) * flat + np.array([0.0, 0.0, np.sin(rise)]))
-
-
-def to_the_left() -> Floats:
-    """Return the unit vector that points to the left of the figure."""
-    azimuth = np.radians(AZIMUTH)
-    return np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
-
-
-def seen(points: Floats) -> Floats:
-    """Return points (n, 3) as they lie in the picture, to the right and up: shape (n, 2)."""
-    right = -to_the_left()
-    return np.asarray(points @ np.column_stack([right, np.cross(towards_eye(), right)]))
+def _corners(low: Floats, high: Floats) -> Floats:
+    return np.array(list(product(*zip(low, high, strict=True))))

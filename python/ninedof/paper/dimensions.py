@@ -1,0 +1,106 @@
+"""Fig. 5 of the paper: the two plates from above, with the sides that define them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.patches import Polygon
+
+from ninedof.plot import style
+from ninedof.robot.plates import outlines
+from ninedof.support.arrays import Floats
+from ninedof.support.units import amount
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ninedof.robot.geometry import Geometry
+
+OUT = 0.17  # of the reach of a plate: how far its dimensions stand off
+EXTERNAL: dict[str, Any] = {"marker": "o", "ms": 6.5, "color": style.EXTERNAL, "mec": "white", "mew": 0.5, "ls": ""}
+BASE: dict[str, Any] = EXTERNAL | {"marker": "s", "ms": 4.0, "color": style.LOWER}
+PLATFORM: dict[str, Any] = EXTERNAL | {"marker": "D", "ms": 3.4, "color": style.UPPER}
+CENTRED: dict[str, Any] = {"ha": "center", "va": "center", "size": style.TEXT_SIZE}
+
+
+def figure_5(geometry: Geometry, unit: str = "", figure: Figure | None = None) -> Figure:
+    """Return Fig. 5: base and platform from above, with joints, axes and the sides a1, a2, b1, b2.
+
+    Each plate fills its panel: the title of the platform has its scale to that of the base.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        Of `Geometry.hexagonal`; of others the same distances are drawn: from the first external joint to the first and
+        to the third internal joint.
+    unit : str
+        Of the lengths.
+    figure : matplotlib.figure.Figure or SubFigure, optional
+        To draw in; a new one by default.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> from ninedof.paper.figures import figure_5
+    >>> figure = figure_5(nd.Geometry.hexagonal(a1=1.5, a2=4.5, b1=2.2, b2=0.8))
+
+    """
+    base = np.vstack([geometry.base_external, geometry.base_internal])[:, :2]
+    platform = np.vstack([geometry.platform_external, geometry.platform_internal])[:, :2]
+    scale = float(np.abs(base).max() / np.abs(platform).max())
+    with style.page(figure, style.TWO_COLUMNS, 3.5) as figure:
+        left, right = (figure.add_axes((x, 0.08, 0.48, 0.84)) for x in (0.01, 0.51))
+        left.set_title("base", loc="center")
+        right.set_title("platform" + (f" (scale {scale:.3g} : 1)" if abs(scale - 1.0) > 0.01 else ""), loc="center")
+        _plate(left, base, BASE, style.BASE, (r"\mathbf{r}", r"\hat{\mathbf{r}}"), ("x", "y"))
+        _plate(right, platform, PLATFORM, style.PLATFORM, (r"\mathbf{u}", r"\tilde{\mathbf{u}}"), ("x̃", "ỹ"))
+        for axes, letter, flat in ((left, "a", base), (right, "b", platform)):
+            _dimension(axes, flat[3], flat[0], f"{letter}1", np.abs(flat).max(), unit)
+            _dimension(axes, flat[0], flat[5], f"{letter}2", np.abs(flat).max(), unit)
+        keys = [
+            style.key(**EXTERNAL, label="external joint"),
+            style.key(**BASE, label="internal joint of the base"),
+            style.key(**PLATFORM, label="internal joint of the platform"),
+        ]
+        figure.legend(handles=keys, loc="lower center", ncols=3)
+    return figure
+
+
+def _plate(
+    axes: Any, flat: Floats, internal: dict[str, Any], colour: str, symbols: tuple[str, str], names: tuple[str, str]
+) -> None:
+    """Draw a plate with its joints, the symbols of their vectors, and the axes x and y."""
+    reach = float(np.abs(flat).max())
+    for outline in outlines(np.column_stack([flat, np.zeros(6)])):
+        axes.add_patch(Polygon(outline[:, :2], fc=colour, alpha=0.28, ec=style.INK, lw=0.9))
+    coincide = float(np.linalg.norm(flat[:, None] - flat[None], axis=-1)[~np.eye(6, dtype=bool)].min()) < 1e-6 * reach
+    for k, point in enumerate(flat):
+        axes.plot(*point, zorder=5, **(EXTERNAL if k < 3 else internal))
+        inward = (0.33 if coincide and k >= 3 else 0.13) * reach * point / np.linalg.norm(point)
+        axes.text(*(point - inward), f"${symbols[k // 3]}_{k % 3 + 1}$", parse_math=True, **CENTRED)
+    tip = 0.3 * reach
+    for name, along in zip(names, np.eye(2), strict=True):
+        axes.annotate("", tuple(tip * along), (0.0, 0.0), arrowprops=style.arrow(style.MUTED, 0.8))
+        axes.text(*(1.2 * tip * along), name, color=style.MUTED, **CENTRED)
+    room = (1.0 + 2.0 * OUT) * reach
+    axes.set(xlim=(-room, room), ylim=(-room, room), aspect="equal")
+    axes.set_axis_off()
+
+
+def _dimension(axes: Any, start: Floats, end: Floats, name: str, reach: float, unit: str) -> None:
+    """Draw a dimension line beside a side, outside the plate, with extension lines and its length."""
+    length, away = float(np.linalg.norm(end - start)), OUT * reach
+    middle = 0.5 * (start + end)
+    if length < 1e-6 * reach:  # the joints coincide
+        out = middle / np.linalg.norm(middle)
+        axes.text(*(middle + 2.1 * away * out * [1.0, 0.6]), f"{name} = 0", **CENTRED)
+        return
+    across = np.array([end[1] - start[1], start[0] - end[0]]) / length
+    out = away * across * (1.0 if across @ middle > 0.0 else -1.0)
+    for point in (start, end):
+        axes.plot(*np.column_stack([point + 0.25 * out, point + 1.15 * out]), color=style.INK, lw=0.6)
+    axes.annotate("", tuple(end + out), tuple(start + out), arrowprops=style.arrow(style.INK, 0.7, "<|-|>"))
+    angle = (float(np.degrees(np.arctan2(*(end - start)[::-1]))) + 90.0) % 180.0 - 90.0
+    words = f"{name} = {amount(f'{length:.4g}', unit)}"
+    axes.text(*(middle + 1.6 * out), words, rotation=angle, rotation_mode="anchor", **CENTRED)

@@ -1,0 +1,1 @@
+"""Figures in space: the manipulator, ellipsoids, the body of a workspace."""

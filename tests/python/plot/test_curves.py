@@ -1,0 +1,181 @@
+"""Figures of curves: the condition number about a design, at poses and along a motion; the convergence of starts."""
+
+import math
+
+import numpy as np
+import pytest
+from figure_table import BOTH, COMPARED, DOWN, LONG, POSES, G, curves, followed, made
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_hex
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.plot import style
+
+STUCK = [8.0, 5.0, 3.5, 3.5]
+
+
+def assert_can_be_drawn(figure):
+    """Every warning is an error, and no part is empty: what a file needs, at a third of its price."""
+    figure.draw_without_rendering()
+    assert np.isfinite(figure.get_tightbbox().get_points()).all()
+
+
+def test_condition_curves_mark_points_and_crossings():
+    figure = plot.condition_curves([curves(**COMPARED), curves()], unit="m")
+    along_zs, along_theta, magnified = figure.axes
+    assert along_zs.get_xlabel() == "zs, height of O (m)"
+    own = [line for line in along_zs.lines if line.get_marker() in style.MARKS]
+    assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in own] == [(2.3745, 3.9110)] * 2
+    assert list(magnified.get_xticks()) == [2.3745, 2.5110]
+    assert list(magnified.get_yticks()) == [3.9110]
+    assert "least 3.9071 at 2.4435" in [text.get_text() for text in magnified.texts]
+    (tangent,) = [line for line in along_theta.lines if line.get_color() == style.INK]
+    (x0, x1), (y0, y1) = tangent.get_data()
+    assert (y1 - y0) / np.radians(x1 - x0) == pytest.approx(COMPARED["slope"])
+    assert np.interp(0.0, [x0, x1], [y0, y1]) == pytest.approx(3.9110)
+    assert any("not 0 as eq. (7)" in text.get_text() for text in along_theta.texts)
+    assert len(plot.condition_curves([curves()]).axes) == 2
+    with pytest.raises(ValueError, match=r"^designs: got 0"):
+        plot.condition_curves([])
+
+
+@pytest.mark.parametrize(
+    ("along_zs", "point"), [([math.inf, 4.0, 5.0], 4.0), ([math.inf] * 3, math.inf), ([4.0] * 3, 4.0)]
+)
+def test_singular_parts_leave_a_gap(along_zs, point):
+    design = plot.DesignCurves("d", [1.0, 2.0, 3.0], along_zs, [-0.1, 0.1], [4.5, math.inf], (2.0, 0.0, point))
+    figure = plot.condition_curves([design])
+    assert not np.any(np.isinf(figure.axes[0].lines[0].get_ydata()))
+    assert all(np.all(np.isfinite(axes.get_ylim())) for axes in figure.axes)
+    assert_can_be_drawn(figure)
+
+
+def test_axes_show_the_low_part_of_the_curves():
+    zs = np.linspace(0.1, 3.9, 200)
+    kappa = nd.condition_number(G, nd.Configuration.neutral(3.9828, zs))
+    theta = np.radians(np.linspace(-59.0, 59.0, 200))
+    along = nd.condition_number(G, nd.Configuration.neutral(3.9828, 2.3745, theta))
+    figure = plot.condition_curves([plot.DesignCurves("d", zs, kappa, theta, along, (2.3745, 0.0, 3.911))])
+    left, right = figure.axes
+    assert left.get_ylim()[1] < 1.5 * kappa.min()
+    assert 1.0 < left.get_xlim()[0] < 2.3745 < left.get_xlim()[1] < 3.6
+    assert -35 < right.get_xlim()[0] < 0 < right.get_xlim()[1] < 45
+
+
+# --- Convergence ------------------------------------------------------------------------------------------------------
+
+
+def test_convergence_marks_runs_that_do_not_converge():
+    share, minimax, plain = plot.convergence([DOWN, DOWN], [DOWN, STUCK], best=3.0).axes
+    assert (minimax.get_title(loc="left"), plain.get_title(loc="left")) == (
+        "minimax SQP: 2 of 2 starts arrive",
+        "plain SQP: 1 of 2 starts arrive",
+    )
+    there, stuck, median = (c for c in plain.collections if isinstance(c, LineCollection))
+    assert [len(c.get_segments()) for c in (there, stuck, median)] == [1, 1, 1]
+    (line,) = stuck.get_segments()
+    corners = dict.fromkeys(map(tuple, line.tolist()))
+    assert list(corners) == [(1, 5), (2, 5), (2, 2), (3, 2), (3, 0.5), (4, 0.5)]
+    assert to_hex(stuck.get_color()[0]) == style.ALARM.lower()
+    labels = [text.get_text() for text in plain.get_legend().get_texts()]
+    assert labels == ["one start", "median", "stuck above 10⁻⁶"]
+    assert [text.get_text() for text in minimax.get_legend().get_texts()] == ["one start", "median"]
+    assert share.lines[0].get_ydata().tolist() == [0, 0, 0, 0, 1]
+    assert share.lines[1].get_ydata().tolist() == [0, 0, 0, 0, 0.5]
+    assert minimax.get_yscale() == "log"
+    with pytest.raises(ValueError, match=r"^minimax SQP: got 0"):
+        plot.convergence([], [DOWN], best=3.0)
+
+
+@pytest.mark.parametrize("run", [[math.inf], [math.inf, math.inf], [3.0], [2.9999999]])
+def test_convergence_takes_degenerate_runs(run):
+    assert_can_be_drawn(plot.convergence([run], [run], best=3.0))
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(1e-6, "10⁻⁶"), (100.0, "10²"), (1.0, "10⁰"), (0.003, "0.003"), (0.0, "0"), (math.inf, "inf")]
+)
+def test_powers_of_ten(value, text):
+    assert style.power_of_ten(value) == text
+
+
+# --- Poses ------------------------------------------------------------------------------------------------------------
+
+
+def marks(axes, marker):
+    return sorted(point for line in axes.lines if line.get_marker() == marker for point in line.get_xydata().tolist())
+
+
+def listed(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def test_every_pose_is_drawn():
+    (axes,) = made("poses").axes
+    assert [[y for _, y in marks(axes, marker)] for marker in style.MARKS[:2]] == list(BOTH.values())
+    assert [label.get_text() for label in axes.get_xticklabels()] == POSES
+    assert sorted(line.get_ydata()[0] for line in axes.lines if line.is_dashed()) == [4.3, 7.0]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["a: worst 4.3", "b: worst 7"]
+
+
+def test_long_names_are_listed_by_number_and_those_of_the_worst_of_many():
+    (axes,) = made("long names").axes
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["1", "2", "3"]
+    assert listed(axes) == ["in mm", *(f"{k}: {LONG}{k}" for k in (1, 2, 3))]
+    assert listed(made("many names").axes[0]) == [f"{k}: pose {k}" for k in range(42, 51)]
+
+
+def test_singular_poses_are_at_the_upper_edge():
+    (axes,) = made("singular pose").axes
+    top = axes.get_ylim()[1]
+    assert marks(axes, "^") == [[1.0, top], [2.0, top]]
+    assert axes.get_legend().get_texts()[0].get_text() == "a: singular at some"
+
+
+def test_bad_poses_are_named():
+    with pytest.raises(ValueError, match=r"^designs: got 0, expected 1 to 4"):
+        plot.poses({})
+    with pytest.raises(ValueError, match=r"^designs: got conditions of shapes \[\(2,\), \(3,\)\]"):
+        plot.poses({"a": [1.0, 2.0], "b": [1.0, 2.0, 3.0]})
+    with pytest.raises(ValueError, match=r"^names: got 1, expected 2, one a pose"):
+        plot.poses({"a": [1.0, 2.0]}, ["neutral"])
+
+
+# --- Motion -----------------------------------------------------------------------------------------------------------
+
+TIME = np.linspace(0.0, 2.0, 5001)
+LENGTHS = 3.0 + 0.1 * np.sin(TIME[:, None] + np.arange(9))
+
+
+def test_three_panels_of_legs_and_one_of_the_condition_number():
+    figure = plot.motion(followed(4.0 + np.cos(TIME), LENGTHS, TIME, high=3.05, unit="mm"))
+    assert [axes.get_title(loc="left") for axes in figure.axes] == [
+        *("external legs", "upper internal legs", "lower internal legs"),
+        "",
+    ]
+    assert figure.axes[3].get_ylabel() == "condition number"
+    for k, axes in enumerate(figure.axes[:3]):
+        legs = [line for line in axes.get_lines() if len(line.get_xdata()) > 2]
+        assert len(legs) == 3
+        assert legs[0].get_ydata()[-1] == LENGTHS[-1, 3 * k]
+        assert len(legs[0].get_xdata()) <= 4001
+    assert figure.axes[0].get_ylabel() == "length (mm)"
+
+
+@pytest.mark.parametrize(("unit", "words"), [("mm", "time (s)"), ("", "time (in the unit of the path)")])
+def test_the_axis_of_time_says_its_unit(unit, words):
+    motion = followed(4.0 + np.cos(TIME), LENGTHS, TIME, unit=unit)
+    figure = plot.motion(motion, {"cone": 0.1 + TIME})
+    assert {axes.get_xlabel() for axes in figure.axes} == {words}
+    with pytest.raises(ValueError, match=r"^margins.cone: got shape"):
+        plot.motion(motion, {"cone": [0.1]})
+
+
+def test_a_singular_pose_and_one_leg_at_rest():
+    kappa = 4.0 + np.cos(TIME)
+    kappa[100] = np.inf
+    kappa[401] = 1e6  # a narrow peak is not left out
+    figure = plot.motion(followed(kappa, np.full((5001, 9), 2.0), TIME))
+    assert figure.axes[3].get_yscale() == "log"
+    assert_can_be_drawn(figure)

@@ -1,0 +1,203 @@
+"""Figures in space: legs and plates of the manipulator, one scale for all panels, ellipsoids with their semi-axes."""
+
+import functools
+from collections import Counter
+
+import numpy as np
+import pytest
+from figure_table import SINGULAR, TILTED, G, made, velocities
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyArrowPatch
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+import ninedof as nd
+from ninedof import plot
+from ninedof.plot import style
+from ninedof.plot.space.ellipsoid import VIEW
+from ninedof.robot.plates import distinct, outlines
+
+STANDING = nd.Configuration.neutral(zp=3.9828, zs=2.3745)
+GEOMETRIES = {
+    "coupled": G,
+    "hexagonal": nd.Geometry.hexagonal(a1=2.0, a2=4.0, b1=2.2, b2=1.0),
+    "inner joints": nd.Geometry.symmetric(
+        base_external=(4.0, 0.0, 0.0),
+        base_internal=(1.5, 0.2, 0.0),
+        platform_external=(2.5, 1.0, 0.0),
+        platform_internal=(1.0, 1.0, 0.0),
+    ),
+    "non-planar": nd.Geometry.symmetric(
+        base_external=(5.0, 0.0, 0.0),
+        base_internal=(3.0, 0.6, 0.8),
+        platform_external=(2.5, 0.5, 0.0),
+        platform_internal=(1.2, 1.2, -0.7),
+    ),
+}
+CONFIGURATIONS = {"neutral": STANDING, "tilted": TILTED}
+
+
+@functools.cache
+def drawn(geometry, configuration="neutral", title="", **options):
+    """Axes with a mechanism named above, drawn once for all tests: none changes them."""
+    axes = Figure().add_subplot(projection="3d")
+    plot.mechanism(plot.Robot(title, GEOMETRIES[geometry], CONFIGURATIONS[configuration]), ax=axes, **options)
+    axes.figure.draw_without_rendering()
+    return axes
+
+
+def legs(axes):
+    """Colour letter -> end points (3, 2, 3) of the legs on the axes."""
+    letters = {colour.lower(): letter for letter, colour in style.LEG_COLOURS.items()}
+    ends = {"l": [], "q": [], "r": []}
+    for line in axes.lines:
+        if letter := letters.get(to_hex(line.get_color())):
+            ends[letter].append(np.transpose(line.get_data_3d()))
+    return {letter: np.array(each) for letter, each in ends.items()}
+
+
+def joints_of_base(name):
+    geometry = GEOMETRIES[name]
+    return np.vstack([geometry.base_external, geometry.base_internal])
+
+
+@pytest.mark.parametrize("configuration", CONFIGURATIONS)
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_nine_legs_of_the_right_length_and_colour(geometry, configuration):
+    ends = legs(drawn(geometry, configuration))
+    lengths = nd.leg_lengths(GEOMETRIES[geometry], CONFIGURATIONS[configuration])
+    for letter, expected in zip("lqr", np.split(lengths, 3), strict=True):
+        of_kind = np.linalg.norm(ends[letter][:, 1] - ends[letter][:, 0], axis=1)
+        assert np.sort(of_kind) == pytest.approx(np.sort(expected))
+
+
+@pytest.mark.parametrize(
+    ("name", "corners", "joints"), [("coupled", [3], 6), ("hexagonal", [6], 12), ("inner joints", [3], 12)]
+)
+def test_flat_plates_are_one_polygon_each(name, corners, joints):
+    axes = drawn(name)
+    base, platform = (c for c in axes.collections if isinstance(c, Poly3DCollection))
+    assert [len(face) for face in outlines(joints_of_base(name))] == corners
+    assert to_hex(base.get_facecolor()[0]) == style.BASE.lower()
+    assert to_hex(platform.get_facecolor()[0]) == style.PLATFORM.lower()
+    dots = [line for line in axes.lines if line.get_marker() == "o" and len(line.get_data_3d()[0]) > 1]
+    assert len(dots[0].get_data_3d()[0]) == joints  # coincident joints are drawn once
+
+
+def test_a_solid_plate_is_closed_and_a_flat_one_runs_around():
+    faces = outlines(joints_of_base("non-planar"))
+    edges = Counter()
+    for face in faces:
+        corners = [tuple(np.round(corner, 9) + 0.0) for corner in face]
+        edges.update(frozenset(pair) for pair in zip(corners, [*corners[1:], corners[0]], strict=True))
+    assert set(edges.values()) == {2}  # every edge belongs to two faces
+    assert len(distinct(joints_of_base("non-planar"))) - len(edges) + len(faces) == 2  # Euler
+    (face,) = outlines(joints_of_base("hexagonal"))
+    turns = np.diff(np.unwrap(np.arctan2(face[:, 1], face[:, 0])))
+    assert np.all(turns > 0) or np.all(turns < 0)
+    assert abs(turns.sum()) < 2 * np.pi
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_equal_aspect_and_nothing_outside(geometry):
+    axes = drawn(geometry, "tilted")
+    low, high = np.transpose([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+    scale = axes._box_aspect / (high - low)
+    assert scale == pytest.approx(scale[0])
+    points = np.concatenate([ends.reshape(-1, 3) for ends in legs(axes).values()])
+    assert np.all(points >= low - 1e-12)
+    assert np.all(points <= high + 1e-12)
+
+
+def test_panels_share_one_scale():
+    small = nd.Geometry.hexagonal(a1=0.0, a2=1.5, b1=0.8, b2=0.0)
+    after = plot.Robot("after", small, nd.Configuration.neutral(1.2, 0.7), 5.0, note="a note")
+    figure = plot.mechanisms([plot.Robot("before", G, STANDING, 3.9110), after])
+    left, right = figure.axes
+    assert left.get_position().size == pytest.approx(right.get_position().size)
+    for limits in ("get_xlim", "get_ylim", "get_zlim"):
+        assert getattr(left, limits)() == getattr(right, limits)()
+    assert left._box_aspect == pytest.approx(right._box_aspect)
+    words = [text.get_text() for text in figure.texts]
+    assert {"before", "after", "condition number 3.9110", "condition number 5.0000", "a note"} <= set(words)
+    assert len(figure.legends[0].get_texts()) == 6
+
+
+def test_labels_carry_the_unit():
+    axes = drawn("coupled", title="a title", unit="mm")
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_title()) == ("x (mm)", "y (mm)", "a title")
+    assert {"z (mm)", "O"} <= {text.get_text() for text in axes.texts}
+    assert drawn("coupled", legend=False).get_legend() is None
+
+
+def test_bad_input_is_named():
+    with pytest.raises(ValueError, match=r"^configuration: got a stack of shape \(2,\)"):
+        plot.mechanisms([plot.Robot("", G, nd.Configuration.neutral(4.0, [2.0, 2.5]))])
+    with pytest.raises(ValueError, match=r"^robots: got 0"):
+        plot.mechanisms([])
+
+
+# --- Ellipsoids -------------------------------------------------------------------------------------------------------
+
+
+def tips(axes):
+    return np.array([np.ravel(line.get_data_3d()) for line in axes.lines if line.get_marker() == "o"])
+
+
+def test_semi_axes_have_their_length_and_face_the_viewer_at_one_scale():
+    shapes = velocities(TILTED) | {"force": nd.force_ellipsoid(G, TILTED)}
+    first, *others = plot.ellipsoids(shapes).axes
+    for (directions, semi_axes), axes in zip(shapes.values(), others, strict=True):
+        for tip, direction, length in zip(tips(axes), directions.T, semi_axes, strict=True):
+            assert np.abs(tip @ direction) == pytest.approx(length)
+            assert np.linalg.norm(tip) == pytest.approx(length)
+            assert tip @ VIEW.eye >= 0.0
+        assert (axes.get_xlim(), axes.get_ylim(), axes.get_zlim()) == (first.get_xlim(),) * 3
+        assert axes.get_position().size == pytest.approx(first.get_position().size)
+    assert first.get_xlim()[1] == pytest.approx(1.15 * max(np.max(semi_axes) for _, semi_axes in shapes.values()))
+    assert np.linalg.norm(tips(first), axis=1) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("c", [TILTED, SINGULAR], ids=["tilted", "singular"])
+def test_principal_ellipses_are_on_the_ellipsoid_and_within_the_outline(c):
+    directions, semi_axes = nd.velocity_ellipsoid(G, c)
+    axes = plot.ellipsoids({"one": (directions, semi_axes)}).axes[1]
+    curves = [np.array(line.get_data_3d()) for line in axes.lines if len(line.get_data_3d()[0]) > 100]
+    outline, *rings = curves[:7]
+    finite = np.isfinite(semi_axes).all()
+    for ring in rings[::2]:
+        if finite or np.abs(directions.T[0] @ ring).max() < 1e-12:
+            scaled = np.divide(directions.T @ ring, semi_axes[:, None])
+            assert np.linalg.norm(scaled, axis=0) == pytest.approx(1.0)
+    assert np.abs(outline.T @ VIEW.eye).max() < 1e-12  # in the plane of the picture, as orthographic axes allow
+    if finite:
+        # The shadow of the ellipsoid: along each direction in the picture its support is that of the body.
+        for d in np.linalg.qr(np.column_stack([VIEW.eye, np.eye(3)]))[0][:, 1:].T:
+            support = np.linalg.norm(semi_axes * (directions.T @ d))
+            assert (d @ outline).max() == pytest.approx(support, rel=1e-3)
+
+
+def test_texts_describe_the_panels():
+    shapes = velocities(SINGULAR) | {"force\nF": nd.force_ellipsoid(G, SINGULAR)}
+    figure = plot.ellipsoids(shapes, source="legs\nall", mapping="map")
+    words = [text.get_text() for text in figure.texts]
+    assert {"legs", "all", "map", "velocity", "rotation", "force", "ṗ", "F"} <= set(words)
+    assert sum("∞" in word for word in words) == 2
+    assert words[-2].endswith(" 0")
+    assert [len([t for t in axes.texts if t.get_text() == "∞"]) for axes in figure.axes] == [0, 1, 1, 0]
+    assert sum(isinstance(artist, FancyArrowPatch) for artist in made("figure 4").get_children()) == 1
+
+
+@pytest.mark.parametrize(
+    ("directions", "semi_axes"),
+    [(np.eye(2), [1.0, 1.0]), (np.eye(3), [1.0, 1.0, np.nan]), (np.eye(3), [1.0, 1.0, -1.0])],
+)
+def test_a_bad_ellipsoid_raises(directions, semi_axes):
+    with pytest.raises(ValueError, match=r"^panels: got"):
+        plot.ellipsoids({"bad": (directions, semi_axes)})
+
+
+@pytest.mark.parametrize("count", [0, 5])
+def test_a_bad_number_of_panels_raises(count):
+    with pytest.raises(ValueError, match=f"^panels: got {count}"):
+        plot.ellipsoids({str(k): (np.eye(3), np.ones(3)) for k in range(count)})
