@@ -88,7 +88,7 @@ from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellip
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.sweep import SweepResult, sweep, sweep_designs
 from ninedof.verify import check
-from ninedof.viewer.view import view
+from ninedof.viewer import view
 from ninedof.workspace import (
     CertifiedWorkspace,
     WorkspaceCells,

@@ -1,99 +1,117 @@
-"""The viewer: a server, the scene and the panel, and one thread that brings both up to date."""
+"""The viewer: a server, and one thread that makes the changes of the state and brings scene and panel up to date."""
 
 from __future__ import annotations
 
 import math
 import threading
+import time
+import traceback
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
 
+from ninedof.motion.rotations import from_quaternions
 from ninedof.motion.trajectory import Trajectory
 from ninedof.runs.design_file import Design
-from ninedof.viewer.handles import Handles
-from ninedof.viewer.panel import ELLIPSOIDS, Panel
-from ninedof.viewer.parts import EXTENT
-from ninedof.viewer.playback import Playback
-from ninedof.viewer.scene import Scene
-from ninedof.viewer.server import started, stopped
+from ninedof.viewer.body import Body, BodySearch, body_of, question_of
+from ninedof.viewer.folders import build
+from ninedof.viewer.machine import Machine
+from ninedof.viewer.numbers import numbers_of
+from ninedof.viewer.panel import Panel
+from ninedof.viewer.scene import EXTENT, Scene
+from ninedof.viewer.server import start, stop
 from ninedof.viewer.state import State
-from ninedof.viewer.subject import Subject
-from ninedof.viewer.worker import Change, Worker
 
 BRAND = (0, 114, 178)
+FRAME = 1.0 / 40.0  # seconds between two poses of a path that is played
+SETTLED = 0.5  # seconds without a change after which all sliders are set to the state
+LONGEST_STEP = 0.2  # seconds: a path does not jump after an update that took long
 
 
 class Viewer:
     """A machine in a browser, until `close`. Made by `ninedof.view`."""
 
-    def __init__(self, subject: Subject, host: str, port: int, dark: bool) -> None:
-        self.subject = subject
-        self.state = State(subject)
+    def __init__(self, machine: Machine, host: str, port: int, dark: bool) -> None:
+        self.state = State(machine, dark)
         self.lock = threading.RLock()
-        """Held while the state is changed or looked at."""
-        self.worker = Worker(
-            self._apply, lambda settled: self.update(settled), self._note, lambda: self.playback.playing
-        )
-        self._server = started(host, port)
+        """Held while the state is changed or read."""
+        self.held: dict[str, int] = {}
+        """Handles in the hand of a user, by client: that browser knows best where they are."""
+        self._pending: dict[str, Callable[[], object]] = {"first": lambda: None}
+        self._wake = threading.Condition()
+        self._closed = threading.Event()
+        self._search = BodySearch(self._show_body)
+        self._thread = threading.Thread(target=self._work, name="ninedof-viewer", daemon=True)
+        self._server = start(host, port)
         self.host, self.port = host, int(self._server.get_port())
         try:
             self._build(dark)
         except BaseException:
-            stopped(self._server)
+            stop(self._server)
             raise
-        self.worker.start()  # what a page has asked for meanwhile waits
+        self._thread.start()  # what a page has asked for meanwhile waits
 
     def _build(self, dark: bool) -> None:
-        self._theme(dark)
+        self.set_dark(dark)
         self._server.gui.main_panel.dock_right()
-        self.scene = Scene(self._server, self.subject.size, dark)
-        self.panel = Panel(self, self._server.gui, dark)
-        self.handles = Handles(self, self._server)
-        middle = 0.5 * self.scene.scale * self.state.home.position * np.array([0.0, 0.0, 1.0])
+        self.scene = Scene(self._server, self.state.machine.size)
+        self.panel = Panel(self, self._server.gui)
+        build(self.panel)
+        for name in ("platform", "O"):
+            self._listen(name)
+
+        async def left(client: Any) -> None:  # in order with the drags, of which the last then has no end
+            number = client.client_id
+            self.submit(f"left {number}", lambda: self._release(number))
+
+        self._server.on_client_disconnect(left)
+        middle = 0.5 * self.scene.scale * self.state.variant.home.position * np.array([0.0, 0.0, 1.0])
         camera = self._server.initial_camera
         camera.look_at = middle
         camera.position = middle + 1.55 * EXTENT * np.array([0.42, -0.80, 0.36])
         camera.fov = math.radians(40.0)
 
-    # --- for Python -----------------------------------------------------------------------------------------------
+    # --- for Python ---------------------------------------------------------------------------------------------------
 
     @property
     def url(self) -> str:
         """The address to open in a browser."""
-        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(  # noqa: S104 nothing listens here
-            self.host, f"[{self.host}]" if ":" in self.host else self.host
-        )
-        return f"http://{host}:{self.port}"
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(self.host, self.host)  # noqa: S104 nothing listens here
+        return f"http://[{host}]:{self.port}" if ":" in host else f"http://{host}:{self.port}"
 
     @property
     def design(self) -> Design:
-        """What is shown: a design whose neutral pose is the pose shown."""
+        """The design shown; its neutral pose is the pose shown."""
         with self.lock:
             return self.state.design
 
-    @property
-    def playback(self) -> Playback:
-        """The path that is open."""
-        return self.panel.playback
-
     def play(self, path: Any) -> None:
         """Play a path: a Trajectory, or a CSV file of poses as `ninedof.Trajectory.load` reads it."""
-        name, found = ("path", path) if isinstance(path, Trajectory) else (Path(path).name, self.playback.load(path))
-        self.submit("path", lambda: self.playback.open(name, found))
+        name, trajectory = "path", path
+        if not isinstance(path, Trajectory):
+            name, trajectory = Path(path).name, Trajectory.load(path, self.state.variant.home, self.state.machine.unit)
+        self.submit("path", lambda: self.state.open_path(name, trajectory))
 
     def wait(self) -> None:
         """Return when the viewer is closed; Ctrl-C interrupts it."""
-        while not self.worker.closed.wait(0.5):
+        while not self._closed.wait(0.5):
             pass
 
     def close(self) -> None:
         """Stop the threads and the server. A second call does nothing."""
-        if self.worker.close():
-            self.panel.body.close()
-            stopped(self._server)
+        with self._wake:
+            if self._closed.is_set():
+                return
+            self._closed.set()
+            self._wake.notify_all()
+        self._thread.join()
+        self._search.close()
+        stop(self._server)
 
     def __enter__(self) -> Self:
         """Return the viewer."""
@@ -105,60 +123,106 @@ class Viewer:
 
     def __repr__(self) -> str:
         """Show the address."""
-        return f"<Viewer: closed, was {self.url}>" if self.worker.closed.is_set() else f"<Viewer: {self.url}>"
+        return f"<Viewer: closed, was {self.url}>" if self._closed.is_set() else f"<Viewer: {self.url}>"
 
-    # --- for the controls -----------------------------------------------------------------------------------------
+    # --- for the controls ---------------------------------------------------------------------------------------------
 
     def submit(self, key: str, change: Callable[[], object]) -> None:
         """Let a change of the state be made soon; it replaces one of the same key that still waits."""
-        self.worker.submit(key, change)
-
-    def show(self, part: str, visible: bool) -> None:
-        """Show or hide a part of the scene."""
-        self.submit(f"show {part}", lambda: self.scene.show(part, visible))
+        with self._wake:
+            self._pending.pop(key, None)
+            self._pending[key] = change
+            self._wake.notify()
 
     def set_dark(self, dark: bool) -> None:
         """Choose dark or light."""
-        self._theme(dark)
-        self.submit("dark", lambda: self.scene.set_dark(dark))
+        self.state.display.dark = dark
+        self._server.gui.configure_theme(
+            dark_mode=dark, control_width="large", show_logo=False, show_share_button=False, brand_color=BRAND
+        )
 
-    # --- within, by the thread that works -------------------------------------------------------------------------
+    def find_body(self, condition_limit: float) -> None:
+        """Search the workspace; one that is still searched is given up. A limit below 1 is none."""
+        state = self.state
+        limit = condition_limit if condition_limit >= 1.0 else math.inf
+        variant, unit = state.variant, state.machine.unit
+        question = question_of(variant, state.configuration, state.rule, state.machine.size, limit)
+        state.body = replace(state.body, words="Computing ...")
+        self._search.begin(lambda progress: body_of(variant, question, unit, progress))
+
+    def remove_body(self) -> None:
+        """Remove the workspace."""
+        self._search.cancel()
+        self.state.body = Body()
+
+    # --- within -------------------------------------------------------------------------------------------------------
 
     def update(self, settled: bool = False) -> None:
         """Bring scene and panel up to date."""
         with self.lock:
-            state = self.state
-            found = state.numbers()
+            numbers = numbers_of(self.state.variant, self.state.configuration)
             with self._server.atomic():
-                self.scene.draw(state.geometry, state.configuration, found, self.handles.names)
-                self.scene.draw_region(self.subject.region, state.home)
-                if (kind := ELLIPSOIDS[self.panel.ellipsoid]) is None:
-                    self.scene.hide_ellipsoid()
-                else:
-                    shape = kind[0](state.geometry, state.configuration, kind[1], state.yardstick.length)
-                    self.scene.draw_ellipsoid(state.configuration, *shape)
-                self.panel.refresh(found, settled)
+                self.scene.draw(self.state, numbers, set(self.held))
+                self.panel.refresh(numbers, settled)
 
-    def _apply(self, changes: list[Change], passed: float) -> None:
-        with self.lock:
-            wrong = ""
-            for change in changes:
-                try:
-                    change()
-                except ValueError as error:  # the others are made
-                    wrong = str(error)
-            self.playback.advance(passed)
-            if wrong:
-                self._note(wrong)
+    def _work(self) -> None:
+        settled, last = False, time.monotonic()
+        while True:
+            playing = self.state.player is not None and self.state.player.playing
+            with self._wake:  # what ends the wait changes under the same lock: no call is missed
+                self._wake.wait_for(
+                    lambda: bool(self._pending) or self._closed.is_set(),
+                    FRAME if playing else None if settled else SETTLED,
+                )
+                changes, self._pending = list(self._pending.values()), {}
+            if self._closed.is_set():
+                return
+            now = time.monotonic()
+            if playing:
+                changes.append(partial(self.state.advance, min(now - last, LONGEST_STEP)))
+            last, settled = now, not changes
+            with self.lock:
+                notes = [self._attempt(change) for change in changes]
+                self.state.note = next(filter(None, reversed(notes)), self.state.note)
+                self._attempt(partial(self.update, settled))
 
-    def _note(self, words: str) -> None:
-        self.state.note = words
+    def _attempt(self, change: Callable[[], object]) -> str:
+        """Make a change; return why that could not be, "" where it was."""
+        try:
+            change()
+        except ValueError as error:
+            return str(error)
+        except Exception:  # the viewer goes on; a mistake of the program is shown where it was started
+            traceback.print_exc()
+        return ""
 
-    def _theme(self, dark: bool) -> None:
-        self._server.gui.configure_theme(
-            dark_mode=dark,
-            control_width="large",
-            show_logo=False,
-            show_share_button=False,
-            brand_color=BRAND,
-        )
+    def _show_body(self, number: int, body: Body) -> None:
+        def show() -> None:  # in the thread in which a search begins and is given up
+            if self._search.counts(number):
+                self.state.body = body
+
+        self.submit(f"body {number}", show)
+
+    def _listen(self, name: str) -> None:
+        """Let a drag of a handle in the scene move the state, and leave the handle alone meanwhile."""
+        node = f"/{name} gizmo"
+
+        async def dragged(event: Any) -> None:  # not in a pool of threads, so that drags keep their order
+            client, is_held = event.client_id, event.phase != "end"
+            position = np.asarray(event.target.position) / self.scene.scale
+            turn = from_quaternions(np.asarray(event.target.wxyz, dtype=np.float64)[None])[0]
+            if is_held:
+                self.submit(f"hold {name} {client}", lambda: self.held.update({node: client}))
+            else:
+                self.submit(f"hold {name} {client}", lambda: self._release(client))
+            if name == "O":
+                self.submit("O", lambda: self.state.set_internal_point(position))
+            else:
+                self.submit("pose", lambda: self.state.set_pose(position=position, rotation=turn))
+
+        self.scene.nodes[node].on_update(dragged)
+
+    def _release(self, client: int) -> None:
+        for node in [node for node, hand in self.held.items() if hand == client]:
+            del self.held[node]
+            self.scene.forget(node)

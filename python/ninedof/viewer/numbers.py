@@ -13,44 +13,23 @@ from ninedof.design.leg_limits import LEGS as OF_LENGTHS
 from ninedof.design.leg_limits import SPREADS
 from ninedof.design.limit_numbers import CONES
 from ninedof.design.limits import ROWS, split_label
-from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
+from ninedof.sheet.limit_rows import LimitRow
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.singularity.singularity import SingularityMargins, singularity_margins
 from ninedof.support.arrays import Floats
 from ninedof.support.margins import is_violated, margin_of
+from ninedof.viewer.machine import Variant
 
-DETERMINANTS = ("det N", "det B", "det C")
-
-
-@dataclass(frozen=True)
-class Limit:
-    """One side of one limit, at its worst leg."""
-
-    name: str
-    """Of the constraint, with its leg or determinant: "base_cone l1"; "l1" for the range of a leg."""
-    side: str
-    """"min", "max", or "" for a limit of the design, of which the margin alone is known."""
-    limit: float
-    """Angles in degrees; NaN for a limit of the design."""
-    value: float
-    margin: float
-    """As `margin_of`, negative where the limit is passed."""
-    unit: str
-    """"ratio", "length", "angle" or "sign"."""
-
-    @property
-    def passed(self) -> bool:
-        """Whether the limit is passed."""
-        return is_violated(self.margin, self.unit, self.limit)
+RANGE = "leg_range"
+"""Name of a limit of a leg that the region of the study makes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """What is shown of a configuration."""
+    """The numbers of a configuration."""
 
     condition_number: float
     """Of J'; infinite where singular."""
@@ -61,8 +40,9 @@ class Numbers:
     leg_margins: Floats
     """The least margin of each leg over its limits of length, shape (9,); infinite without one."""
     determinants: SingularityMargins
-    limits: tuple[Limit, ...]
-    """Every limit of the study, the least margin of each."""
+    limits: tuple[LimitRow, ...]
+    """Every limit of the study at its worst leg, with the name of that leg: "base_cone l1". Of a limit of the design
+    the margin alone is known: its side is "", limit and value are NaN."""
     cones_passed: frozenset[tuple[str, int]]
     """("base" or "platform", leg 0 to 8) of joints turned beyond their cone."""
 
@@ -72,86 +52,68 @@ class Numbers:
         return tuple(is_violated(margin) for margin in self.leg_margins)
 
 
-@dataclass(frozen=True, eq=False)
-class Yardstick:
-    """What numbers are held against: it changes with the design, and not with the pose."""
-
-    study: Study | None
-    neutral: Configuration
-    length: float
-    """Characteristic length."""
-    leg_low: Floats
-    """Least length of each leg, shape (9,)."""
-    leg_high: Floats
-    beside: Floats | None
-    """Leg lengths at the poses of the study, shape (m, 9): spreads are taken over them and the pose shown."""
-    design_margins: tuple[tuple[str, float], ...]
-    """Least margin of every constraint at the study's own poses, by name."""
-
-
-def margins_at(yard: Yardstick, g: Geometry, c: Configuration) -> list[PoseLimit]:
-    """Return every limit of a pose for each pose of a stack, shape (n,): those of the study, and the ranges of legs."""
-    found = []
-    if yard.study is not None:
-        found = pose_limits(yard.study, g, c, yard.neutral, yard.length, yard.beside)
-    given = {(k, one.side) for one in found if one.name in OF_LENGTHS for k in [LEGS.index(one.part)]}
-    lengths = leg_lengths(g, c)
-    for k, name in enumerate(LEGS):
-        for side, end in (("min", yard.leg_low[k]), ("max", yard.leg_high[k])):
-            if 0.0 < end < math.inf and (k, side) not in given:
-                margin = margin_of("length", side, end, lengths[:, k])
-                found.append(PoseLimit("leg_range", name, side, float(end), lengths[:, k], margin))
-    return found
-
-
-def numbers(yard: Yardstick, g: Geometry, c: Configuration) -> Numbers:
-    """Return what is shown of a single configuration."""
-    lengths = leg_lengths(g, c)
-    found = margins_at(yard, g, Configuration(c.position[None], c.rotation[None], c.internal_point[None]))
-    legs = np.full(9, math.inf)
-    cones = set()
-    for one in found:
+def numbers_of(variant: Variant, c: Configuration) -> Numbers:
+    """Return the numbers of a single configuration."""
+    g = variant.geometry
+    lengths = np.asarray(leg_lengths(g, c))
+    limits = limits_at(variant, c)
+    legs, cones = np.full(9, math.inf), set()
+    for one in limits:
         margin = float(one.margin[0])
-        if one.part in LEGS and (one.name in OF_LENGTHS or one.name in SPREADS or one.name == "leg_range"):
+        if one.part in LEGS and (one.name in OF_LENGTHS or one.name in SPREADS or one.name == RANGE):
             legs[LEGS.index(one.part)] = min(legs[LEGS.index(one.part)], margin)
         elif one.name in CONES and is_violated(margin):
             cones.add((one.name.partition("_")[0], LEGS.index(one.part)))
     return Numbers(
-        condition_number=float(condition_number(g, c, yard.length)),
-        singular_values=np.asarray(singular_values(g, c, yard.length)),
-        leg_lengths=np.asarray(lengths),
+        condition_number=float(condition_number(g, c, variant.length)),
+        singular_values=np.asarray(singular_values(g, c, variant.length)),
+        leg_lengths=lengths,
         leg_margins=legs,
         determinants=singularity_margins(g, c),
-        limits=(*_worst(found), *_of_design(yard, found)),
+        limits=(*_worst(limits), *_of_design(variant, limits)),
         cones_passed=frozenset(cones),
     )
 
 
-def _worst(found: Sequence[PoseLimit]) -> list[Limit]:
+def limits_at(variant: Variant, c: Configuration) -> list[PoseLimit]:
+    """Return every limit of a single configuration, its arrays of shape (1,): of the study, and the ranges of legs."""
+    limits, g = list[PoseLimit](), variant.geometry
+    c = Configuration(c.position[None], c.rotation[None], c.internal_point[None])
+    if variant.study is not None:
+        limits = pose_limits(variant.study, g, c, variant.home, variant.length, variant.study_lengths)
+    lengths = leg_lengths(g, c)
+    limited = {(one.part, one.side) for one in limits if one.name in OF_LENGTHS}
+    for k, leg in enumerate(LEGS):
+        for side, end in (("min", float(variant.leg_low[k])), ("max", float(variant.leg_high[k]))):
+            if 0.0 < end < math.inf and (leg, side) not in limited:
+                margin = margin_of("length", side, end, lengths[:, k])
+                limits.append(PoseLimit(RANGE, leg, side, end, lengths[:, k], margin))
+    return limits
+
+
+def _worst(limits: Sequence[PoseLimit]) -> list[LimitRow]:
     """Return the side and leg of least margin of each limit."""
     worst: dict[tuple[str, str], PoseLimit] = {}
-    for one in found:
+    for one in limits:
         key = (one.name, one.side)
         if key not in worst or not one.margin[0] >= worst[key].margin[0]:
             worst[key] = one
-    rows = []
-    for (name, side), one in worst.items():
-        kind = "length" if name == "leg_range" else _kind(name)
-        limit, value = (math.degrees(x) if kind == "angle" else float(x) for x in (one.limit, one.value[0]))
-        rows.append(Limit(one.label, side, limit, value, float(one.margin[0]), kind))
-    return rows
+    return [
+        LimitRow(one.label, one.side, float(one.limit), float(one.value[0]), float(one.margin[0]), _kind(one.name))
+        for one in worst.values()
+    ]
+
+
+def _of_design(variant: Variant, limits: Sequence[PoseLimit]) -> list[LimitRow]:
+    """Return the limits that belong to the design and not to a pose."""
+    of_pose = {one.name for one in limits}
+    return [
+        LimitRow(name, "", math.nan, math.nan, margin, _kind(name))
+        for name, margin in (variant.margins or {}).items()
+        if name not in of_pose and not name.startswith("condition")
+    ]
 
 
 def _kind(label: str) -> str:
     name = split_label(label)[0]
-    return ROWS[name].kind if name in ROWS else "ratio"
-
-
-def _of_design(yard: Yardstick, found: Sequence[PoseLimit]) -> list[Limit]:
-    """Return the limits that belong to the design and not to a pose."""
-    of_pose = {one.name for one in found}
-    return [
-        Limit(name, "", math.nan, math.nan, margin, _kind(name))
-        for name, margin in yard.design_margins
-        if name not in of_pose and not name.startswith("condition")
-    ]
+    return "length" if name == RANGE else ROWS[name].kind if name in ROWS else "ratio"

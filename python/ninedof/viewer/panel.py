@@ -1,166 +1,112 @@
-"""The controls beside the scene, in folders ordered by use."""
+"""The controls beside the scene: each submits a change of the state, and follows the state."""
 
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from ninedof.redundancy.rules import RULES, WORDS
-from ninedof.statics.ellipsoid import force_ellipsoid, velocity_ellipsoid
-from ninedof.support.units import with_unit
-from ninedof.viewer.body_folder import BodyFolder
-from ninedof.viewer.controls import Slider
-from ninedof.viewer.html import limits_html, numbers_html
-from ninedof.viewer.modes import Modes
 from ninedof.viewer.numbers import Numbers
-from ninedof.viewer.playback import Playback
-from ninedof.viewer.saving import Saving
 
-TURN = 60.0  # degrees: end of the sliders of the rotation
-REACH = 0.35  # of the size of the machine: end of the sliders of positions, from home
-ELLIPSOIDS = {
-    "none": None,
-    "velocity": (velocity_ellipsoid, "translation"),
-    "angular velocity": (velocity_ellipsoid, "rotation"),
-    "force": (force_ellipsoid, "translation"),
-    "moment": (force_ellipsoid, "rotation"),
-}
+QUIET = 0.4  # seconds after the user moved a slider in which it is not written back
+STEPS = 500  # of a slider, at least
+
+
+class Slider:
+    """A slider of one number, kept equal to the state without a fight with the hand that moves it.
+
+    Its step is a power of ten that divides the range into `STEPS` steps or more.
+    """
+
+    def __init__(
+        self, gui: Any, label: str, ends: Sequence[float], value: float, moved: Callable[[float], None], hint: str
+    ) -> None:
+        low, high = ends
+        digits = -math.floor(math.log10((high - low) / STEPS))
+        self._step, self._digits, self._touched = 10.0**-digits, max(0, digits), -math.inf
+        self._low, self._high = self._step * math.floor(low / self._step), self._step * math.ceil(high / self._step)
+        self.handle = gui.add_slider(label, self._low, self._high, self._step, self._within(value), hint=hint)
+
+        def on_update(event: Any) -> None:
+            if event.client_id is not None:
+                self._touched = time.monotonic()
+                moved(float(self.handle.value))
+
+        self.handle.on_update(on_update)
+
+    def show(self, value: float, settled: bool = False) -> None:
+        """Write a value of the state; while the user moves the slider only when all has `settled`."""
+        within = self._within(value)
+        if (settled or time.monotonic() - self._touched >= QUIET) and within != self.handle.value:
+            self.handle.value = within
+
+    def _within(self, value: float) -> float:
+        """Return a value as the slider can show it: within its ends, on a step, -43.4 and not -43.400...01."""
+        return round(round(min(max(value, self._low), self._high) / self._step) * self._step, self._digits)
 
 
 class Panel:
-    """Builds the controls of a `Viewer`, and shows the numbers of its state."""
+    """The controls of a `Viewer`."""
 
-    def __init__(self, viewer: Any, gui: Any, dark: bool) -> None:
-        self._viewer, self._gui, self._state = viewer, gui, viewer.state
-        self._unit = viewer.subject.unit
-        self._numbers = gui.add_html("")
-        self.ellipsoid = "none"
-        with gui.add_folder("Platform"):
-            self._platform()
-        with gui.add_folder("Internal point O"):
-            self._internal_point()
-        with gui.add_folder("Limits"):
-            self._limits = gui.add_html("")
-        self._variables: dict[str, Slider] = {}
-        family = viewer.subject.family.replace("_", " ")
-        with gui.add_folder(f"Design: {family}" if family else "Design", expand_by_default=False):
-            self._design()
-        with gui.add_folder("Assembly modes", expand_by_default=False):
-            self.modes = Modes(viewer, gui)
-        with gui.add_folder("Workspace", expand_by_default=False):
-            self.body = BodyFolder(viewer, gui)
-        with gui.add_folder("Path", expand_by_default=False):
-            self.playback = Playback(viewer, gui)
-        with gui.add_folder("View", expand_by_default=False):
-            self._view(dark)
-        with gui.add_folder("Save", expand_by_default=False):
-            self.saving = Saving(viewer, gui)
+    def __init__(self, viewer: Any, gui: Any) -> None:
+        self.viewer, self.gui, self.state, self.unit = viewer, gui, viewer.state, viewer.state.machine.unit
+        self.widgets: dict[str, Any] = {}
+        """Of viser, by label."""
+        self.followers: list[Callable[[bool], None]] = []
+        """Called after each change of the state with whether all has settled."""
+        self.coordinates: list[float] = self.state.coordinates
+        self.numbers: Numbers
+        """Of the state."""
 
-    # --- refreshed ------------------------------------------------------------------------------------------------
+    def refresh(self, numbers: Numbers, settled: bool) -> None:
+        """Set the controls to the state."""
+        self.numbers, self.coordinates = numbers, self.state.coordinates
+        for follow in self.followers:
+            follow(settled)
 
-    def refresh(self, found: Numbers, settled: bool) -> None:
-        """Show the numbers of the state, and set the sliders to it."""
-        state = self._state
-        _write(self._numbers, "content", numbers_html(found, self._unit, state.note))
-        _write(self._limits, "content", limits_html(found, self._unit))
-        c = state.configuration
-        values = (*c.position.tolist(), *state.turn_deg, *c.internal_point.tolist())
-        for slider, value in zip(self._pose, values, strict=True):
-            slider.show(value, settled)
-        for name, slider in self._variables.items():
-            value = state.variables[name]
-            slider.show(math.degrees(value) if name in self._angles else value, settled)
-        _write(self._rule, "value", WORDS[state.rule])
-        self._length.show(state.yardstick.length, settled)
-        self.modes.refresh()
-        self.playback.refresh()
+    def follow(self, handle: Any, name: str, read: Callable[[], Any]) -> None:
+        """Keep a property of a control equal to what is read of the state."""
 
-    # --- folders --------------------------------------------------------------------------------------------------
+        def write(_: bool) -> None:
+            if getattr(handle, name) != (value := read()):
+                setattr(handle, name, value)
 
-    def _platform(self) -> None:
-        state, gui, viewer = self._state, self._gui, self._viewer
-        p, reach = state.home.position.tolist(), REACH * viewer.subject.size
-        self._pose: list[Slider] = []
-        for k, axis in enumerate("xyz"):
+        self.followers.append(write)
 
-            def moved(value: float, k: int = k) -> None:
-                viewer.submit(f"position {k}", lambda: state.move(k, value))
+    def text(self, name: str, read: Callable[[], str]) -> None:
+        """Add a text that follows the state."""
+        self.widgets[name] = self.gui.add_html("")
+        self.follow(self.widgets[name], "content", read)
 
-            label = with_unit(axis, self._unit)
-            hint = "Position of the platform's origin, base frame"
-            self._pose.append(Slider(gui, label, p[k] - reach, p[k] + reach, p[k], moved, hint))
-        for k, axis in enumerate("xyz"):
+    def slider(
+        self, label: str, ends: Sequence[float], read: Callable[[], float], write: Callable[[float], None], hint: str
+    ) -> None:
+        """Add a slider that changes the state and follows it."""
+        slider = Slider(self.gui, label, ends, read(), lambda x: self.viewer.submit(label, lambda: write(x)), hint)
+        self.followers.append(lambda settled: slider.show(read(), settled))
+        self.widgets[label] = slider.handle
 
-            def turned(value: float, k: int = k) -> None:
-                viewer.submit(f"turn {k}", lambda: state.turn(k, value))
+    def button(self, label: str, icon: str, change: Callable[[], object], hint: str | None = None) -> Any:
+        """Add a button that changes the state."""
+        handle = self.gui.add_button(label, icon=icon, hint=hint)
+        handle.on_click(lambda _: self.viewer.submit(label, change))
+        return handle
 
-            hint = "Rotation vector from the neutral orientation, base axes"
-            self._pose.append(Slider(gui, f"rotation {axis} (°)", -TURN, TURN, 0.0, turned, hint))
-        home = gui.add_button("Home", icon="home", hint="Back to the neutral pose")
-        home.on_click(lambda _: viewer.submit("pose", state.go_home))
+    def choice(self, label: str, options: Sequence[str], write: Callable[[Any], None], hint: str | None = None) -> Any:
+        """Add a choice of words that changes the state when the user makes it, not when the program does."""
+        return self._input(label, self.gui.add_dropdown(label, list(options), hint=hint), write)
 
-    def _internal_point(self) -> None:
-        state, gui, viewer = self._state, self._gui, self._viewer
-        options = [WORDS[rule] for rule in RULES]
-        hint = "Where O is when the platform moves"
-        self._rule = gui.add_dropdown("O is", options, initial_value=WORDS[state.rule], hint=hint)
-        words = {words: rule for rule, words in WORDS.items()}
+    def check(self, label: str, value: bool, write: Callable[[Any], None]) -> None:
+        """Add a box to tick."""
+        self._input(label, self.gui.add_checkbox(label, value), write)
 
-        def chosen(event: Any) -> None:
+    def _input(self, label: str, handle: Any, write: Callable[[Any], None]) -> Any:
+        def on_update(event: Any) -> None:
             if event.client_id is not None:
-                rule = words[self._rule.value]
-                viewer.submit("rule", lambda: state.set_rule(rule))
+                value = handle.value
+                self.viewer.submit(label, lambda: write(value))
 
-        self._rule.on_update(chosen)
-        o, reach = state.home.internal_point.tolist(), REACH * viewer.subject.size
-        for k, axis in enumerate("xyz"):
-
-            def moved(value: float, k: int = k) -> None:
-                viewer.submit(f"O {k}", lambda: state.move_internal_point(k, value))
-
-            label = with_unit(f"O {axis}", self._unit)
-            self._pose.append(Slider(gui, label, o[k] - reach, o[k] + reach, o[k], moved, "Place of O, base frame"))
-
-    def _design(self) -> None:
-        gui, viewer = self._gui, self._viewer
-        self._angles = {v.name for v in viewer.subject.sliders if v.is_angle}
-        for variable in viewer.subject.sliders:
-            name, scale = variable.name, 180.0 / math.pi if variable.is_angle else 1.0
-
-            def moved(value: float, name: str = name, scale: float = scale) -> None:
-                viewer.submit(f"variable {name}", lambda: self._state.set_variables({name: value / scale}))
-
-            label = with_unit(name.replace("_", " "), "°" if variable.is_angle else self._unit)
-            low, high, value = (scale * x for x in (variable.low, variable.high, variable.value))
-            self._variables[name] = Slider(gui, label, low, high, value, moved, variable.name)
-        low, high = self._state.length_range
-
-        def stretched(value: float) -> None:
-            viewer.submit("length", lambda: self._state.set_length(value))
-
-        hint = "By which J' is made of one unit: condition number, best O and ellipsoids follow it"
-        length = self._state.yardstick.length
-        self._length = Slider(gui, with_unit("characteristic length", self._unit), low, high, length, stretched, hint)
-        reset = gui.add_button("Reset design", icon="restore", hint="Back to the design of the file")
-        reset.on_click(lambda _: viewer.submit("design", self._state.reset_design))
-
-    def _view(self, dark: bool) -> None:
-        gui, viewer = self._gui, self._viewer
-        shape = gui.add_dropdown("ellipsoid", list(ELLIPSOIDS), hint="About the platform, its longest axis fixed")
-
-        def chosen(_: Any) -> None:
-            self.ellipsoid = shape.value
-            viewer.submit("ellipsoid", lambda: None)
-
-        shape.on_update(chosen)
-        region = ("region",) if viewer.subject.region is not None else ()
-        for part in ("labels", "handles", "axes", *region):
-            box = gui.add_checkbox(part, True)
-            box.on_update(lambda _, part=part, box=box: viewer.show(part, box.value))
-        night = gui.add_checkbox("dark", dark)
-        night.on_update(lambda _: viewer.set_dark(night.value))
-
-
-def _write(handle: Any, name: str, value: Any) -> None:
-    if getattr(handle, name) != value:
-        setattr(handle, name, value)
+        self.widgets[label] = handle
+        handle.on_update(on_update)
+        return handle

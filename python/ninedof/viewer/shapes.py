@@ -1,4 +1,4 @@
-"""Meshes of the scene: rods, balls, plates; numpy alone."""
+"""Meshes of the scene, rods, balls and plates, and the quaternions that turn them; numpy alone."""
 
 from __future__ import annotations
 
@@ -12,84 +12,59 @@ Faces = NDArray[np.uint32]
 Mesh = tuple[Floats, Faces]
 """Vertices, shape (v, 3), and triangles, shape (f, 3)."""
 
-SIDES = 14  # of a rod
 
-
-def rod() -> Mesh:
+def rod(sides: int = 14) -> Mesh:
     """Return a closed cylinder of radius 1 about z, from z = 0 to z = 1."""
-    turn = np.linspace(0.0, 2.0 * np.pi, SIDES, endpoint=False)
-    ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(SIDES)])
-    up = np.array([0.0, 0.0, 1.0])
     # Rims twice, so that the shading of the caps does not bend into that of the side.
-    vertices = np.concatenate([ring, ring + up, ring, ring + up, [0.0 * up], [up]])
-    k = np.arange(SIDES)
-    j = (k + 1) % SIDES
-    n = SIDES
-    low, high = np.full(n, 4 * n), np.full(n, 4 * n + 1)
-    faces = np.concatenate(
-        [
-            np.column_stack([k, j, n + j]),
-            np.column_stack([k, n + j, n + k]),
-            np.column_stack([low, 2 * n + j, 2 * n + k]),
-            np.column_stack([high, 3 * n + k, 3 * n + j]),
-        ]
-    )
-    return vertices, faces.astype(np.uint32)
+    return _revolved(np.array([[0, 1], [1, 1], [1, 1], [1, 0], [1, 0], [0, 0]]), sides)
 
 
 def ball(rings: int = 8) -> Mesh:
     """Return a sphere of radius 1."""
-    fall, turn = np.linspace(0.0, np.pi, rings + 1), np.linspace(0.0, 2.0 * np.pi, 2 * rings + 1)
-    a, b = np.meshgrid(fall, turn, indexing="ij")
-    vertices = np.stack([np.sin(a) * np.cos(b), np.sin(a) * np.sin(b), np.cos(a)], axis=-1).reshape(-1, 3)
-    wide = 2 * rings + 1
-    i, j = (x.ravel() for x in np.meshgrid(np.arange(rings), np.arange(2 * rings), indexing="ij"))
-    corner = i * wide + j
-    lower, upper = [corner, corner + wide, corner + wide + 1], [corner, corner + wide + 1, corner + 1]
-    return vertices, np.concatenate([np.column_stack(lower), np.column_stack(upper)]).astype(np.uint32)
+    fall = np.linspace(0.0, np.pi, rings + 1)
+    return _revolved(np.column_stack([np.sin(fall), np.cos(fall)]), 2 * rings)
 
 
-def plate(joints: Floats, thickness: float) -> Mesh:
-    """Return the hull of six joints: a slab if they lie in a plane, else a solid.
+def _revolved(profile: NDArray[np.generic], sides: int) -> Mesh:
+    """Return the surface of a profile (radius, height), from top to bottom, turned about z."""
+    turn = np.linspace(0.0, 2.0 * np.pi, sides + 1)
+    ring = np.column_stack([np.cos(turn), np.sin(turn), np.ones(sides + 1)])
+    vertices = (profile[:, None, [0, 0, 1]] * ring).reshape(-1, 3)
+    corner = (np.arange(len(profile) - 1)[:, None] * (sides + 1) + np.arange(sides)).ravel()
+    below = corner + sides + 1
+    faces = np.concatenate(
+        [np.column_stack([corner, below, below + 1]), np.column_stack([corner, below + 1, corner + 1])]
+    )
+    return vertices, faces.astype(np.uint32)
+
+
+def plate(joints: Floats, thickness: float) -> tuple[Floats, Faces, Floats]:
+    """Return the hull of six joints, a slab if they lie in a plane, else a solid; and its edges, shape (n, 2, 3).
 
     The joints lie on the upper face of a slab of positive thickness, on the lower face of one of negative thickness.
     """
     sides = outlines(joints)
-    if len(sides) != 1:
-        return _fans(sides)
-    top, bottom = _slab(sides[0], thickness)
-    walls = [np.array([bottom[i - 1], bottom[i], top[i], top[i - 1]]) for i in range(len(top))]
-    return _fans([top, bottom[::-1], *walls])
-
-
-def edges(joints: Floats, thickness: float) -> Floats:
-    """Return the edges of a plate as segments, shape (n, 2, 3)."""
-    sides = outlines(joints)
     if len(sides) == 1:
-        sides = list(_slab(sides[0], thickness))
-    return np.concatenate([np.stack([side, np.roll(side, -1, axis=0)], axis=1) for side in sides])
-
-
-def _slab(face: Floats, thickness: float) -> tuple[Floats, Floats]:
-    """Return the face of the joints, and the one that is so far below it."""
-    normal = np.cross(face[1] - face[0], face[2] - face[1])
-    normal *= (1.0 if normal[2] >= 0.0 else -1.0) * thickness / np.linalg.norm(normal)
-    return face, face - normal
-
-
-def _fans(sides: list[Floats]) -> Mesh:
-    vertices = np.concatenate(sides)
-    faces, start = [], 0
-    for side in sides:
-        faces += [(start, start + k, start + k + 1) for k in range(1, len(side) - 1)]
-        start += len(side)
-    return vertices, np.array(faces, dtype=np.uint32)
+        (top,) = sides
+        normal = np.cross(top[1] - top[0], top[2] - top[1])
+        bottom = top - (1.0 if normal[2] >= 0.0 else -1.0) * thickness / np.linalg.norm(normal) * normal
+        rims = [top, bottom]
+        sides = [
+            top,
+            bottom[::-1],
+            *(np.array([bottom[i - 1], bottom[i], top[i], top[i - 1]]) for i in range(len(top))),
+        ]
+    else:
+        rims = sides
+    starts = np.cumsum([0, *(len(side) for side in sides)])
+    faces = [(a, a + k, a + k + 1) for a, side in zip(starts, sides, strict=False) for k in range(1, len(side) - 1)]
+    edges = np.concatenate([np.stack([rim, np.roll(rim, -1, axis=0)], axis=1) for rim in rims])
+    return np.concatenate(sides), np.array(faces, dtype=np.uint32), edges
 
 
 def along(directions: Floats) -> Floats:
     """Return the quaternions (w, x, y, z) that turn z into unit vectors, shapes (n, 3) to (n, 4)."""
     x, y, z = directions.T
-    w = 1.0 + z
-    opposite = w < 1e-12
-    found = np.column_stack([np.where(opposite, 0.0, w), np.where(opposite, 1.0, -y), x, np.zeros(len(z))])
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+    opposite = z < -1.0 + 1e-12
+    turns = np.column_stack([np.where(opposite, 0.0, 1.0 + z), np.where(opposite, 1.0, -y), x, np.zeros(len(z))])
+    return np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True))

@@ -4,28 +4,85 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
+from ninedof.motion.trajectory import Trajectory
 from ninedof.position.forward_position import PositionStatus, forward_position
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
 from ninedof.runs.design_file import Design
-from ninedof.support.arguments import choice, known_keys, vector
+from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
+from ninedof.support.arguments import choice, known_keys
 from ninedof.support.arrays import Floats
-from ninedof.viewer.body import BodyQuestion
-from ninedof.viewer.numbers import Numbers, Yardstick, numbers
-from ninedof.viewer.subject import Subject
+from ninedof.viewer.body import Body
+from ninedof.viewer.machine import LENGTH, Machine
 
-LENGTH = "characteristic_length"
-SAME = 1e-9  # of the size of the machine: rounding is no motion
-Turn = tuple[float, float, float]
+ELLIPSOIDS = {
+    "none": None,
+    "velocity": (velocity_ellipsoid, "translation"),
+    "angular velocity": (velocity_ellipsoid, "rotation"),
+    "force": (force_ellipsoid, "translation"),
+    "moment": (force_ellipsoid, "rotation"),
+}
+
+
+class Modes(NamedTuple):
+    """Every configuration with some leg lengths, the best conditioned first."""
+
+    configurations: Configuration
+    """Of shape (count,)."""
+    condition_numbers: Floats
+    """Shape (count,)."""
+    status: PositionStatus
+    nearest: int
+    """The one nearest to the pose shown."""
+
+
+@dataclass
+class Player:
+    """A path and where it is shown."""
+
+    name: str
+    trajectory: Trajectory
+    time: float = 0.0
+    """Of the path, from its first pose on."""
+    playing: bool = False
+
+    @property
+    def duration(self) -> float:
+        """Time from the first pose to the last."""
+        return float(self.trajectory.time[-1] - self.trajectory.time[0])
+
+    def pose(self) -> tuple[Floats, Floats]:
+        """Return position and rotation of the platform, between two poses of the path on the straight way."""
+        t, p, q = self.trajectory.time, self.trajectory.position, self.trajectory.rotation
+        at = min(float(t[0]) + self.time, float(t[-1]))
+        k = min(int(np.searchsorted(t, at, side="right")), len(t) - 1)
+        share = (at - t[k - 1]) / (t[k] - t[k - 1])
+        turn: Floats = from_vectors(share * vectors_between(*to_quaternions(q[k - 1 : k + 1]))[None])[0] @ q[k - 1]
+        return p[k - 1] + share * (p[k] - p[k - 1]), turn
+
+
+@dataclass
+class Display:
+    """The choices of the folder "View"."""
+
+    dark: bool = False
+    hidden: set[str] = field(default_factory=set)
+    """Of "labels", "handles", "axes" and "region"."""
+    ellipsoid: str = "none"
+    """One of `ELLIPSOIDS`."""
+
+    def show(self, part: str, visible: bool) -> None:
+        """Show or hide a part."""
+        (self.hidden.discard if visible else self.hidden.add)(part)
 
 
 class State:
@@ -33,85 +90,108 @@ class State:
 
     Parameters
     ----------
-    subject : Subject
-        The design to begin with, at its neutral pose.
+    machine : Machine
+        Its design is shown first, at the neutral pose.
 
     """
 
-    def __init__(self, subject: Subject) -> None:
-        self.subject = subject
-        self.variables = dict(subject.variables)
-        self.rule = subject.rule
-        self._length: float | None = None  # chosen by hand
+    def __init__(self, machine: Machine, dark: bool = False) -> None:
+        self.machine = machine
+        self.variables = dict(machine.variables)
+        self.rule = "carried" if machine.region is None else machine.region.internal_point
         self.note = ""
         """One sentence where something could not be done, such as a design that does not exist; "" otherwise."""
-        self.listed: Configuration | None = None
+        self.modes: Modes | None = None
         """The assembly modes found last, of the design shown; None without any, such as after a change of it."""
-        self._problem = subject.problem
-        self.geometry: Geometry = subject.geometry
-        self.home: Configuration = subject.home
-        self.yardstick = self._yardstick()
-        self._stand(subject.home.position, subject.home.rotation, subject.home.internal_point)
-        self._keep()
+        self.player: Player | None = None
+        self.speed = 1.0
+        """Of a path, times its own."""
+        self.body = Body()
+        self.display = Display(dark)
+        self._length: float | None = None  # chosen by hand
+        self.variant = machine.variant(self.variables)
+        self.configuration = self._placed = self.variant.home
 
     # --- pose ---------------------------------------------------------------------------------------------------------
 
     @property
-    def configuration(self) -> Configuration:
-        """The pose shown."""
-        return self._configuration
+    def coordinates(self) -> list[float]:
+        """Position, rotation vector from the neutral orientation (base axes, degrees), and O: nine numbers."""
+        c = self.configuration
+        first, second = to_quaternions(np.stack([self.variant.home.rotation, c.rotation]))
+        turn = np.degrees(vectors_between(first, second))
+        return [*c.position.tolist(), *turn.tolist(), *c.internal_point.tolist()]
 
-    @property
-    def turn_deg(self) -> Turn:
-        """Rotation vector from the neutral orientation to the one shown, base axes, degrees."""
-        first, second = to_quaternions(np.stack([self.home.rotation, self.configuration.rotation]))
-        x, y, z = np.degrees(vectors_between(first, second)).tolist()
-        return x, y, z
+    def set_coordinate(self, k: int, value: float) -> None:
+        """Change one of `coordinates`."""
+        x = self.coordinates
+        x[k] = value
+        if k < 3:
+            self.set_pose(position=x[:3])
+        elif k < 6:
+            self.set_pose(turn_deg=x[3:6])
+        else:
+            self.set_internal_point(x[6:])
 
     def set_pose(self, position: Any = None, turn_deg: Any = None, rotation: Floats | None = None) -> None:
         """Move the platform: to a position, a rotation vector from the neutral orientation, or a matrix; O follows."""
-        p = self.configuration.position if position is None else np.array(vector("position", position))
-        q = self.configuration.rotation if rotation is None else rotation
+        c = self.configuration
+        p = c.position if position is None else np.asarray(position, dtype=np.float64)
+        q = c.rotation if rotation is None else rotation
         if turn_deg is not None:
-            q = from_vectors(np.radians([vector("turn_deg", turn_deg)]))[0] @ self.home.rotation
-        self._stand(p, q, self._placed(p, q))
-
-    def move(self, axis: int, value: float) -> None:
-        """Move the platform along one axis."""
-        self.set_pose(position=_with(self.configuration.position, axis, value))
-
-    def turn(self, axis: int, value: float) -> None:
-        """Set one component of the rotation vector, degrees."""
-        self.set_pose(turn_deg=_with(self.turn_deg, axis, value))
-
-    def move_internal_point(self, axis: int, value: float) -> None:
-        """Move O along one axis."""
-        self.set_internal_point(_with(self.configuration.internal_point, axis, value))
+            q = from_vectors(np.radians([turn_deg]))[0] @ self.variant.home.rotation
+        placed, self.note = self._placed, ""
+        arm = placed.internal_point - placed.position
+        carried: Floats = p + q @ placed.rotation.T @ arm
+        s = {"shifted": p + arm, "held": placed.internal_point}.get(self.rule, carried)
+        self.configuration = Configuration(p, q, self._best(p, q, s) if self.rule == "best" else s)
 
     def set_internal_point(self, point: Any) -> None:
         """Move O; where it was placed at its best it then stays."""
         if self.rule == "best":
             self.rule = "held"
-        self._stand(self.configuration.position, self.configuration.rotation, np.array(vector("O", point)))
-        self._keep()
+        self._place(Configuration(self.configuration.position, self.configuration.rotation, point))
 
     def set_rule(self, rule: str) -> None:
-        """Say where O is when the platform moves: one of `RULES`, from where O is now."""
+        """Set where O is when the platform moves: one of `RULES`, from where O is now."""
         self.rule = choice("O", rule, RULES)
-        self._keep()
+        self._place(self.configuration)
         self.set_pose()
 
     def set_configuration(self, c: Configuration) -> None:
         """Show a configuration as it is, such as an assembly mode; O stays there until the platform moves."""
-        self._stand(c.position, c.rotation, c.internal_point)
-        self._keep()
+        self._place(c)
 
     def go_home(self) -> None:
         """Return to the neutral pose."""
-        self._stand(self.home.position, self.home.rotation, self.home.internal_point)
-        self._keep()
+        self._place(self.variant.home)
         if self.rule == "best":
             self.set_pose()
+
+    # --- path ---------------------------------------------------------------------------------------------------------
+
+    def open_path(self, name: str, trajectory: Trajectory) -> None:
+        """Show a path at its first pose."""
+        self.player = Player(name, trajectory)
+        self.seek(0.0)
+
+    def toggle(self) -> None:
+        """Play or pause the path."""
+        if self.player is not None:
+            self.player.playing = not self.player.playing
+
+    def seek(self, at: float) -> None:
+        """Show the pose of the path at a time."""
+        if self.player is not None:
+            self.player.time = at
+            position, rotation = self.player.pose()
+            self.set_pose(position=position, rotation=rotation)
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass for a path that is played; after its last pose it begins again."""
+        if self.player is not None and self.player.playing and seconds > 0.0:
+            at, end = self.player.time + seconds * self.speed, self.player.duration
+            self.seek(at if at <= end else at % end)
 
     # --- design -------------------------------------------------------------------------------------------------------
 
@@ -121,173 +201,101 @@ class State:
         A design that does not exist, such as one with a negative radius, leaves everything as it is, with a note.
         """
         known_keys("variables", values, list(self.variables))
-        wanted = self.variables | {name: float(value) for name, value in values.items()}
-        try:
-            problem = self._checked_problem()
-            x = [wanted[name] for name in problem.names]
-            geometry = problem.geometry(x)
-            home = Configuration(*problem.configurations(x))[0]
-        except ValueError as error:
-            self.note = f"no such design: {error}"
-            return
-        shift = self.configuration.position - self.home.position
-        turn = self.configuration.rotation @ self.home.rotation.T
-        move = self.configuration.internal_point - self.home.internal_point
-        self.note, self.variables, self.geometry, self.home = "", wanted, geometry, home
-        self.listed = None
-        self.yardstick = self._yardstick()
-        p, q = home.position + shift, turn @ home.rotation
-        self._stand(p, q, home.internal_point + move)
-        self._keep()
-        if self.rule == "best":
-            self.set_pose()
-
-    @property
-    def length_range(self) -> tuple[float, float]:
-        """Ends of a slider of the characteristic length: a quarter to four times it, within the bounds of the study."""
-        length, study = self.yardstick.length, self.subject.study
-        if not 0.0 < length < math.inf:  # a kind that has no value here
-            length = 0.25 * self.subject.size
-        bounds = None if study is None else study.characteristic_length
-        low, high = bounds if isinstance(bounds, tuple) else (0.0, math.inf)
-        return max(low, 0.25 * length), min(high, 4.0 * length)
+        self._change(self.variables | {name: float(value) for name, value in values.items()}, self._length)
 
     def set_length(self, value: float) -> None:
         """Change the characteristic length; one of a kind is then a number, a free one a variable as the others."""
         if LENGTH in self.variables:
             self.set_variables({LENGTH: value})
         else:
-            self._length = float(value)
-            self._measure()
+            self._change(self.variables, float(value))
 
     def reset_design(self) -> None:
         """Return to the design to begin with."""
-        self._length = None
-        if self.variables:
-            self.set_variables(self.subject.variables)
-        else:
-            self._measure()
+        self._change(dict(self.machine.variables), None)
 
-    def _measure(self) -> None:
-        """Let the numbers follow another characteristic length."""
-        self.listed, self.yardstick = None, self._yardstick()
-        if self.rule == "best":
-            self.set_pose()
+    @property
+    def length_range(self) -> tuple[float, float]:
+        """Ends of a slider of the characteristic length: a quarter to four times it, within the bounds of the study."""
+        length, study = self.variant.length, self.machine.study
+        if not 0.0 < length < math.inf:  # a kind that has no value here
+            length = 0.25 * self.machine.size
+        bounds = None if study is None else study.characteristic_length
+        low, high = bounds if isinstance(bounds, tuple) else (0.0, math.inf)
+        return max(low, 0.25 * length), min(high, 4.0 * length)
 
-    # --- what is shown ------------------------------------------------------------------------------------------------
+    # --- for files and the scene --------------------------------------------------------------------------------------
 
     @property
     def design(self) -> Design:
-        """What is shown as a design: its neutral pose is the pose shown."""
-        return Design(self.geometry, self.configuration, self.yardstick.length, self.subject.unit)
+        """The design shown, its neutral pose the pose shown."""
+        return Design(self.variant.geometry, self.configuration, self.variant.length, self.machine.unit)
 
     @property
     def unmoved(self) -> bool:
         """Whether the design is the one to begin with, at its neutral pose."""
-        if self._length is not None or self.variables != self.subject.variables:
-            return False
-        here, home = self.configuration, self.home
-        points = np.abs([here.position - home.position, here.internal_point - home.internal_point])
-        return bool(points.max() < SAME * self.subject.size and np.abs(here.rotation - home.rotation).max() < SAME)
+        design = self.machine.design
+        return self._length is None and self.variables == self.machine.variables and self.design[:2] == design[:2]
 
-    def numbers(self) -> Numbers:
-        """Return the numbers of the pose shown."""
-        return numbers(self.yardstick, self.geometry, self.configuration)
-
-    def modes(self) -> tuple[Configuration, Floats, PositionStatus]:
-        """Return every configuration with the leg lengths shown, and `listed` then has them.
-
-        Returns
-        -------
-        modes : Configuration of shape (count,)
-            The best conditioned first.
-        condition_numbers : ndarray, shape (count,)
-        status : PositionStatus
-
-        """
-        found = forward_position(self.geometry, leg_lengths(self.geometry, self.configuration))
-        kappa = np.zeros(0)
-        if found.count:
-            kappa = np.asarray(condition_number(self.geometry, found, self.yardstick.length))
+    def find_modes(self) -> Modes:
+        """List every configuration with the leg lengths shown."""
+        g, c = self.variant.geometry, self.configuration
+        modes = forward_position(g, leg_lengths(g, c))
+        kappa = np.asarray(condition_number(g, modes, self.variant.length)) if modes.count else np.zeros(0)
         order = np.argsort(kappa, kind="stable")
-        self.listed = found[order]
-        return self.listed, kappa[order], found.status
+        listed, nearest = modes[order], 0
+        if modes.count:
+            away = np.abs(listed.position - c.position).max(axis=1) / self.machine.size
+            away += np.abs(listed.internal_point - c.internal_point).max(axis=1) / self.machine.size
+            nearest = int(np.argmin(away + np.abs(listed.rotation - c.rotation).max(axis=(1, 2))))
+        self.modes = Modes(listed, kappa[order], modes.status, nearest)
+        return self.modes
 
-    def body_question(self, condition_limit: float = math.inf) -> BodyQuestion:
-        """Return what the workspace of the orientation shown is asked of."""
-        c = self.configuration
-        # Without a turn O that is shifted with the platform is O that is carried with it.
-        carried = c.rotation.T @ self._shifted if self.rule == "shifted" else self._carried
-        size = self.subject.size
-        return BodyQuestion(self.yardstick, self.geometry, c, self.rule, carried, size, condition_limit)
+    def show_mode(self, k: int) -> None:
+        """Show one of the modes listed."""
+        if self.modes is not None and k < len(self.modes.condition_numbers):
+            self.set_configuration(self.modes.configurations[k])
+
+    def ellipsoid(self) -> Ellipsoid | None:
+        """Return the ellipsoid chosen at the pose shown."""
+        kind = ELLIPSOIDS[self.display.ellipsoid]
+        if kind is None:
+            return None
+        return kind[0](self.variant.geometry, self.configuration, kind[1], self.variant.length)
 
     # --- within -------------------------------------------------------------------------------------------------------
 
-    def _stand(self, p: Floats, q: Floats, s: Floats) -> None:
-        self._configuration = Configuration(p, q, s)
+    def _place(self, c: Configuration) -> None:
+        """Show a configuration, from whose O the rule begins."""
+        self.configuration = self._placed = c
 
-    def _keep(self) -> None:
-        """Remember where O is: in the platform, and from its origin in base axes."""
-        c = self.configuration
-        self._held = c.internal_point
-        self._shifted = c.internal_point - c.position
-        self._carried = c.rotation.T @ self._shifted
-
-    def _placed(self, p: Floats, q: Floats) -> Floats:
-        """Return O at a pose of the platform by the rule."""
-        carried: Floats = p + q @ self._carried
+    def _change(self, variables: dict[str, float], length: float | None) -> None:
+        try:
+            variant = self.machine.variant(variables, length)
+        except ValueError as error:
+            self.note = f"no such design: {error}"
+            return
+        c, old, new = self.configuration, self.variant.home, variant.home
+        self.variables, self._length, self.variant, self.modes, self.note = variables, length, variant, None, ""
+        if new is not old:
+            shift, arm = c.position - old.position, c.internal_point - old.internal_point
+            turn = c.rotation @ old.rotation.T @ new.rotation
+            self._place(Configuration(new.position + shift, turn, new.internal_point + arm))
         if self.rule == "best":
-            return self._best(p, q, carried)
-        self.note = ""
-        return {"carried": carried, "shifted": p + self._shifted, "held": self._held}[self.rule]
+            self.set_pose()
 
     def _best(self, p: Floats, q: Floats, carried: Floats) -> Floats:
-        low, high = self.yardstick.leg_low, self.yardstick.leg_high
         found = best_internal_point(
-            self.geometry,
+            self.variant.geometry,
             p,
             q,
-            limits=(low, high),
-            characteristic_length=self.yardstick.length,
+            limits=(self.variant.leg_low, self.variant.leg_high),
+            characteristic_length=self.variant.length,
             start=carried,
             threads=1,
         )
-        self.note = ""
         if np.isnan(found.configuration.internal_point).any():
-            why = ", ".join(found.active)
-            self.note = f"no best O at this pose: {found.status}" + (f" ({why})" if why else "")
+            why = f" ({', '.join(found.active)})" if found.active else ""
+            self.note = f"no best O at this pose: {found.status}{why}"
             return carried
         return found.configuration.internal_point
-
-    def _checked_problem(self) -> Any:
-        if self._problem is None:
-            raise ValueError("this machine belongs to no family of designs")
-        return self._problem
-
-    def _own_length(self) -> float:
-        return self.subject.length_at(self.geometry, self.home, self.variables)
-
-    def _yardstick(self) -> Yardstick:
-        subject, beside, margins = self.subject, None, list[tuple[str, float]]()
-        if subject.study is not None:
-            problem = self._checked_problem()
-            x = [self.variables[name] for name in problem.names]
-            beside = np.asarray(leg_lengths(self.geometry, Configuration(*problem.configurations(x))))
-            if subject.study.constraints:
-                margins = [(name, float(value)) for name, value, _ in problem.evaluate(x)["margins"]]
-        low, high = subject.leg_limits(float(self.home.position[2]))
-        return Yardstick(
-            study=subject.study,
-            neutral=self.home,
-            length=self._own_length() if self._length is None else self._length,
-            leg_low=low,
-            leg_high=high,
-            beside=beside,
-            design_margins=tuple(margins),
-        )
-
-
-def _with(values: Any, axis: int, value: float) -> list[float]:
-    found = [float(x) for x in values]
-    found[axis] = value
-    return found

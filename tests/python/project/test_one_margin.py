@@ -24,7 +24,8 @@ from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import limits_of, margins
 from ninedof.viewer.html import limits_html
-from ninedof.viewer.numbers import Yardstick, numbers
+from ninedof.viewer.machine import Variant
+from ninedof.viewer.numbers import numbers_of
 
 LIMITS = {
     "radius_ratio": {"min": 0.1, "max": 2.5},
@@ -91,13 +92,12 @@ def test_every_place_has_the_same_margin(seed):
     assert condition.min() == pytest.approx(expected["condition_limit", "max"], rel=1e-9, abs=1e-9)
     # The viewer, at each pose
     g, home = point.geometry, point.configuration
-    yard = Yardstick(
-        study, home, point.characteristic_length, np.zeros(9), np.full(9, np.inf),
-        nd.leg_lengths(g, point.configurations), tuple(point.margins.items()),
-    )  # fmt: skip
+    legs = nd.leg_lengths(g, point.configurations)
+    ends = np.zeros(9), np.full(9, np.inf)
+    variant = Variant(g, home, point.characteristic_length, *ends, study, legs, point.margins)
     shown = {}
     for k in range(len(point.configurations)):
-        for one in numbers(yard, g, point.configurations[k]).limits:
+        for one in numbers_of(variant, point.configurations[k]).limits:
             key = one.name.split(" ")[0] if one.side else one.name, one.side
             shown.setdefault(key, []).append(one.margin)
     assert len(shown) > 15
@@ -137,10 +137,10 @@ def test_every_place_has_the_same_text(seed):
         for word in re.findall(r"\$((?:over |below )?-?[\d.]+(?:\\,\\%)?)\$ *\\\\", latex_limits(rows, ""))
     ]
     assert latex == every
-    yard = Yardstick(
-        study, point.configuration, 1.0, np.zeros(9), np.full(9, np.inf), None, tuple(point.margins.items())
+    ends = np.zeros(9), np.full(9, np.inf)
+    at_home = numbers_of(
+        Variant(point.geometry, point.configuration, 1.0, *ends, study, None, point.margins), point.configuration
     )
-    at_home = numbers(yard, point.geometry, point.configuration)
     cells = re.findall(r'text-align:right">([^<]*)</td></tr>', limits_html(at_home, "mm"))
     assert cells == [text(one.margin, one.unit) for one in at_home.limits]
     proved = certify(study, point.geometry, point.configurations, 1.0, time_limit=5.0)

@@ -9,8 +9,8 @@ import ninedof as nd
 from ninedof.cli.chosen_design import Chosen, named_design
 from ninedof.cli.posed import chosen_poses
 from ninedof.redundancy.rules import MEANING, RULES, STUDY_RULES, WORDS, where_o
+from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State
-from ninedof.viewer.subject import subject_of
 
 SHIFT, TURN_DEG = (0.3, -0.2, 0.1), (4.0, -7.0, 12.0)
 
@@ -40,11 +40,13 @@ def test_a_rule_places_o_at_the_same_point_everywhere(chosen):
         trajectory = nd.Trajectory([0.0, 1.0, 2.0], [home.position, pose, pose], [home.rotation, q, q])
         along = nd.follow(g, trajectory, home, internal_point=rule)
         np.testing.assert_allclose(along.configurations.internal_point[1], o, atol=1e-12)
-        state = State(subject_of())
+        state = State(machine_of())
         state.set_rule(rule)
-        state.set_pose(pose - home.position + state.home.position, TURN_DEG)
+        state.set_pose(pose - home.position + state.variant.home.position, TURN_DEG)
         np.testing.assert_allclose(
-            state.configuration.internal_point, expected(rule, state.home, state.configuration.rotation), atol=1e-12
+            state.configuration.internal_point,
+            expected(rule, state.variant.home, state.configuration.rotation),
+            atol=1e-12,
         )
         at = chosen_poses(chosen, tuple(pose), TURN_DEG, rule, False)
         np.testing.assert_allclose(at.internal_point[0], o, atol=1e-12)

@@ -1,83 +1,96 @@
-"""The workspace of the viewer: its surface, and its volume beside the search of the package."""
+"""The workspace of the viewer: that of `workspace`, within the limits of the study, and its surface."""
 
+import math
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.viewer.body import body
-from ninedof.viewer.body_job import BodyJob
+from ninedof.viewer.body import Body, BodySearch, body_of, question_of
+from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State
-from ninedof.viewer.subject import subject_of
 
 
-def test_the_volume_is_that_of_the_workspace_search():
-    state = State(subject_of())
-    limits = np.full(9, 2.0), np.full(9, 5.6)
-    question = state.body_question(condition_limit=6.0)
-    question = replace(question, yardstick=replace(question.yardstick, leg_low=limits[0], leg_high=limits[1]))
-    shown = body(question)
-    home = state.home
-    held = {"platform": home.internal_point - home.position}
-    criteria = {"leg_limits": limits, "condition_number": 6.0, "singularity_free": True}
-    reach = 0.75 * state.subject.size
+def body(state, condition_limit=math.inf):
+    question = question_of(state.variant, state.configuration, state.rule, state.machine.size, condition_limit)
+    return body_of(state.variant, question, state.machine.unit)
+
+
+def volume(body):
+    vertices, faces = body.mesh
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
+
+
+@pytest.mark.parametrize("rule", ["carried", "held"])
+def test_the_body_is_closed_and_has_the_volume_of_the_workspace(rule):
+    state = State(machine_of())
+    state.set_rule(rule)
+    c, reach = state.configuration, 0.75 * state.machine.size
     searched = nd.workspace(
-        state.geometry,
-        (home.position - reach, home.position + reach),
-        criteria=criteria,
-        internal_point=held,
-        home=home,
-        tolerance=0.01,
+        state.variant.geometry,
+        (c.position - reach, c.position + reach),
+        criteria={"condition_number": 5.0, "singularity_free": True},
+        internal_point={"carried": {"platform": c.internal_point - c.position}, "held": c.internal_point}[rule],
+        home=c,
     )
-    assert not shown.open
-    sides = np.concatenate([shown.faces[:, [0, 1]], shown.faces[:, [1, 2]], shown.faces[:, [2, 0]]])
+    shown = body(state, 5.0)
+    assert f"Volume about {searched.volume:.3g}" in shown.words or f"{searched.volume:.2g}" in shown.words
+    assert volume(shown) == pytest.approx(searched.volume, rel=0.03)
+    faces = shown.mesh[1]
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     there, back = ({tuple(pair) for pair in way} for way in (sides.tolist(), sides[:, ::-1].tolist()))
-    assert there == back  # closed: each side once in either direction
+    assert there == back  # each side once in either direction
     assert len(there) == len(sides)
-    assert shown.volume == pytest.approx(searched.volume, rel=0.05)
 
 
-def test_a_search_is_given_up():
-    assert body(State(subject_of()).body_question(5.0), lambda: True) is None
+def test_a_pose_beyond_a_limit_has_no_workspace_and_is_told():
+    state = State(machine_of())
+    shown = body(state, 2.0)
+    assert shown.mesh is None
+    assert shown.words == (
+        "No position that keeps all limits is connected with the pose shown, which passes condition_number."
+    )
 
 
-def test_only_the_newest_of_many_searches_counts(monkeypatch):
-    running, found = [], []
+def test_only_the_newest_of_many_searches_counts():
+    shown, begun = [], []
+    search = BodySearch(lambda number, body: shown.append((number, body.words)))
 
-    def until_given_up(question, stopped):
-        running.append(question)
-        while not stopped():
+    def until_given_up(progress):
+        begun.append(len(begun))
+        while True:
+            progress()
             time.sleep(0.001)
 
-    monkeypatch.setattr("ninedof.viewer.body_job.body", until_given_up)
-    job = BodyJob(lambda *answer: found.append(answer), lambda *why: found.append(why))
-    with ThreadPoolExecutor(8) as pool:  # as clicks come
-        for k in range(40):
-            pool.submit(job.begin, k)
-    assert [job.counts(k) for k in range(1, 41)] == [False] * 39 + [True]
-    threads = [t for t in threading.enumerate() if t.name == "ninedof-viewer-workspace"]
-    assert set(job._threads) >= set(threads)  # each is known, so that closing waits for it
-    job.close()
-    assert not any(t.is_alive() for t in threads)
-    job.begin("late")
-    assert len(running) == 40
-    assert found == []
+    for _ in range(10):  # as clicks come
+        search.begin(until_given_up)
+    search.begin(lambda progress: Body("newest"))
+    search.close()
+    assert shown in ([], [(11, "newest")])
+    assert not search.counts(11)
+    assert not [t for t in threading.enumerate() if t.name.startswith("ninedof-viewer-workspace")]
 
 
-def test_the_spread_of_a_study_bounds_the_body():
-    """Every position inside keeps the stroke ratio, which the poses of the study already use up."""
-    study = nd.Study(constraints={"stroke_ratio": (None, 1.3)}, objective={"poses": nd.poses.box((0.3, 0.3, 0.3))})
+@pytest.mark.parametrize(
+    "constraint", [{"stroke_ratio": (None, 1.3)}, {"leg_ratio": (None, 3.0)}, {"stroke": (None, 1.2)}]
+)
+def test_the_spread_of_a_study_bounds_the_body(constraint):
+    """Every position inside keeps it together with the poses of the study."""
+    study = nd.Study(constraints=constraint, objective={"poses": nd.poses.box((0.3, 0.3, 0.3))})
     result = nd.optimize(study, starts=2)
-    state = State(subject_of(result))
-    shown = body(state.body_question())
-    assert shown.volume > 0.0
+    ((name, (_, most)),) = constraint.items()
+    state = State(machine_of(result))
+    vertices, _ = body(state).mesh
+    assert len(vertices) > 100
     lengths = nd.leg_lengths(result.geometry, result.configurations)
-    for vertex in shown.vertices[::40]:
-        p = state.home.position + 0.98 * (vertex - state.home.position)
-        at = nd.Configuration(p, state.home.rotation, p + state.home.internal_point - state.home.position)
+    home = state.variant.home
+    for vertex in vertices[::40]:
+        p = home.position + 0.98 * (vertex - home.position)
+        at = nd.Configuration(p, home.rotation, p + home.internal_point - home.position)
         legs = np.vstack([lengths, nd.leg_lengths(result.geometry, at)])
-        assert (legs.max(axis=0) / legs.min(axis=0)).max() < 1.3 * 1.02
+        long, short = legs.max(axis=0), legs.min(axis=0)
+        spread = {"stroke": long - short, "stroke_ratio": long / short, "leg_ratio": long.max() / short.min()}[name]
+        assert np.max(spread) < most * 1.02

@@ -2,7 +2,6 @@
 
 import csv
 import io
-import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +10,7 @@ import pytest
 import ninedof as nd
 from ninedof.export.formats import FORMATS
 from ninedof.support.extras import MissingExtra
+from ninedof.viewer.folders import send
 
 HOME = nd.Configuration.neutral(480.0, 320.0)
 DESIGN = nd.Design(nd.Geometry.hexagonal(a1=0.0, a2=850.0, b1=290.0, b2=0.0), HOME, 150.0, "mm")
@@ -36,8 +36,7 @@ def viewer():
 
 def saved(viewer, kind):
     client = Client()
-    viewer.panel.saving.send(kind, client)
-    return client.files, viewer.panel.saving.text.content
+    return client.files, send(viewer, kind, client)
 
 
 def test_every_format_is_what_export_writes_of_the_pose_shown(viewer, tmp_path):
@@ -71,11 +70,8 @@ def test_legs_along_the_path_that_is_open(viewer):
     assert files == {}
     assert "Not saved: no path is open" in words
     path = nd.Trajectory.circle(HOME, radius=50.0, duration=2.0, points=21)
-    viewer.submit("path", lambda: viewer.playback.open("circle", path))
-    end = time.monotonic() + 20.0
-    while viewer.playback.player is None:
-        assert time.monotonic() < end
-        time.sleep(0.01)
+    with viewer.lock:
+        viewer.state.open_path("circle", path)
     files, _ = saved(viewer, kind)
     head, *rows = csv.reader(io.StringIO(files["legs.csv"].decode()))
     assert head[:2] == ["t", "l1 (mm)"]
@@ -89,7 +85,7 @@ def test_what_cannot_be_saved_is_one_line(viewer, monkeypatch):
     def missing(*_):
         raise MissingExtra("the drawing needs ezdxf: pip install 'ninedof[cad]'")
 
-    monkeypatch.setattr("ninedof.viewer.saving.export", missing)
+    monkeypatch.setattr("ninedof.viewer.folders.export", missing)
     files, words = saved(viewer, "dxf (.dxf)")
     assert files == {}
     assert "Not saved: the drawing needs ezdxf" in words
@@ -106,5 +102,5 @@ def test_the_picture_is_a_png(viewer):
     client = Client()
     client.camera = SimpleNamespace(image_height=2, image_width=3)
     client.get_render = lambda height, width, transport_format: np.zeros((height, width, 4), dtype=np.uint8)
-    viewer.panel.saving.send("picture (.png)", client)
+    send(viewer, "picture (.png)", client)
     assert client.files["ninedof.png"].startswith(b"\x89PNG")

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.viewer.player import Player
+from ninedof.support.margins import is_violated
+from ninedof.viewer.machine import machine_of
+from ninedof.viewer.numbers import numbers_of
 from ninedof.viewer.state import State
-from ninedof.viewer.subject import subject_of
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +31,10 @@ def found():
     return result
 
 
+def numbers(state):
+    return numbers_of(state.variant, state.configuration)
+
+
 def shifted(point, by):
     return point + np.array(by)
 
@@ -41,12 +46,12 @@ def moved(c):
 
 
 def test_numbers_are_those_of_the_public_functions():
-    state = State(subject_of())
-    g, c = state.geometry, state.configuration
-    assert state.numbers().condition_number == nd.condition_number(g, c)
+    state = State(machine_of())
+    g, c = state.variant.geometry, state.configuration
+    assert numbers(state).condition_number == nd.condition_number(g, c)
     state.set_pose(position=shifted(c.position, [0.3, -0.2, 0.1]))
     there = moved(c)
-    shown = state.numbers()
+    shown = numbers(state)
     np.testing.assert_allclose(state.configuration.internal_point, there.internal_point, atol=1e-12)
     np.testing.assert_allclose(shown.condition_number, nd.condition_number(g, there), rtol=1e-12)
     np.testing.assert_allclose(shown.leg_lengths, nd.leg_lengths(g, there), rtol=1e-12)
@@ -57,14 +62,14 @@ def test_numbers_are_those_of_the_public_functions():
 
 @pytest.mark.parametrize("turn", [(10.0, 0.0, 0.0), (5.0, -12.0, 30.0)])
 def test_o_follows_its_rule(turn):
-    state = State(subject_of())
-    home = state.home
+    state = State(machine_of())
+    home = state.variant.home
     away = {}
     for rule in ("carried", "shifted", "held"):
         state.go_home()
         state.set_rule(rule)
         state.set_pose(position=shifted(home.position, [0.4, 0.1, 0.0]), turn_deg=turn)
-        np.testing.assert_allclose(state.turn_deg, turn, atol=1e-9)
+        np.testing.assert_allclose(state.coordinates[3:6], turn, atol=1e-9)
         away[rule] = state.configuration
     q = away["carried"].rotation
     own = q.T @ (away["carried"].internal_point - away["carried"].position)
@@ -76,20 +81,20 @@ def test_o_follows_its_rule(turn):
 
 
 def test_the_best_o_is_the_best_and_a_hand_takes_it_away():
-    state = State(subject_of())
-    state.set_pose(position=shifted(state.home.position, [0.8, 0.0, 0.0]))
-    before = state.numbers().condition_number
+    state = State(machine_of())
+    state.set_pose(position=shifted(state.variant.home.position, [0.8, 0.0, 0.0]))
+    before = numbers(state).condition_number
     state.set_rule("best")
-    best = nd.best_internal_point(state.geometry, state.configuration.position)
-    assert state.numbers().condition_number == pytest.approx(best.value, rel=1e-9)
+    best = nd.best_internal_point(state.variant.geometry, state.configuration.position)
+    assert numbers(state).condition_number == pytest.approx(best.value, rel=1e-9)
     assert best.value < before
     state.set_internal_point(shifted(state.configuration.internal_point, [0.0, 0.0, 0.1]))
     assert state.rule == "held"
 
 
 def test_limits_are_those_of_the_study(found):
-    state = State(subject_of(found))
-    shown = {(one.name.split(" ")[0], one.side): one for one in state.numbers().limits}
+    state = State(machine_of(found))
+    shown = {(one.name.split(" ")[0], one.side): one for one in numbers(state).limits}
     assert {name for name, _ in shown} == {
         "stroke_ratio",
         "base_cone",
@@ -102,129 +107,130 @@ def test_limits_are_those_of_the_study(found):
     # At home the legs stretch the spread of the poses of the study no further.
     assert shown["stroke_ratio", "max"].margin == pytest.approx(margins["stroke_ratio"], abs=1e-9)
     for one in shown.values():
-        assert one.passed == (one.margin < -1e-6)
+        assert is_violated(one.margin, one.unit, one.limit) == (one.margin < -1e-6)
 
 
 def test_a_leg_beyond_its_length_is_told(found):
-    state = State(subject_of(found))
-    assert not any(state.numbers().legs_out)
-    state.set_pose(position=shifted(state.home.position, [0.0, 0.0, 6.0]))
-    shown = state.numbers()
-    lengths = nd.leg_lengths(state.geometry, state.configuration)
+    state = State(machine_of(found))
+    assert not any(numbers(state).legs_out)
+    state.set_pose(position=shifted(state.variant.home.position, [0.0, 0.0, 6.0]))
+    shown = numbers(state)
+    lengths = nd.leg_lengths(state.variant.geometry, state.configuration)
     assert (lengths[:3] > 8.0).all()
     assert shown.legs_out[:3] == (True, True, True)
-    assert any(one.passed and one.name.startswith("external_length") for one in shown.limits)
-    state.set_pose(position=[9.0, 0.0, float(state.home.position[2])])
-    assert ("base", 0) in state.numbers().cones_passed
+    assert any(one.margin < -1e-6 and one.name.startswith("external_length") for one in shown.limits)
+    state.set_pose(position=[9.0, 0.0, float(state.variant.home.position[2])])
+    assert ("base", 0) in numbers(state).cones_passed
 
 
 def test_variables_make_the_design_of_the_family(found):
-    state = State(subject_of(found))
-    state.set_pose(position=shifted(state.home.position, [0.1, 0.0, 0.0]))
+    state = State(machine_of(found))
+    state.set_pose(position=shifted(state.variant.home.position, [0.1, 0.0, 0.0]))
     wider = {"a2": 1.1 * found.variables["a2"]}
     state.set_variables(wider)
     point = found.study.evaluate(found.variables | wider)
-    assert state.geometry == point.geometry
+    assert state.variant.geometry == point.geometry
     np.testing.assert_allclose(state.configuration.position, shifted(point.configuration.position, [0.1, 0.0, 0.0]))
-    of_design = next(one for one in state.numbers().limits if one.name == "radius_ratio")
+    of_design = next(one for one in numbers(state).limits if one.name == "radius_ratio")
     assert of_design.margin == pytest.approx(point.margins["radius_ratio"])
     state.reset_design()
-    assert state.geometry == found.geometry
+    assert state.variant.geometry == found.geometry
 
 
 def test_a_design_that_does_not_exist_changes_nothing():
-    state = State(subject_of())
-    before = state.geometry
+    state = State(machine_of())
+    before = state.variant.geometry
     state.set_variables({"a1": 0.0, "a2": 0.0})
     assert state.note.startswith("no such design")
-    assert state.geometry == before
+    assert state.variant.geometry == before
 
 
 def test_modes_have_the_lengths_shown():
-    state = State(subject_of())
-    lengths = nd.leg_lengths(state.geometry, state.configuration)
-    modes, kappa, status = state.modes()
+    state = State(machine_of())
+    lengths = nd.leg_lengths(state.variant.geometry, state.configuration)
+    modes, kappa, status, _ = state.find_modes()
     assert status == "found"
-    assert len(modes) == len(kappa) == nd.forward_position(state.geometry, lengths).count >= 2
+    assert len(modes) == len(kappa) == nd.forward_position(state.variant.geometry, lengths).count >= 2
     state.set_configuration(modes[1])
-    np.testing.assert_allclose(state.numbers().leg_lengths, lengths, rtol=1e-9)
+    np.testing.assert_allclose(numbers(state).leg_lengths, lengths, rtol=1e-9)
 
 
 def test_the_best_conditioned_mode_is_the_first():
-    state = State(subject_of())
-    state.set_pose(position=shifted(state.home.position, [0.3, -0.2, 0.1]), turn_deg=(4.0, -3.0, 8.0))
-    modes, kappa, _ = state.modes()
+    state = State(machine_of())
+    state.set_pose(position=shifted(state.variant.home.position, [0.3, -0.2, 0.1]), turn_deg=(4.0, -3.0, 8.0))
+    modes, kappa, _, _ = state.find_modes()
     assert (np.diff(kappa) >= 0.0).all()
     assert kappa[-1] > 1.1 * kappa[0]
-    own = [nd.condition_number(state.geometry, modes[k]) for k in range(len(modes))]
+    own = [nd.condition_number(state.variant.geometry, modes[k]) for k in range(len(modes))]
     np.testing.assert_allclose(kappa, own, rtol=1e-9)
 
 
 def test_modes_of_another_design_are_not_listed():
-    state = State(subject_of())
-    found, _, _ = state.modes()
-    state.set_configuration(found[1])
-    assert state.listed == found  # another pose of the same design
+    state = State(machine_of())
+    found = state.find_modes()
+    state.show_mode(1)
+    assert state.configuration == found.configurations[1]
+    assert state.modes is found  # another pose of the same design
     state.set_variables({"a1": 0.0, "a2": 0.0})  # no such design
-    assert state.listed == found
+    assert state.modes is found
     state.set_variables({"a1": 0.3})
-    assert state.listed is None
-    state.modes()
+    assert state.modes is None
+    state.find_modes()
     state.reset_design()
-    assert state.listed is None
+    assert state.modes is None
 
 
 def test_the_characteristic_length_can_be_changed():
-    state = State(subject_of())
+    state = State(machine_of())
     low, high = state.length_range
     assert low == pytest.approx(0.25)
     assert high == pytest.approx(4.0)
-    state.modes()
+    state.find_modes()
     state.set_length(1.7)
-    g, c = state.geometry, state.configuration
-    assert state.numbers().condition_number == pytest.approx(nd.condition_number(g, c, 1.7), rel=1e-12)
-    assert state.numbers().condition_number != pytest.approx(nd.condition_number(g, c), rel=1e-3)
+    g, c = state.variant.geometry, state.configuration
+    assert numbers(state).condition_number == pytest.approx(nd.condition_number(g, c, 1.7), rel=1e-12)
+    assert numbers(state).condition_number != pytest.approx(nd.condition_number(g, c), rel=1e-3)
     assert state.design.characteristic_length == 1.7
-    assert state.listed is None
+    assert state.modes is None
     assert not state.unmoved
     state.set_variables({"a1": 0.1})
-    assert state.yardstick.length == 1.7
+    assert state.variant.length == 1.7
     state.reset_design()
-    assert state.yardstick.length == 1.0
+    assert state.variant.length == 1.0
     assert state.unmoved
 
 
 def test_a_free_characteristic_length_is_a_variable():
     study = nd.Study(family="hexagonal", characteristic_length=(0.5, 6.0))
     found = nd.optimize(study, starts=2, seed=1)
-    state = State(subject_of(found))
+    state = State(machine_of(found))
     best = found.variables["characteristic_length"]
-    assert state.yardstick.length == best
+    assert state.variant.length == best
     low, high = state.length_range
     assert 0.5 <= low <= best < high <= 6.0
     state.set_length(1.1 * best)
     assert state.variables["characteristic_length"] == 1.1 * best
-    assert state.yardstick.length == 1.1 * best
+    assert state.variant.length == 1.1 * best
     state.reset_design()
-    assert state.yardstick.length == best
+    assert state.variant.length == best
 
 
 def test_what_is_shown_is_a_design_file(tmp_path):
-    state = State(subject_of())
+    state = State(machine_of())
     state.set_pose(turn_deg=(0.0, 8.0, 0.0))
     path = nd.save(state.design, tmp_path / "design.toml")
-    again = State(subject_of(path))
-    assert again.numbers().condition_number == pytest.approx(state.numbers().condition_number, rel=1e-12)
+    again = State(machine_of(path))
+    assert numbers(again).condition_number == pytest.approx(numbers(state).condition_number, rel=1e-12)
 
 
 def test_a_general_machine_has_its_own_sliders():
     rng = np.random.default_rng(3)
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     shaken = nd.Geometry(*(getattr(g, n) + 0.1 * rng.normal(size=(3, 3)) for n in nd_triples()))
-    state = State(subject_of(nd.Design(shaken, nd.Configuration.neutral(3.98, 2.44))))
-    assert state.subject.family == "general"
-    assert {v.name for v in state.subject.sliders} == set(state.variables)
-    assert all(v.low <= v.value <= v.high and v.low < v.high for v in state.subject.sliders)
+    state = State(machine_of(nd.Design(shaken, nd.Configuration.neutral(3.98, 2.44))))
+    assert state.machine.family == "general"
+    assert {v.name for v in state.machine.sliders} == set(state.variables)
+    assert all(v.low <= v.value <= v.high and v.low < v.high for v in state.machine.sliders)
 
 
 def nd_triples():
@@ -233,9 +239,9 @@ def nd_triples():
 
 def test_a_machine_without_a_family_is_shown_without_sliders():
     g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
-    state = State(subject_of(nd.Design(g, nd.Configuration([0.1, 0, 3.98], internal_point=[0.0, 0.2, 2.4]))))
-    assert state.subject.sliders == []
-    assert math.isfinite(state.numbers().condition_number)
+    state = State(machine_of(nd.Design(g, nd.Configuration([0.1, 0, 3.98], internal_point=[0.0, 0.2, 2.4]))))
+    assert state.machine.sliders == []
+    assert math.isfinite(numbers(state).condition_number)
 
 
 @pytest.mark.parametrize(
@@ -248,28 +254,32 @@ def test_a_machine_without_a_family_is_shown_without_sliders():
 )
 def test_bad_designs_are_named(given, words):
     with pytest.raises(ValueError, match=words):
-        subject_of(given)
+        machine_of(given)
 
 
 def test_a_path_is_played_at_its_own_times_and_between_its_poses():
-    home = nd.Configuration.neutral(3.98, 2.44)
+    state = State(machine_of())
+    home = state.variant.home
     turned = nd.Configuration.neutral(3.98, 2.44, theta_z=[0.0, 0.4, 0.4]).rotation
-    player = Player(nd.Trajectory([1.0, 2.0, 4.0], shifted(home.position, [[0, 0, 0], [1, 0, 0], [1, 1, 0]]), turned))
+    away = shifted(home.position, [[0, 0, 0], [1, 0, 0], [1, 1, 0]])
+    state.open_path("mine.csv", nd.Trajectory([1.0, 2.0, 4.0], away, turned))
+    player = state.player
     assert player.duration == 3.0
-    player.advance(1.0)
+    state.advance(1.0)
     assert player.time == 0.0  # not playing
-    player.playing, player.speed = True, 0.5
-    player.advance(1.0)
-    p, q = player.pose()
-    np.testing.assert_allclose(p - home.position, [0.5, 0, 0])
-    np.testing.assert_allclose(math.atan2(q[1, 0], q[0, 0]), 0.2)
-    player.advance(6.0)
+    state.toggle()
+    state.speed = 0.5
+    state.advance(1.0)
+    c = state.configuration
+    np.testing.assert_allclose(c.position - home.position, [0.5, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(math.atan2(c.rotation[1, 0], c.rotation[0, 0]), 0.2)
+    state.advance(6.0)
     assert player.time == pytest.approx(0.5)  # begun again
 
 
 def test_the_model_needs_no_screen():
     folder = Path(nd.__file__).parent / "viewer"
-    for name in ("state", "numbers", "subject", "player", "body"):
+    for name in ("state", "numbers", "machine", "body"):
         text = (folder / f"{name}.py").read_text(encoding="utf-8")
         assert "viser" not in text
         assert "plot" not in text

@@ -12,7 +12,7 @@ import typer
 
 from ninedof.cli import options
 from ninedof.support.extras import MissingExtra
-from ninedof.viewer.view import view as view_of
+from ninedof.viewer import view as view_of
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]

@@ -1,0 +1,213 @@
+"""The machine that a viewer opened: a design, the study that it belongs to, and the variables of its family."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninedof.conditioning.characteristic_length import characteristic_length
+from ninedof.design.family_variables import variable_kinds, variables_of
+from ninedof.design.leg_limits import leg_limits_of
+from ninedof.design.region import Region
+from ninedof.design.study import Study
+from ninedof.kinematics.kinematics import leg_lengths
+from ninedof.optimize.result import Result
+from ninedof.paper.published import published_variables
+from ninedof.pareto import Front
+from ninedof.robot.configuration import Configuration, single
+from ninedof.robot.geometry import TRIPLES, Geometry
+from ninedof.runs.design_file import Design, hexagonal_design
+from ninedof.runs.objects import load
+from ninedof.support.arguments import shown
+from ninedof.support.arrays import Floats
+
+LENGTH = "characteristic_length"
+FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
+"""From few variables to many."""
+
+
+class Variable(NamedTuple):
+    """A variable of the family, with the ends of its slider."""
+
+    name: str
+    value: float
+    """In the unit of the study; angles in radians."""
+    low: float
+    high: float
+    is_angle: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """A design of a machine, and what belongs to it and not to a pose. Immutable."""
+
+    geometry: Geometry
+    home: Configuration
+    """The neutral configuration, a single one."""
+    length: float
+    """Characteristic length."""
+    leg_low: Floats
+    """Least length of each leg, shape (9,): of the study, and of the ranges of its region."""
+    leg_high: Floats
+    study: Study | None = None
+    study_lengths: Floats | None = None
+    """Leg lengths at the poses of the study, shape (m, 9): spreads are taken over them and the pose shown."""
+    margins: Mapping[str, float] | None = None
+    """Least margin of every constraint at the study's own poses, by name."""
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """A design and what is known about it. Immutable."""
+
+    design: Design
+    result: Result | None = None
+    """The run that it comes from; None for a design file."""
+
+    @property
+    def unit(self) -> str:
+        """The name of the length unit; "" without one."""
+        return self.design.unit
+
+    @cached_property
+    def study(self) -> Study | None:
+        """The study that found it, with the poses that it was solved for; None without one."""
+        return None if self.result is None else self.result.solved
+
+    @property
+    def region(self) -> Region | None:
+        """The region of the study; None without one."""
+        return None if self.result is None else self.result.study.objective.region
+
+    @cached_property
+    def size(self) -> float:
+        """Diameter of the machine: of a ball about all joints and O at home."""
+        points = machine_points(self.design.geometry, self.design.configuration)
+        return float(2.0 * np.linalg.norm(points - points.mean(axis=0), axis=1).max())
+
+    @cached_property
+    def family(self) -> str:
+        """The family of the study, else the smallest one that has this design; "" if none has."""
+        if self.study is not None:
+            return self.study.family
+        return next((name for name in FAMILIES if variables_of(name, *self.design[:2]) is not None), "")
+
+    @cached_property
+    def variables(self) -> dict[str, float]:
+        """The variables of the family, and a free characteristic length or offsets of O; empty without a family."""
+        if self.result is not None and self.result.variables is not None:
+            return dict(self.result.variables)
+        return (variables_of(self.family, *self.design[:2]) or {}) if self.family else {}
+
+    @cached_property
+    def problem(self) -> Any:
+        """The problem of the study, which makes designs of variables; None without a family."""
+        if not self.family:
+            return None
+        return (self.study or Study(self.family, variables=self.variables)).problem()
+
+    @cached_property
+    def sliders(self) -> list[Variable]:
+        """Every variable of the family with the ends of its slider.
+
+        Bounds of the study, as far as they are within three sizes of the machine; without them half to twice a length,
+        plus or minus half the size about a coordinate, a full turn of an angle.
+        """
+        sliders = []
+        for name, kind in variable_kinds(self.family).items() if self.family else ():
+            value, reach = self.variables[name], 0.5 * self.size
+            bounds = 0.0 if self.study is None else self.study.variables.get(name, 0.0)
+            if isinstance(bounds, tuple):
+                far = math.pi if kind == "angle" else 3.0 * self.size
+                low, high = max(bounds[0], value - far), min(bounds[1], value + far)
+            elif kind == "angle":
+                low, high = -math.pi, math.pi
+            elif kind == "length":
+                low, high = (0.5 * value, 2.0 * value) if value > 0.0 else (0.0, reach)
+            else:
+                low, high = value - reach, value + reach
+            sliders.append(Variable(name, value, min(low, value), max(high, value), kind == "angle"))
+        return sliders
+
+    def variant(self, variables: Mapping[str, float], length: float | None = None) -> Variant:
+        """Return the design of variables; a length of a kind is taken at its neutral pose unless one is given.
+
+        Raises
+        ------
+        ValueError
+            If there is no such design.
+
+        """
+        g, home, study = self.design.geometry, self.design.configuration, self.study
+        lengths, margins = None, None
+        if self.problem is not None:
+            x = [variables[name] for name in self.problem.names]
+            poses = Configuration(*self.problem.configurations(x))
+            if variables != self.variables:
+                g, home = self.problem.geometry(x), poses[0]
+            if study is not None:
+                lengths = np.asarray(leg_lengths(g, poses))
+                evaluated = self.problem.evaluate(x)["margins"] if study.constraints else ()
+                margins = {name: float(margin) for name, margin, _ in evaluated}
+        if length is None:
+            length = self._length(g, home, variables)
+        return Variant(g, home, length, *self._leg_limits(float(home.position[2])), study, lengths, margins)
+
+    def _length(self, g: Geometry, home: Configuration, variables: Mapping[str, float]) -> float:
+        if LENGTH in variables:
+            return variables[LENGTH]
+        length = self.design.characteristic_length if self.study is None else self.study.characteristic_length
+        if isinstance(length, tuple):
+            length = self.design.characteristic_length
+        return float(characteristic_length(g, home, length)) if isinstance(length, str) else float(length)
+
+    def _leg_limits(self, zp: float) -> tuple[Floats, Floats]:
+        low, high = np.zeros(9), np.full(9, math.inf)
+        if self.study is not None:
+            low, high = leg_limits_of(self.study, zp)
+        region = None if self.result is None else self.result.region
+        if region is not None and region.leg_ranges:
+            least, most = np.transpose(region.leg_ranges)
+            low, high = np.maximum(low, least), np.minimum(high, most)
+        return low, high
+
+
+def machine_of(design: Any = None) -> Machine:
+    """Return the machine that an argument `design` names: the published design without one.
+
+    Raises
+    ------
+    ValueError
+        If it is no design: neither a Design, nor a Result with one, nor a path that `ninedof.load` reads as one.
+
+    """
+    name = "design: "
+    if design is None:
+        design = hexagonal_design(published_variables())
+    elif isinstance(design, str | os.PathLike):
+        name, design = f"{os.fspath(design)}: ", load(design)
+    if isinstance(design, Design):
+        single(design.geometry, design.configuration)
+        return Machine(design)
+    if isinstance(design, Front):
+        raise ValueError(f"{name}got a front, expected one of its points: RUN#1 to RUN#{len(design)}")
+    if not isinstance(design, Result):
+        what = shown(design) if name == "design: " else "a run without a design"
+        raise ValueError(f"{name}got {what}, expected a design file, a Design or a run with a design")
+    best = design.best
+    if best is None:
+        raise ValueError(f"{name}the result holds no design: {design.reason}")
+    return Machine(Design(best.geometry, best.configuration, best.characteristic_length, design.study.unit), design)
+
+
+def machine_points(g: Geometry, c: Configuration) -> Floats:
+    """Return the joints in the base frame, in the order of `TRIPLES`, and O; shape (13, 3)."""
+    base_external, base_internal, external, internal = (getattr(g, name) for name in TRIPLES)
+    carried = np.vstack([external, internal]) @ c.rotation.T + c.position
+    return np.vstack([base_external, base_internal, carried, c.internal_point])
