@@ -71,21 +71,21 @@ class Objective(Table):
     Parameters
     ----------
     index : str
-        "condition_number": of J', largest / smallest singular value (default). "frobenius": eq. (4), a smooth
-        alternative. "speed": 1 / smallest singular value, the largest leg rates for a twist of unit norm.
-        "six_legged": the condition number of the Gough-Stewart platform on the same plates, as a reference; at the
-        neutral pose only.
+        "condition_number": of J', eq. (2), largest / smallest singular value (default). "frobenius": eq. (4), a smooth
+        alternative, at least 6. "speed": 1 / smallest singular value, the largest leg rates for a twist of unit norm.
+        "six_legged": the condition number of the Gough-Stewart platform with legs r_i u_i and r̂_i ũ_i on the same
+        plates, as a reference; at the neutral pose only.
     aggregate : str
         Over the poses: "worst" (default); "mean_inverse", the harmonic mean, its inverse being the global conditioning
         index; "weighted", between the two.
     weight : float
-        Share of the worst in "weighted", in logarithms, from 0 to 1; 0.5 by default.
+        Share w of the worst in "weighted", worst^w mean_inverse^(1-w), from 0 to 1; 0.5 by default.
     condition_limit : float, optional
         Bound on the condition number at every pose, whatever the index; at least 1. None by default.
     neutral_condition_limit : float, optional
-        The same at the neutral configuration alone, whatever the poses.
+        The same at the neutral pose alone, listed or not.
     poses : sequence of Pose or mappings
-        Where the design is evaluated; by default at the neutral pose only. See `ninedof.poses`.
+        Where the design is evaluated: at the neutral pose only if none is listed. See `ninedof.poses`.
     region : Region or mapping, optional
         A continuous set of poses: limits hold and the index is the worst in all of it, and at the listed poses.
 

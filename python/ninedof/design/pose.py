@@ -34,11 +34,11 @@ class Pose(Table):
     internal_point : (3,) floats, "shifted", "held" or "best"
         Shift of s from its neutral position (0, 0, zs), base frame. "shifted", the default, is the shift of p: r1 r2 r3
         follow the platform, and q1 q2 q3 its rotation. "held" is no shift: r1 r2 r3 never move. With "best" the
-        optimizer chooses the position.
+        optimizer chooses the position, between the plates and at most zp away along each axis; at the neutral pose zs
+        has this role.
     unit : {"length", "zp"}
         Scale of both shifts: the length unit of the study (default), or the height zp of the design, so that a larger
         design moves farther. The name of the length unit is the `unit` of the study.
-
     weight : float
         Weight in a mean over the poses; 1 by default. With 0 the limits hold at the pose, and it counts as one of which
         the worst is taken, but not in the mean.

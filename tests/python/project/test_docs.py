@@ -1,6 +1,7 @@
 """Links of the documents lead somewhere; the tour runs as written. test_equations.py checks the tables."""
 
 import ast
+import importlib.util
 import re
 import tomllib
 from pathlib import Path
@@ -16,6 +17,13 @@ def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8")):
         if "://" not in target:
             assert (page.parent / target).exists(), f"{page.name} links to {target}"
+
+
+def test_the_tables_of_study_files_are_those_of_the_schema():
+    spec = importlib.util.spec_from_file_location("study_tables", ROOT / "docs/builder/study_tables.py")
+    study_tables = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(study_tables)
+    assert study_tables.page() == study_tables.PAGE.read_text(encoding="utf-8"), "run docs/builder/study_tables.py"
 
 
 @pytest.mark.parametrize("name", ["setup", "test"])
