@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from ninedof.design.indices import INDICES, Index, computed
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.support.arguments import choice, shown
-from ninedof.support.arrays import Floats
 from ninedof.support.files import is_plain_name
 
 OwnIndex = Callable[[Geometry, Configuration, Any], Any]
@@ -21,52 +17,30 @@ What = str | OwnIndex | Iterable[str | OwnIndex]
 """The argument `index`."""
 
 
-@dataclass(frozen=True)
-class _Own:
-    """Calls a caller's function and checks the result."""
-
-    name: str
-    function: OwnIndex
-
-    def __call__(self, g: Geometry, c: Configuration, length: Any, threads: int | None) -> Floats:
-        returned = self.function(g, c, length)
-        if isinstance(returned, np.ma.MaskedArray):
-            raise ValueError(f"index {self.name}: got a masked array, expected one without a mask, NaN for no value")
-        found = np.asarray(returned)
-        if found.dtype.kind not in "biuf":
-            raise ValueError(f"index {self.name}: got dtype {found.dtype}, expected real numbers")
-        found = found.astype(np.float64, copy=False)
-        if found.shape != c.shape:
-            raise ValueError(
-                f"index {self.name}: got shape {found.shape}, expected {c.shape}, one number per configuration"
-            )
-        return found
-
-
 def indices_of(index: Any, of_designs: bool = False) -> tuple[Index, ...]:
     """Return the indices for the argument `index`: a name, a function, or several of them.
 
     Of designs at their neutral pose there are more: those that the core alone has, as objectives.
     """
-    given = [index] if isinstance(index, str) or callable(index) else index
-    sequence = isinstance(given, Iterable) and not isinstance(given, bytes | bytearray | memoryview | np.ndarray)
-    if not sequence or not (listed := list(given)) or not all(isinstance(one, str) or callable(one) for one in listed):
+    single = isinstance(index, str) or callable(index) or not isinstance(index, Iterable)
+    listed = [index] if single else list(index)
+    if not listed or not all(isinstance(one, str) or callable(one) for one in listed):
         raise ValueError(f"index: got {shown(index)}, expected a name, a callable, or a sequence of them")
     known = INDICES if of_designs else computed()
     if "six_legged" in listed and not of_designs:
         raise ValueError("index: got 'six_legged', which is for the neutral pose: sweep over variables of the design")
-    found = tuple(_own(one) if callable(one) else known[choice("index", one, known)] for one in listed)
-    names = [one.name for one in found]
+    indices = tuple(_own(one) if callable(one) else known[choice("index", one, known)] for one in listed)
+    names = [one.name for one in indices]
     if len(set(names)) < len(names):
         raise ValueError(f"index: got {', '.join(names)}, expected different names")
-    return found
+    return indices
 
 
 def _own(function: OwnIndex) -> Index:
     name = getattr(function, "__name__", type(function).__name__)
     if not is_plain_name(name):
         raise ValueError(f"index: got a function of the name {shown(name)}, expected a name without / and \\")
-    return Index(name, _Own(name, function))
+    return Index(name, function, own=True)
 
 
 def identity(index: Index) -> str:
@@ -78,9 +52,9 @@ def identity(index: Index) -> str:
         If it is a function that cannot be found by name.
 
     """
-    if not isinstance(index.function, _Own):
+    if not index.own:
         return index.name
-    function = index.function.function
+    function = index.function
     module, name = getattr(function, "__module__", None), getattr(function, "__qualname__", "<nameless>")
     if module is None or "<" in name.replace("<locals>.", ""):
         raise ValueError(

@@ -25,6 +25,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import singularity_margins
+from ninedof.support.arrays import as_floats
 
 MECHANISMS = ("det_n", "det_b", "det_c")
 
@@ -52,6 +53,8 @@ class Index:
     """Whether it depends on the characteristic length."""
     signed: bool = False
     """Whether its sign is a side, and its size what counts: the least value is that of least modulus."""
+    own: bool = False
+    """Whether the function is the caller's: it takes no number of threads."""
 
     @property
     def words(self) -> str:
@@ -66,7 +69,13 @@ class Index:
     def values(self, geometry: Geometry, configuration: Configuration, length: Any, threads: int | None) -> Any:
         """Return the index at every configuration."""
         assert self.function is not None, f"{self.name} is an objective only"
-        return self.function(geometry, configuration, length, threads=threads)
+        if not self.own:
+            return self.function(geometry, configuration, length, threads=threads)
+        values = as_floats(f"index {self.name}", self.function(geometry, configuration, length), ())
+        if values.shape != configuration.shape:
+            got, expected = values.shape, configuration.shape
+            raise ValueError(f"index {self.name}: got shape {got}, expected {expected}, one number per configuration")
+        return values
 
 
 def _speed(g: Geometry, c: Configuration, length: Any, threads: int | None) -> Any:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from decimal import ROUND_FLOOR, Context
 from functools import partial
 from typing import Any
 
@@ -154,4 +153,6 @@ def _degrees(angle: float) -> str:
     """Return an angle in degrees, as it was typed or in six digits, never more than it is."""
     if exact := exact_degrees(angle):
         return _plain(exact[0])
+    from decimal import ROUND_FLOOR, Context  # when it is needed, as it takes time to load
+
     return _plain(float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal_from_float(math.degrees(angle))))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 import unicodedata
@@ -48,7 +47,9 @@ def shown_key(key: object) -> str:
 
 def did_you_mean(slip: object, known: Iterable[str]) -> str:
     """Return a suggestion in brackets, or nothing."""
-    close = difflib.get_close_matches(str(slip)[:LONGEST].lower(), list(known), n=1, cutoff=0.5)
+    from difflib import get_close_matches  # when it is needed, as it takes time to load
+
+    close = get_close_matches(str(slip)[:LONGEST].lower(), list(known), n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Mapping
 from typing import Any
 
@@ -26,6 +25,8 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
         text = read_text(path, TOML)
         if key := deep_key(text):
             raise ValueError(f"got the key {shown(key)}, expected at most {DEEPEST} parts")
+        import tomllib  # when it is needed, as it takes time to load
+
         return tomllib.loads(text)
     except OSError as error:
         raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
