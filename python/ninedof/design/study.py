@@ -6,8 +6,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
-from itertools import chain
+from functools import cached_property, partial
 from typing import Any
 
 from ninedof import _core
@@ -16,7 +15,6 @@ from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.design_point import DesignPoint, design_point
 from ninedof.design.limits import ROWS, Limit, form, parse
 from ninedof.design.objective import Objective
-from ninedof.robot.configuration import Configuration
 from ninedof.support.angles import DEG, angle_entry, degrees_of, in_radians
 from ninedof.support.arguments import (
     bound,
@@ -70,9 +68,9 @@ def _family(name: str, value: Any) -> str:
     return choice(name, value, _core.design_family_names())
 
 
-def _constraints(name: str, value: Any) -> Any:
+def _constraints(name: str, value: Any) -> Mapping[str, Any]:
     known_keys(name, value, ROWS)
-    return value
+    return Fixed({key: form(parse(key, limits)) for key, limits in value.items()})
 
 
 def _length(name: str, value: Any) -> float | str | tuple[float, float]:
@@ -161,8 +159,6 @@ class Study:
     objective: Objective = entry(_objective, Objective())
     unit: str = entry(_unit, "")
     """Name of the length unit; "" without one."""
-    limits: tuple[Limit, ...] = field(default=(), init=False, compare=False, repr=False)
-    """The constraints, one after the other; those stated twice have two."""
     defaulted: tuple[str, ...] = field(default=(), init=False, compare=False, repr=False)
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
@@ -184,11 +180,8 @@ class Study:
             unit = length if isinstance(length, float) and kind in ("length", "coordinate") else 1.0
             low, high = (end * unit for end in ends)
             variables[name] = bound(name, named[name]) if name in named else low if low == high else (low, high)
-        limits = {name: parse(name, value) for name, value in self.constraints.items()}
         for name, value in {
             "variables": Fixed(variables),
-            "constraints": Fixed({name: form(one) for name, one in limits.items()}),
-            "limits": tuple(chain.from_iterable(limits.values())),
             "length_assumed": assumed,
             "defaulted": tuple(n for n, b in variables.items() if n not in named and isinstance(b, tuple)),
         }.items():
@@ -286,6 +279,11 @@ class Study:
         value = number("value", value)
         return degrees_of(value) if text("variable", variable) in self.angles else value
 
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """The constraints, one after the other; those stated twice have two."""
+        return tuple(limit for name, value in self.constraints.items() for limit in parse(name, value))
+
     @property
     def words(self) -> str:
         """The objective in words, with the unit of lengths."""
@@ -318,27 +316,23 @@ class Study:
         characteristic length, which is then the one that is best at the neutral pose, and free offsets of O, which are
         then zero.
         """
-        problem = self.problem()
-        names = list(problem.names)
+        names = self.problem().names
         kinds = dict.fromkeys(names, "") | variable_kinds(self.family)
-        given = _in_radians("variables", variables, kinds, finite)
-        out = []
-        for name in names:
-            bound = self.variables.get(name, 0.0)
-            if name in given:
-                out.append(finite(name, given[name]))
-            elif isinstance(bound, tuple):
+        values = {name: finite(name, x) for name, x in _in_radians("variables", variables, kinds, finite).items()}
+        for name, ends in self.variables.items():
+            if name not in values and isinstance(ends, tuple):
                 raise ValueError(f"{name}: got no value, expected a number (the variable is free in this study)")
-            else:
-                out.append(bound)
-        if LENGTH in names and LENGTH not in given:
-            out[names.index(LENGTH)] = 1.0  # any value: the robot does not depend on it
-            out[names.index(LENGTH)] = self._best_length(problem, out)
-        return out
+        others: dict[str, Any] = dict.fromkeys(names, 0.0) | dict(self.variables)
+        others[LENGTH] = 1.0  # until it is known: the robot does not depend on it
+        x = [(others | values)[name] for name in names]
+        if LENGTH in names and LENGTH not in values:
+            x[names.index(LENGTH)] = self._best_length(x)
+        return x
 
-    def _best_length(self, problem: _core.Problem, x: list[float]) -> float:
+    def _best_length(self, x: list[float]) -> float:
         """Return the characteristic length that is best at the neutral pose, within the bounds."""
-        best = float(length_of(problem.geometry(x), Configuration(*problem.configurations(x))[0], "optimal"))
+        point = design_point(self.problem(), x)
+        best = float(length_of(point.geometry, point.configuration, "optimal"))
         low, high = self.characteristic_length if isinstance(self.characteristic_length, tuple) else (0.0, math.inf)
         return min(max(best if math.isfinite(best) else 1.0, low), high)
 
