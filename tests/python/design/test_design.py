@@ -142,19 +142,6 @@ def test_fixed_variables_may_be_left_out():
     assert p.condition_number == pytest.approx(3.9110, abs=5e-5)
 
 
-SINGULAR = {
-    "similar hexagons": (1.0, 2.0, 0.5, 1.0, 3.0, 1.0, 0.0),
-    "regular hexagons": (1.0, 1.0, 0.5, 0.5, 3.0, 1.0, 0.0),
-    "O in the base": (0.0, 2.0, 1.0, 0.0, 3.0, 0.0, 0.0),
-    "O in the platform": (0.0, 2.0, 1.0, 0.0, 3.0, 3.0, 0.0),
-}
-
-
-@pytest.mark.parametrize("x", SINGULAR.values(), ids=SINGULAR.keys())
-def test_singular_design_is_infinite(x):
-    assert point(x).condition_number == math.inf
-
-
 @pytest.mark.parametrize("scale", [1e-3, 1e-5])
 def test_gradient_close_to_a_singular_design(scale):
     """Similar hexagons but for `scale`: the gradient grows without bound and must keep its digits."""

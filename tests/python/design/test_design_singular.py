@@ -17,6 +17,7 @@ WIDE = {
 }
 SINGULAR = {
     "similar hexagons": (1.0, 2.0, 0.5, 1.0, 3.0, 1.0, 0.0),
+    "regular hexagons": (1.0, 1.0, 0.5, 0.5, 3.0, 1.0, 0.0),
     "O in the base": (0.0, 2.0, 1.0, 0.0, 3.0, 0.0, 0.0),
     "O in the platform": (0.0, 2.0, 1.0, 0.0, 3.0, 3.0, 0.0),
     "plates in one another": (0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0),
