@@ -21,7 +21,6 @@ except ImportError as error:
         "install the package with `pip install .` from its source directory and import it from elsewhere"
     ) from error
 
-from ninedof.atlas import atlas
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.conditioning.conditioning import (
     axis_singular_values,
@@ -86,7 +85,7 @@ from ninedof.singularity.singularity_distance import SingularityDistance, distan
 from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error_samples
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
-from ninedof.sweep import SweepResult, sweep, sweep_designs
+from ninedof.sweep import SweepResult, atlas, sweep, sweep_designs
 from ninedof.verify import check
 from ninedof.viewer import view
 from ninedof.workspace import (

@@ -6,7 +6,6 @@ import hashlib
 import os
 import re
 import secrets
-import warnings
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -27,7 +26,7 @@ EARLIER = "ninedof-chunks-1"
 MANIFEST = "manifest.json"
 MARK = b"ninedof chunk 2\n"
 DIGEST = 32  # bytes
-FILES = re.compile(rf"chunk-\d{{8,}}|{re.escape(MANIFEST)}")
+FILES = re.compile(rf"chunk-\d{{8,}}|{re.escape(MANIFEST)}|finished\.npz")
 ASIDE = "not-a-"  # begins the new name of a folder in the place of a chunk
 
 
@@ -57,7 +56,6 @@ class Store:
     def __init__(self, folder: str | os.PathLike[str], question: Mapping[str, Any], chunk: int) -> None:
         self.folder = Path(folder)
         self.chunk = chunk
-        self._unwritten: OSError | None = None
         asked = {**plain(question), "ninedof": versions()["ninedof"]}
         self._create()
         self._is_ours()  # before the lock, which is a file
@@ -89,26 +87,6 @@ class Store:
         if path.is_dir() and not path.is_symlink():  # whoever made it: no file can take its place
             path.rename(path.with_name(f"{ASIDE}{path.name}-{secrets.token_hex(4)}"))
         write_whole(path, MARK + self._digest_of(k, payload) + payload)
-
-    def keep(self, k: int, arrays: Arrays) -> None:
-        """Write a finished chunk if there is room; without, a warning tells of the first: the run is worth more."""
-        try:
-            self.write(k, arrays)
-        except OSError as error:
-            if self._unwritten is None:
-                lost = "the run goes on, but chunks that cannot be written are lost if it ends early"
-                warnings.warn(f"{self.path(k)}: {error.strerror or error}; {lost}", RuntimeWarning, stacklevel=2)
-            self._unwritten = error
-
-    def kept_words(self) -> str:
-        """Return what is kept of a run that an error ends; "" where that is nothing and nothing was lost."""
-        there = any(self.folder.glob("chunk-*"))
-        if self._unwritten is None:
-            return f"Finished chunks are kept in {self.folder}: the same call goes on from there." if there else ""
-        why = self._unwritten.strerror or self._unwritten
-        if not there:
-            return f"No finished chunk could be kept ({why})."
-        return f"Some of the finished chunks are kept in {self.folder}, others could not be written ({why})."
 
     def read(self, k: int) -> Arrays | None:
         """Return a finished chunk; None if it is missing or damaged."""

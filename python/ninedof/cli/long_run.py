@@ -2,32 +2,19 @@
 
 from __future__ import annotations
 
-import shlex
-import warnings
-from asyncio import CancelledError
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninedof.chunks.store import Store
-from ninedof.cli.job_report import report_words, told, with_report
 from ninedof.cli.remembered import remember
-from ninedof.cli.screen import Screen, bold
 from ninedof.runs.command_file import FILE, Input
 from ninedof.runs.directory import run_directory, used_directory
-from ninedof.runs.folder import FILE as RECORD
-from ninedof.runs.folder import write_run
-from ninedof.support.arguments import LONGEST
-from ninedof.support.extras import MissingExtra
-from ninedof.support.printable import one_line
-from ninedof.sweep import SweepResult
-from ninedof.sweep.cluster import dask_executor, is_of_cluster
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 CHUNKS = "chunks"
 AGAIN = "; the same command with --out {} --resume continues the run"
@@ -88,87 +75,3 @@ class Finished:
                 with suppress(OSError):  # a full disk: the result is worth more than its piece
                     store.write(number, result._contents())
             return result
-
-
-def compute(
-    asked: Callable[..., SweepResult], title: str, directory: Path, scheduler: str | None, screen: Screen
-) -> SweepResult | None:
-    """Compute with a progress bar and keep chunks in the run folder; return None if Ctrl-C ends the run."""
-    try:
-        with _executor(scheduler) as executor, _saying_warnings(screen), screen.points(title) as bar:
-            return asked(executor=executor, out=directory / CHUNKS, progress=bar.show)
-    except KeyboardInterrupt:
-        screen.print(bold("interrupted", f": {_kept(directory)}"))
-        screen.data({"interrupted": True, "run": str(directory)})
-        return None
-    except (Exception, CancelledError) as error:
-        if scheduler is None or not is_of_cluster(error):
-            raise
-        reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        raise RuntimeError(f"--scheduler: lost {scheduler} ({reason[:LONGEST]}); {_kept(directory, AGAIN)}") from None
-
-
-def _kept(directory: Path, more: str = "") -> str:
-    """Return what is kept of a run that has no record: the folder is looked at, since its disk may be full."""
-    if not any((directory / CHUNKS).glob("chunk-*")):
-        return "nothing is kept of what was computed"
-    return f"finished chunks are kept in {directory}{more.format(shlex.quote(str(directory)))}"
-
-
-@contextmanager
-def _saying_warnings(screen: Screen) -> Iterator[None]:
-    """Say what a run warns of at once, and on one line: that the disk is full."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", RuntimeWarning)
-        warnings.showwarning = lambda message, *_, **__: screen.say(one_line(str(message)))
-        yield
-
-
-def write(
-    result: SweepResult,
-    directory: Path,
-    stem: str,
-    draw: Callable[[], Iterable[tuple[str, Figure]]] | None,
-    screen: Screen,
-    data: Any,
-    words: Callable[[], object],
-    report: bool = True,
-) -> None:
-    """Write the result and its record, say the words, then write figures, each with its name, and the report."""
-    names: list[str] = []
-
-    def drawn(folder: Path) -> list[Path]:
-        screen.say(f"drawing the {stem}")
-        from ninedof import plot
-
-        files: list[Path] = []
-        for name, figure in draw() if draw else ():
-            names.append(name)
-            files += plot.save(figure, folder, name)
-        return files
-
-    try:
-        with told(screen, words, data) as once:
-            drawing = with_report(drawn if draw else None, report and draw is not None, screen, once)
-            record = write_run(result, directory, drawing, results=data)
-    except OSError as error:
-        if not (directory / RECORD).is_file():
-            kept = _kept(directory, AGAIN)
-            error.add_note(f"{kept[0].upper()}{kept[1:]}.")
-        raise
-    made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
-    screen.print(f"run folder {directory}: {record.name}, {stem}.npz{made}{report_words(directory)}")
-    screen.data({**data, "record": str(record)})
-
-
-@contextmanager
-def _executor(scheduler: str | None) -> Iterator[Executor | None]:
-    if scheduler is None:
-        yield None
-        return
-    with ExitStack() as stack:
-        try:
-            executor = stack.enter_context(dask_executor(scheduler))
-        except (MissingExtra, ValueError) as error:
-            raise ValueError(f"--scheduler: {str(error).removeprefix('address: ')}") from None
-        yield executor

@@ -10,12 +10,13 @@ from ninedof.design.family_variables import variables_of
 from ninedof.design.study import Study
 from ninedof.paper.published import published_variables
 from ninedof.support.angles import plain_name
+from ninedof.sweep.run import DesignOptions
 
 FAMILIES = {name: tuple(Study(name).variables) for name in ("hexagonal", "symmetric", "symmetric_nonplanar", "general")}
 VARIABLES = frozenset(name for names in FAMILIES.values() for name in names)
 
-Held = tuple[str, dict[str, float], float | str, str]
-"""A family, the values of the variables that are not swept, the characteristic length, the unit of lengths."""
+Held = tuple[dict[str, float], DesignOptions]
+"""The values of the variables that are not swept, and their family, characteristic length and unit of lengths."""
 
 
 def swept_design(
@@ -25,15 +26,15 @@ def swept_design(
     over = [plain_name(swept) for swept in over]
     if name is not None:
         return _of_named(name, sides, theta_z_deg, over, lc)
-    given = {side: value for side, value in sides.items() if value is not None}
-    if both := sorted(set(given) & set(over)):
+    own = {side: value for side, value in sides.items() if value is not None}
+    if both := sorted(set(own) & set(over)):
         raise ValueError(f"--over: got {both[0]}, which --{both[0]} holds, expected one of the two")
     if others := [swept for swept in over if swept not in FAMILIES["hexagonal"]]:
         raise ValueError(f"--over: got {others[0]}, expected a DESIGN whose family has it")
-    values = given or published_variables()
+    values = own or published_variables()
     if theta_z_deg is not None:
         values["theta_z"] = math.radians(theta_z_deg)
-    return "hexagonal", _without(values, over), 1.0 if lc is None else length_option(lc), ""
+    return _held("hexagonal", values, over, 1.0 if lc is None else length_option(lc))
 
 
 def _of_named(
@@ -46,18 +47,17 @@ def _of_named(
     if chosen.result is not None and chosen.result.best is not None and chosen.study is not None:
         family = chosen.study.family
         if set(over) <= set(FAMILIES[family]):
-            found = chosen.result.best.variables
-            return family, _without({n: found[n] for n in FAMILIES[family]}, over), length, chosen.unit
+            return _held(family, chosen.result.best.variables, over, length, chosen.unit)
     fits = []
     for family, known in FAMILIES.items():
         values = variables_of(family, chosen.geometry, chosen.configuration)
         if values is not None and set(over) <= set(known):
-            return family, _without(values, over), length, chosen.unit
+            return _held(family, values, over, length, chosen.unit)
         fits += [family] * (values is not None)
     expected = f"variables of one family: {', '.join(fits)}" if fits else "coordinates: O or p is not on the z axis"
     raise ValueError(f"--over: got {', '.join(over)}, which {name} does not have as variables, expected {expected}")
 
 
-def _without(values: Mapping[str, float], over: Iterable[str]) -> dict[str, float]:
-    swept = set(over)
-    return {name: value for name, value in values.items() if name not in swept}
+def _held(family: str, values: Mapping[str, float], over: list[str], length: float | str, unit: str = "") -> Held:
+    held = {name: values[name] for name in FAMILIES[family] if name in values and name not in over}
+    return held, {"family": family, "characteristic_length": length, "unit": unit}

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.indices import INDICES, Index
 from ninedof.design.study import Study
@@ -20,11 +19,12 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arguments import choice, whole
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays
 from ninedof.support.progress import Progress
 from ninedof.sweep.axis import Axis, Grid
+from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES
 from ninedof.sweep.result import SweepResult
-from ninedof.sweep.work import GridWork
 
 FIGURES = ("6", "7")
 SHOWN = ("x_p", "y_p", "z_p", "theta_x", "theta_y", "theta_z", "x_s", "y_s", "z_s")
@@ -78,17 +78,17 @@ def sweep_figure(
     Examples
     --------
     >>> import ninedof as nd
-    >>> found = nd.sweep_figure("6", points=3)
-    >>> found["coordinate"].tolist()[:2], found["condition_number"][0].round(2).tolist()
+    >>> curves = nd.sweep_figure("6", points=3)
+    >>> curves["coordinate"].tolist()[:2], curves["condition_number"][0].round(2).tolist()
     (['x_p', 'y_p'], [6.73, 3.91, 6.52])
 
     """
     which = choice("figure", figure, FIGURES)
     work = _figure_6(_points(points, 201)) if which == "6" else _figure_7(_points(points, 8 * OCTAVES + 1))
     units = {"coordinate": "1", "sides": "1", "ratio": "1", "displacement": "l_c or rad"}
-    found = work.result(units, executor=executor, out=out, progress=progress)
+    result = work.result(units, "", executor, out, progress)
     words = {"coordinate": np.array(SHOWN)} if which == "6" else {"sides": np.array([f"{s}1/{s}2" for s in SIDES])}
-    return replace(found, coords={**found.coords, **words}, attributes={**found.attributes, "figure": which})
+    return replace(result, coords={**result.coords, **words}, attributes={**result.attributes, "figure": which})
 
 
 def _points(points: int | None, default: int) -> int:
@@ -145,9 +145,9 @@ class _Ratios:
             if result.interrupted:
                 raise KeyboardInterrupt
             if result.status == Status.OPTIMAL and result.best is not None:
-                found = result.best
-                kappa[k] = found.condition_number
-                design[k] = [found.variables[name] / found.characteristic_length for name in HEXAGONAL]
+                best = result.best
+                kappa[k] = best.condition_number
+                design[k] = [best.variables[name] / best.characteristic_length for name in HEXAGONAL]
         return {"condition_number": kappa, "design": design}
 
     def question(self) -> dict[str, Any]:

@@ -1,10 +1,11 @@
-"""Sweeps: an index over a grid of configurations or of designs.
+"""Sweeps and atlases: an index over a grid of configurations or of designs, and surveys of many designs.
 
-`axis` has the points, `index` the quantities, `poses` and `variants` the robots at the points, `work` the chunks,
-`result` the labelled arrays. The public functions are in `run`.
+`axis` has the points, `poses` and `variants` the robots at the points of a `grid`, `sample` and `tally` the designs of
+an `atlas`; `chunks` computes both, in memory, in a folder or on a cluster; `result` has the labelled arrays.
 """
 
+from ninedof.sweep.atlas import atlas
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.run import sweep, sweep_designs
 
-__all__ = ["SweepResult", "sweep", "sweep_designs"]
+__all__ = ["SweepResult", "atlas", "sweep", "sweep_designs"]

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays
 from ninedof.design.indices import Index
 from ninedof.redundancy.redundancy_map import best_internal_map
 from ninedof.robot.configuration import Configuration, arrays_of
 from ninedof.robot.geometry import Geometry, triples
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays
 
 ROTATION, POSITION, INTERNAL = ("theta_x", "theta_y", "theta_z"), ("x_p", "y_p", "z_p"), ("x_s", "y_s", "z_s")
 COORDINATES = (*ROTATION, *POSITION, *INTERNAL)

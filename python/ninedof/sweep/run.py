@@ -7,9 +7,9 @@ import os
 from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import replace
+from typing import TypedDict, Unpack
 
 from ninedof import _core
-from ninedof.chunks import chunk_argument
 from ninedof.conditioning.characteristic_length import length_argument
 from ninedof.design.index_argument import What, indices_of
 from ninedof.robot.configuration import Configuration, single
@@ -20,13 +20,44 @@ from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress
 from ninedof.support.units import unit_argument
 from ninedof.sweep.axis import Values, axes_of
+from ninedof.sweep.chunks import chunk_argument
+from ninedof.sweep.grid import GridWork
 from ninedof.sweep.poses import COORDINATES, INTERNAL, ROTATION, RULES, Poses, best_block
 from ninedof.sweep.result import SweepResult
 from ninedof.sweep.variants import Variants
-from ninedof.sweep.work import GridWork
 
 # A chunk takes under a tenth of a second: signals are checked between chunks.
 POSES, DESIGNS = 65536, 1024
+
+
+class RunOptions(TypedDict, total=False):
+    """How a long computation runs, as keywords."""
+
+    executor: Executor | None
+    out: str | os.PathLike[str] | None
+    progress: Progress | None
+
+
+class GridOptions(RunOptions, total=False):
+    """Options of both kinds of sweeps, as keywords."""
+
+    characteristic_length: float | str
+    chunk: int | None
+    unit: str | None
+
+
+class SweepOptions(GridOptions, total=False):
+    """Options of `sweep`, as keywords."""
+
+    relative: bool
+    internal_point: str
+    threads: int | None
+
+
+class DesignOptions(GridOptions, total=False):
+    """Options of `sweep_designs`, as keywords."""
+
+    family: str
 
 
 def sweep(
@@ -34,16 +65,7 @@ def sweep(
     home: Configuration,
     over: Mapping[str, Values],
     index: What = "condition_number",
-    *,
-    relative: bool = True,
-    internal_point: str = "held",
-    characteristic_length: float | str = 1.0,
-    executor: Executor | None = None,
-    out: str | os.PathLike[str] | None = None,
-    chunk: int | None = None,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    unit: str | None = None,
+    **options: Unpack[SweepOptions],
 ) -> SweepResult:
     """Return an index over a grid of one, two or three of the nine configuration coordinates.
 
@@ -63,23 +85,26 @@ def sweep(
     index : str, callable, or a sequence of them
         Names of the table in docs/sweeps.md, "condition_number" or "leg_lengths" among them. A callable takes the
         geometry, a stack of n configurations and the characteristic length and returns n numbers.
+    options : SweepOptions
+        Keywords, as follows.
     relative : bool
-        Whether the values are displacements from `home`. If not they are the coordinates themselves, and a swept theta
-        takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
+        Whether the values are displacements from `home`, the default. If not they are the coordinates themselves, and a
+        swept theta takes the place of the rotation at home: Q = exp(theta), components that are not swept being zero.
     internal_point : {"held", "carried", "best"}
         Position of O while the platform moves: at home, as in the paper's Fig. 6; as a point of the platform
         ("carried"), from where swept x_s, y_s, z_s displace it; or the point of least condition number
-        (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible).
+        (`best_internal_map`, over blocks of some 2000 points; NaN where no position is admissible). "held" by default.
     characteristic_length : float or str
         A number, or a kind of `ninedof.characteristic_length`, taken at each configuration; 1 by
-        default; a Result and a Design have their own, `found.characteristic_length`.
+        default; a Result and a Design have their own, `result.characteristic_length`.
     executor : concurrent.futures.Executor, optional
         Where the chunks are computed: threads, processes, or a cluster by Dask's `Client.get_executor()`. In this
         process by default. The values are the same, bit for bit. The executor handles lost workers: Dask repeats their
         chunks on others. An exception of the executor ends the sweep; finished chunks stay in `out`.
     out : path, optional
         Folder that keeps finished chunks. The same call continues a sweep that was interrupted or killed. A folder with
-        the chunks of another question raises ValueError.
+        the chunks of another question raises ValueError, which names both. Arrays are read from there as they are
+        needed: memory does not hold them.
     chunk : int, optional
         Points per chunk; with "best" rounded up to whole blocks. The values do not depend on it.
     threads : int, optional
@@ -106,47 +131,40 @@ def sweep(
     >>> import ninedof as nd
     >>> g = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
     >>> home = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
-    >>> found = nd.sweep(g, home, {"x_p": (-1.0, 1.0, 5)})
-    >>> found["condition_number"].round(4).tolist()
+    >>> result = nd.sweep(g, home, {"x_p": (-1.0, 1.0, 5)})
+    >>> result["condition_number"].round(4).tolist()
     [6.7289, 4.8289, 3.9071, 4.7669, 6.5228]
 
     """
+    known_keys("sweep", options, SweepOptions.__annotations__)
     single(geometry, home, "home")
-    relative = flag("relative", relative)
+    relative = flag("relative", options.get("relative", True))
     grid = axes_of(over, COORDINATES, ROTATION)
-    named = unit_argument(unit)
-    rule = choice("internal_point", internal_point, RULES)
-    length = length_argument(characteristic_length)
+    rule = choice("internal_point", options.get("internal_point", "held"), RULES)
+    length = length_argument(options.get("characteristic_length", 1.0))
     swept = {axis.name for axis in grid.axes}
     if swept & set(INTERNAL) and (rule == "best" or (rule == "carried" and not relative)):
         where = "displaced from home" if rule == "best" else "displacements"
         raise ValueError(f'over: got {", ".join(sorted(swept))} with internal_point="{rule}", expected O to be {where}')
     if rule == "best" and isinstance(length, str):
         raise ValueError(f'characteristic_length: got {shown(length)} with internal_point="best", expected a number')
-    points = chunk_argument(chunk, POSES)
     poses = Poses(geometry, home, relative, rule, length)
+    points = chunk_argument(options.get("chunk"), POSES)
     if rule == "best":
-        block = best_block(grid.shape)
-        poses, size = replace(poses, block=block), math.prod(block)
-        points = size if chunk is None else -(-points // size) * size
-    workers = 1 if threads is None and executor is not None else (thread_argument(threads) or None)
-    work = GridWork(poses, grid, indices_of(index), points, workers)
+        poses = replace(poses, block=best_block(grid.shape))
+        size = math.prod(poses.block)
+        points = size if options.get("chunk") is None else -(-points // size) * size
+    threads = options.get("threads")
+    workers = 1 if threads is None and options.get("executor") is not None else (thread_argument(threads) or None)
     units = {name: "rad" if name in ROTATION else "length" for name in COORDINATES}
-    return work.result(units, named, executor=executor, out=out, progress=progress)
+    return _result(GridWork(poses, grid, indices_of(index), points, workers), units, options)
 
 
 def sweep_designs(
     design: Mapping[str, float],
     over: Mapping[str, Values],
     index: What = "condition_number",
-    *,
-    family: str = "hexagonal",
-    characteristic_length: float | str = 1.0,
-    executor: Executor | None = None,
-    out: str | os.PathLike[str] | None = None,
-    chunk: int | None = None,
-    progress: Progress | None = None,
-    unit: str | None = None,
+    **options: Unpack[DesignOptions],
 ) -> SweepResult:
     """Return an index at the neutral pose over a grid of one, two or three variables of a design family.
 
@@ -160,10 +178,12 @@ def sweep_designs(
     index : str, callable, or a sequence of them
         As in `sweep`. The condition number of untwisted hexagonal designs comes from the closed form, a few
         nanoseconds each; other indices are evaluated design by design, about ten thousand per second.
+    options : DesignOptions
+        Keywords, as follows.
     family : str
-        As in `Study`: "hexagonal", "symmetric", "symmetric_nonplanar" or "general".
+        As in `Study`: "hexagonal", the default, "symmetric", "symmetric_nonplanar" or "general".
     characteristic_length : float or str
-        A number, or a kind of `ninedof.characteristic_length`, taken at each design.
+        A number, 1 by default, or a kind of `ninedof.characteristic_length`, taken at each design.
     executor, out, chunk, progress, unit : optional
         As in `sweep`.
 
@@ -181,33 +201,33 @@ def sweep_designs(
     --------
     >>> import ninedof as nd
     >>> plates = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828}
-    >>> found = nd.sweep_designs(plates, {"zs": (2.3, 2.6, 4)})
-    >>> found["condition_number"].round(3).tolist()
+    >>> result = nd.sweep_designs(plates, {"zs": (2.3, 2.6, 4)})
+    >>> result["condition_number"].round(3).tolist()
     [3.924, 3.909, 3.91, 3.929]
 
     """
-    variables = _core.family_variables(choice("family", family, _core.design_family_names()))
+    known_keys("sweep_designs", options, DesignOptions.__annotations__)
+    family = choice("family", options.get("family", "hexagonal"), _core.design_family_names())
+    variables = _core.family_variables(family)
     known = [name for name, *_ in variables]
     angles = [name for name, kind, *_ in variables if kind == "angle"]
     grid = axes_of(over, known, angles)
-    named = unit_argument(unit)
     known_keys("design", design, [*known, *(name + DEG for name in angles)])
-    design = in_radians(design, dict.fromkeys(angles, finite))
+    turned = in_radians(design, dict.fromkeys(angles, finite))
+    held = {name: finite(f"design[{name!r}]", value) for name, value in turned.items()}
     swept = [plain_name(axis.name) for axis in grid.axes]
-    if both := [name for name in swept if name in design]:
+    if both := [name for name in swept if name in held]:
         raise ValueError(f"design: got {both[0]}, which is swept, expected it in one place")
-    variants = Variants(
-        family,
-        {name: finite(f"design[{name!r}]", v) for name, v in design.items()},
-        length_argument(characteristic_length),
-    )
-    study = variants.study()
-    study.vector(
-        {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
-    )  # raises for missing variables
-    units = {name: "rad" if name in study.angles else "length" for name in known}
+    variants = Variants(family, held, length_argument(options.get("characteristic_length", 1.0)))
+    at_first = {name: float(values[0]) for name, values in grid.in_radians(0, 1).items()}
+    variants.study().vector(at_first)  # raises for missing variables
     indices = indices_of(index, of_designs=True)
     variants.check(indices)
     fast = all(variants.has_closed_form(i, swept) for i in indices)
-    work = GridWork(variants, grid, indices, chunk_argument(chunk, POSES if fast else DESIGNS), 1)
-    return work.result(units, named, executor=executor, out=out, progress=progress)
+    work = GridWork(variants, grid, indices, chunk_argument(options.get("chunk"), POSES if fast else DESIGNS), 1)
+    return _result(work, {name: "rad" if name in angles else "length" for name in known}, options)
+
+
+def _result(work: GridWork, units: Mapping[str, str], options: GridOptions) -> SweepResult:
+    unit = unit_argument(options.get("unit"))
+    return work.result(units, unit, options.get("executor"), options.get("out"), options.get("progress"))

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.chunks import Arrays
 from ninedof.conditioning.hexagonal import HEXAGONAL, hexagonal_condition_number
 from ninedof.design.design_point import infinite_if_singular
 from ninedof.design.indices import INDICES, Index
@@ -16,6 +15,7 @@ from ninedof.design.objective import Objective
 from ninedof.design.study import Study
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays
 
 
 @dataclass(frozen=True)

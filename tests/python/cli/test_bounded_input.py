@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.chunks.run import MOST_CHUNKS
 from ninedof.cli.app import main
 from ninedof.runs import folder
 from ninedof.support import reading
 from ninedof.support.json import encode
 from ninedof.support.reading import DEEPEST, deep_key, read_file, read_text
+from ninedof.sweep.chunks import MOST_CHUNKS
 
 POSIX = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have names")
 

@@ -15,7 +15,6 @@ import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.runs.folder import load_record
 from ninedof.support.lock import LOCK
-from ninedof.sweep import sink
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
 PLAIN = ["--no-figures", "--no-report"]
@@ -23,8 +22,8 @@ PLAIN = ["--no-figures", "--no-report"]
 RUNS = {
     "optimize": (["--starts", "1", *PLAIN], 2),
     "pareto": (["--value", "2", "--starts", "1", *PLAIN], 2),
-    "sweep": (["--over", "x_p=-1:1:3", *PLAIN], 2),
-    "atlas": (["--designs", "1000", *PLAIN], 2),
+    "sweep": (["--over", "x_p=-1:1:3", *PLAIN], 1),
+    "atlas": (["--designs", "1000", *PLAIN], 1),
     "workspace": (["--condition", "6", "--resolution", "4", "--tolerance", "0.2", *PLAIN], 2),
     "path": (["--circle", "0.2", "--points", "11", *PLAIN], 0),
 }
@@ -174,13 +173,15 @@ def test_a_result_is_not_saved_for_python(tmp_path, disk, save):
 
 
 @pytest.mark.parametrize("asked", [lambda out: nd.sweep_figure("6", 5, out=out), lambda out: nd.atlas(1000, out=out)])
-def test_the_chunks_are_not_kept_for_python(tmp_path, disk, asked):
+def test_the_chunks_are_not_kept_for_python(tmp_path, disk, caplog, asked):
     """The result comes all the same."""
     expected = asked(None)
-    disk.full_at = 2
-    with pytest.warns(RuntimeWarning, match=r"chunk-00000000: No space left on device; the run goes on"):
-        found = asked(tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == ["manifest.json"]
+    disk.full_at = 1
+    found = asked(tmp_path)
+    (line,) = caplog.messages
+    assert "No space left on device" in line
+    assert "finished.npz'; the run goes on" in line
+    assert not list(tmp_path.iterdir())
     assert all(found[name].tobytes() == expected[name].tobytes() for name in expected)
 
 
@@ -199,50 +200,28 @@ def tiny(tmp_path):
     subprocess.run([umount, str(place)], check=True)
 
 
-@pytest.mark.parametrize("run", [["sweep", "--over", "x_p=-1:1:20001"], ["atlas", "--designs", "100000"]])
-def test_a_disk_that_is_really_full(tiny, run):
-    """Of a run of some hundred kilobytes, in another process: neither the result nor its folder is lost."""
+def ran_in_another_process(*arguments):
     path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
-    command = [sys.executable, "-m", "ninedof", *run, *PLAIN, "--out", str(tiny / "out")]
-    ended = subprocess.run(
-        command, capture_output=True, text=True, timeout=120, check=False, env=os.environ | {"PYTHONPATH": path}
-    )
+    command = [sys.executable, "-m", "ninedof", *arguments, *PLAIN]
+    env = os.environ | {"PYTHONPATH": path}
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False, env=env)
+
+
+def test_a_disk_that_is_really_full(tiny):
+    """Neither the result of some hundred kilobytes nor its folder is lost."""
+    ended = ran_in_another_process("atlas", "--designs", "100000", "--out", str(tiny / "out"))
     assert ended.returncode == 1
-    assert SAID[run[0]] in ended.stdout
+    assert SAID["atlas"] in ended.stdout
     last = ended.stderr.splitlines()[-1]
-    file = tiny / "out" / f"{run[0]}.npz"
+    file = tiny / "out" / "atlas.npz"
     assert last == f"ninedof: {file}: No space left on device. Nothing is kept of what was computed."
     assert "Traceback" not in ended.stderr
     assert (tiny / "out" / "command.json").is_file()
     no_rubbish(tiny / "out")
 
 
-@pytest.mark.parametrize("at", [3, 4])  # the first chunk and the second
-def test_the_words_on_what_is_kept_are_true(tmp_path, capsys, disk, at):
-    disk.full_at = at
-    arguments = ["sweep", "--over", "x_p=-1:1:3", "--chunk", "1", *PLAIN, "--out", str(tmp_path / "out")]
-    code, said = ran(capsys, *arguments)
-    assert code == 1
-    assert SAID["sweep"] in said.out
-    told = "".join(said.err.split())  # however the lines are folded
-    assert f"chunk-0000000{at - 3}:Nospaceleftondevice;therungoeson" in told
-    line = one_line(said, tmp_path / "out" / "sweep.npz")
-    assert ("Finished chunks are kept in" in line) == (at == 4), line
-    assert len(list((tmp_path / "out" / "chunks").glob("chunk-*"))) == at - 3
-    disk.full_at = None
-    assert ran(capsys, *arguments, "--resume")[0] == 0
-
-
-def test_a_disk_that_is_full_for_arrays_too_large_for_memory(tmp_path, capsys, disk, monkeypatch):
-    """Nothing can be shown: the folder is gone, and the words do not point to it."""
-    monkeypatch.setattr(sink, "IN_MEMORY", 0)
-    monkeypatch.setattr(sink._File, "put", lambda *_: (_ for _ in ()).throw(OSError(*FULL.args, "array.npy")))
-    disk.full_at = 3
-    code, said = ran(capsys, "sweep", "--over", "x_p=-1:1:3", *PLAIN, "--out", str(tmp_path / "out"))
-    assert code == 1
-    last = said.err.splitlines()[-1]
-    assert (
-        last
-        == "ninedof: array.npy: No space left on device. No finished chunk could be kept (No space left on device)."
-    )
-    assert not list(tmp_path.iterdir())
+def test_a_disk_without_room_for_the_values_is_refused_before_the_work(tiny):
+    ended = ran_in_another_process("sweep", "--over", "x_p=-1:1:20001", "--out", str(tiny / "out"))
+    assert ended.returncode == 2
+    assert "got 20001 points, expected fewer: their values take 0.00016 GB" in ended.stderr
+    assert not list(tiny.iterdir())

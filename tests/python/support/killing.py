@@ -134,7 +134,7 @@ def written(out):
             raise Lost(f"{file} was left behind")
         if file.suffix == ".json" and file.name != "manifest.json" and not file.name.endswith("command.json"):
             found[file.name] = untimed(json.loads(file.read_text()))
-        elif file.suffix == ".npz" and file.name not in ("map.npz", "certified.npz"):
+        elif file.suffix == ".npz" and file.name not in ("map.npz", "certified.npz", "finished.npz"):
             found[file.name] = file.read_bytes()
         elif file.name.startswith("chunk-"):
             found[file.name] = None  # the right number of them

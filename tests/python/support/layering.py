@@ -66,7 +66,6 @@ PYTHON_ROOMS = (
     "verify",
     "pareto",
     "sweep",
-    "atlas",
     "plot",
     "paper",
     "export",
@@ -94,7 +93,6 @@ CORE_USERS = {
     "optimize",
     "workspace",
     "sweep",
-    "atlas",
     "__init__",
     "runs",
 }

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import ninedof as nd
+from ninedof.sweep import chunks
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
@@ -56,8 +57,17 @@ def wrong_shape(g, c, lc):
     return np.zeros(3)
 
 
+def finished(folder):
+    """The numbers of the chunks that a folder has."""
+    file = Path(folder) / chunks.STATE
+    if not file.exists():
+        return set()
+    with np.load(file) as noted:
+        return set(np.flatnonzero(noted["finished"]).tolist())
+
+
 def killed_in_a_write():
-    """From now on the fourth file is written by half, and its process killed: the manifest, two chunks, and a third."""
+    """From now on the fourth file is written by half, and its process killed: the question, two chunks, and a third."""
     real, calls = os.fsync, []
 
     def fsync(file):
@@ -77,4 +87,5 @@ def main(folder, notes, errors, before):
     os.dup2(os.open(errors, os.O_WRONLY | os.O_CREAT), 2)
     os.environ["NINEDOF_TEST_NOTES"] = str(notes)
     before()
+    chunks.EVERY = 0.0
     nd.sweep(G, HOME, GRID, noted, out=folder, chunk=20)

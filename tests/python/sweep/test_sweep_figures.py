@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from sweep_work import HOME, G
+from sweep_work import HOME, G, finished
 
 import ninedof as nd
 from ninedof import plot
@@ -115,7 +115,7 @@ def test_figures_are_kept_and_computed_by_executors(tmp_path):
         found = nd.sweep_figure("7", 9, executor=pool, out=tmp_path)
     assert found["condition_number"].tobytes() == seven["condition_number"].tobytes()
     assert found["design"].tobytes() == seven["design"].tobytes()
-    assert len(list(tmp_path.glob("chunk-*"))) == 18
+    assert len(finished(tmp_path)) == 18
     with pytest.raises(ValueError, match="another question"):
         nd.sweep_figure("6", out=tmp_path)
 
@@ -395,14 +395,14 @@ def test_an_interrupted_command_is_resumed(here, capsys):
     line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "4001", "--out", "run", "--no-figures"]
     process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
-    while not list(here.glob("run/chunks/chunk-*")) and time.monotonic() < deadline:
+    while not finished("run/chunks") and time.monotonic() < deadline:
         time.sleep(0.005)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "finished chunks are kept in run" in " ".join(out.split())
     assert "`ninedof resume run` continues the run" in err
-    kept = len(list(here.glob("run/chunks/chunk-*")))
+    kept = len(finished("run/chunks"))
     assert kept >= 1
     status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --resume --no-figures")
     assert status == 2

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 from typing import Annotated, Any
 
@@ -10,19 +12,16 @@ import numpy as np
 import typer
 from rich.table import Table
 
-from ninedof.atlas import atlas as survey
-from ninedof.atlas.sample import squared_radius_ratio
-from ninedof.cli.long_run import compute, run_folder, write
-from ninedof.cli.options import Figures, Json, Out, Report, Resume, Scheduler
-from ninedof.cli.screen import INTERRUPTED, Screen
+from ninedof.cli.request import request
+from ninedof.cli.sweep_job import Job
 from ninedof.conditioning.hexagonal import HEXAGONAL
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.sweep import SweepResult
+from ninedof.sweep import atlas as survey
+from ninedof.sweep.sample import squared_radius_ratio
 
 SHOWN = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
-
-
 PLACE = 5
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -31,45 +30,39 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof atlas --designs 100000000 --out atlas        a hundred million; --resume after an interruption"""
 
 
-def atlas(
-    designs: Annotated[int, typer.Option(help="Number of designs.")] = 1_000_000,
-    seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0,
-    out: Out = None,
-    resume: Resume = False,
-    scheduler: Scheduler = None,
-    figures: Figures = True,
-    report: Report = True,
-    json: Json = False,
-) -> None:
+@dataclass(frozen=True)
+class Atlas(Job):
+    """The options."""
+
+    designs: Annotated[int, typer.Option(help="Number of designs.")] = 1_000_000
+    seed: Annotated[int, typer.Option(help="Shifts the sequence of designs.")] = 0
+
+
+@request(Atlas)
+def atlas(job: Atlas) -> None:
     """Survey the hexagonal family: the distribution of its designs, and the best for each size of the base."""
-    screen = Screen(json)
-    asked = partial(survey, designs, seed)
-    with run_folder(out, resume) as directory:
-        result = compute(asked, f"{designs:,} designs", directory, scheduler, screen)
-    if result is None:
-        raise typer.Exit(INTERRUPTED)
-    ratio, best = result["radius_ratio"], result["best"]
+    result, folder = job.compute(partial(survey, job.designs, job.seed), f"{job.designs:,} designs")
     rows = [
         {
             "radius_ratio": float(low),
             "condition_number": float(kappa),
             "design": dict(zip(result["variable"].tolist(), design.tolist(), strict=True)),
         }
-        for low, kappa, design in zip(ratio, best, result["design"], strict=True)
+        for low, kappa, design in zip(result["radius_ratio"], result["best"], result["design"], strict=True)
         if np.isfinite(kappa)
     ]
     data = {"atlas": {"designs": int(result["histogram"].sum()), "best": rows}}
+    job.write(result, folder, data, lambda: job.screen.print(_table(result)), lambda: _figures(result))
 
-    def draw() -> list[tuple[str, Any]]:
-        from ninedof import plot
 
-        best = optimize(Study.paper()).best
-        assert best is not None, "the paper's study has an optimum"
-        sides = np.array([[best.variables[name] for name in HEXAGONAL]])
-        return [("atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number)))]
+def _figures(result: SweepResult) -> Iterator[tuple[str, Any]]:
+    """Yield the figure, with the paper's optimum marked."""
+    from ninedof import plot
 
-    words = partial(screen.print, _table(result))
-    write(result, directory, "atlas", draw if figures else None, screen, data, words, report)
+    best = optimize(Study.paper()).best
+    assert best is not None, "the paper's study has an optimum"
+    sides = np.array([[best.variables[name] for name in HEXAGONAL]])
+    yield "atlas", plot.atlas(result, (math.sqrt(squared_radius_ratio(sides)[0]), best.condition_number))
 
 
 def _table(result: SweepResult) -> Table:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,11 +12,10 @@ import numpy as np
 import typer
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import Chosen, chosen_design, named_design, with_length
-from ninedof.cli.long_run import compute, run_folder, write
+from ninedof.cli.chosen_design import chosen_design, named_design, with_length
 from ninedof.cli.remembered import given
-from ninedof.cli.screen import INTERRUPTED, Screen
-from ninedof.cli.sweep_summary import describe, json_data, summary_table
+from ninedof.cli.request import request
+from ninedof.cli.sweep_job import Job, describe, json_data, summary_table
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
 from ninedof.paper.sweeps import sweep_figure
@@ -29,7 +29,9 @@ from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION
 
 FIGURES = ("figure-6", "figure-7")
-ANGLES_DEG = tuple(name + DEG for name in ROTATION)
+SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
+OF_POSES = ("absolute", "internal_point", "threads")
+NONE_WITH_FIGURES = ("over", "index", *OF_POSES, "lc", "chunk", "theta_z_deg", *SIDES)
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -44,13 +46,16 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
-def sweep(
+@dataclass(frozen=True)
+class Sweep(Job):
+    """The options."""
+
     what: Annotated[
         str | None,
         typer.Argument(
             help=f"figure-6, figure-7, or {options.DESIGN}. By default the published design at its best zs."
         ),
-    ] = None,
+    ] = None
     over: Annotated[
         list[str] | None,
         typer.Option(
@@ -58,96 +63,97 @@ def sweep(
             "theta_z x_s y_s z_s, or variables of the design's family, as a1 a2 b1 b2 zp zs. Angles in radians, or in "
             "degrees with _deg behind the name."
         ),
-    ] = None,
+    ] = None
     index: Annotated[
         list[str] | None,
         typer.Option(
             help=f"The index, condition_number by default; may be repeated. One of "
             f"{', '.join(computed())}; over designs also six_legged."
         ),
-    ] = None,
+    ] = None
     absolute: Annotated[
         bool, typer.Option("--absolute", help="Values are the coordinates themselves, not displacements.")
-    ] = False,
+    ] = False
     internal_point: Annotated[
         str | None, typer.Option(help="Position of O while the platform moves: held (default), carried or best.")
-    ] = None,
-    a1: options.BaseSide1 = None,
-    a2: options.BaseSide2 = None,
-    b1: options.PlatformSide1 = None,
-    b2: options.PlatformSide2 = None,
-    zp: options.Height = None,
-    zs: options.InternalHeight = None,
-    theta_z_deg: options.TwistDeg = None,
-    lc: options.Lc = None,
-    points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None,
-    chunk: Annotated[int | None, typer.Option(help="Points per chunk. The result does not depend on it.")] = None,
-    out: options.Out = None,
-    resume: options.Resume = False,
-    scheduler: options.Scheduler = None,
-    threads: options.Threads = None,
-    figures: options.Figures = True,
-    report: options.Report = True,
-    json: options.Json = False,
-) -> None:
+    ] = None
+    a1: options.BaseSide1 = None
+    a2: options.BaseSide2 = None
+    b1: options.PlatformSide1 = None
+    b2: options.PlatformSide2 = None
+    zp: options.Height = None
+    zs: options.InternalHeight = None
+    theta_z_deg: options.TwistDeg = None
+    lc: options.Lc = None
+    points: Annotated[int | None, typer.Option(help="Points of each curve of a figure.")] = None
+    chunk: Annotated[int | None, typer.Option(help="Points per chunk. The result does not depend on it.")] = None
+    threads: options.Threads = None
+
+    @property
+    def sides(self) -> dict[str, float | None]:
+        """Sides and heights of a hexagonal design."""
+        return {name: getattr(self, name) for name in SIDES}
+
+
+@request(Sweep)
+def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
-    screen = Screen(json)
-    thread_argument(threads)
-    reads = Input.of(what)
-    what = what and given(what)
-    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    of_poses = {"absolute": absolute, "internal_point": internal_point, "threads": threads}
+    thread_argument(job.threads)
+    what = job.what and given(job.what)
     if what in FIGURES:
-        others = {"over": over, "index": index, **of_poses, "lc": lc, "chunk": chunk, "theta_z_deg": theta_z_deg}
-        _expect_none(f"with {what}", others | sides)
-        asked: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), points)
+        _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
+        call: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), job.points)
         title = what.replace("figure-", "Fig. ")
     else:
-        grid, indices = _grid(what, over or [], points), index or ("condition_number",)
+        grid = _grid(what, job.over or [], job)
         title = f"over {', '.join(grid)}"
         if all(plain_name(name) in COORDINATES for name in grid):
-            title += "" if absolute else ", from the neutral pose"
-            design = with_length(_design(what, sides, theta_z_deg), lc)
-            asked = partial(
-                sweep_poses,
-                design.geometry,
-                design.configuration,
-                grid,
-                indices,
-                relative=not absolute,
-                internal_point=internal_point or "held",
-                characteristic_length=design.characteristic_length,
-                unit=design.unit,
-                chunk=chunk,
-                threads=threads,
-            )
+            title += "" if job.absolute else ", from the neutral pose"
+            call = _over_poses(what, job, grid)
         else:
-            _expect_none("in a sweep over designs", of_poses)
-            family, held, length, unit = swept_design(what, sides, theta_z_deg, grid, lc)
-            of_family = partial(sweep_designs, family=family, characteristic_length=length, unit=unit)
-            asked = partial(of_family, held, grid, indices, chunk=chunk)
-    with run_folder(out, resume, reads) as directory:
-        result = compute(asked, title, directory, scheduler, screen)
-    if result is None:
-        raise typer.Exit(INTERRUPTED)
+            _expect_none("in a sweep over designs", job, OF_POSES)
+            held, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
+            own["chunk"] = job.chunk
+            call = partial(sweep_designs, held, grid, job.index or "condition_number", **own)
+    result, folder = job.compute(call, title, Input.of(job.what))
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
-    words = partial(screen.print, summary_table(summary, title, result.units))
-    draw = (lambda: _figures(result, what)) if figures else None
-    write(result, directory, "sweep", draw, screen, json_data(result, summary), words, report)
+    table = summary_table(summary, title, result.units)
+    data = json_data(result, summary)
+    job.write(result, folder, data, lambda: job.screen.print(table), lambda: _figures(result, what))
 
 
-def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str, Values]:
-    """Return the axes given by --over."""
+def _over_poses(what: str | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:
+    """Return the sweep over coordinates of the design that is named, or of the published one at its best zs."""
+    published = what is None and job.theta_z_deg is None and not any(v is not None for v in job.sides.values())
+    chosen = named_design(None) if published else chosen_design(what, job.sides, job.theta_z_deg)
+    design = with_length(chosen, job.lc)
+    return partial(
+        sweep_poses,
+        design.geometry,
+        design.configuration,
+        grid,
+        job.index or "condition_number",
+        relative=not job.absolute,
+        internal_point=job.internal_point or "held",
+        characteristic_length=design.characteristic_length,
+        unit=design.unit,
+        chunk=job.chunk,
+        threads=job.threads,
+    )
+
+
+def _grid(what: str | None, over: Sequence[str], job: Sweep) -> dict[str, Values]:
+    """Return the axes of --over."""
     if what is not None and what.startswith("figure-") and not Path(what).exists():
         raise ValueError(f"sweep: got {what}, expected one of {', '.join(FIGURES)}, or a design")
     if not over:
         raise ValueError(f"sweep: got no --over, expected --over NAME=LOW:HIGH:COUNT, or one of {', '.join(FIGURES)}")
-    _expect_none("with --over", {"points": points})
+    _expect_none("with --over", job, ("points",))
     grid = dict(parse_over(text) for text in over)
     for name in grid:
         if plain_name(name) not in VARIABLES:
             hexagonal = (n for n in FAMILIES["hexagonal"] if n not in COORDINATES)
-            choice("--over", name, (*COORDINATES, *ANGLES_DEG, *hexagonal))
+            choice("--over", name, (*COORDINATES, *(angle + DEG for angle in ROTATION), *hexagonal))
     plain = {plain_name(name) for name in grid}
     if not plain <= set(COORDINATES) and not plain <= VARIABLES:  # theta_z is both
         got = ", ".join(grid)
@@ -157,18 +163,17 @@ def _grid(what: str | None, over: Sequence[str], points: int | None) -> dict[str
     return grid
 
 
-def _expect_none(where: str, given: Mapping[str, Any]) -> None:
+def _expect_none(where: str, job: Sweep, names: Sequence[str]) -> None:
     """Raise for options that have no effect here."""
-    for name, value in given.items():
+    for name in names:
+        value = getattr(job, name)
         if value is not None and value is not False:
-            text = " ".join(value) if isinstance(value, list) else value
-            got = "it" if value is True else text
+            got = "it" if value is True else " ".join(value) if isinstance(value, list) else value
             raise ValueError(f"--{name.replace('_', '-')}: got {got}, expected none {where}")
 
 
 def parse_over(text: str) -> tuple[str, Values]:
     """Read NAME=LOW:HIGH:COUNT or NAME=VALUE,VALUE,...; the name of an angle in degrees ends in _deg."""
-    expected = "NAME=LOW:HIGH:COUNT, or NAME=VALUE,VALUE,..."
     name, equals, rest = text.partition("=")
     parts = rest.split(":")
     try:
@@ -178,14 +183,8 @@ def parse_over(text: str) -> tuple[str, Values]:
             return name, np.array([float(value) for value in rest.split(",")])
         return name, (float(parts[0]), float(parts[1]), int(parts[2]))
     except ValueError:
+        expected = "NAME=LOW:HIGH:COUNT, or NAME=VALUE,VALUE,..."
         raise ValueError(f"--over: got {text!r}, expected {expected}") from None
-
-
-def _design(what: str | None, sides: Mapping[str, float | None], theta_z_deg: float | None) -> Chosen:
-    """Return the given design, or the published one at its best zs."""
-    if what is None and theta_z_deg is None and all(v is None for v in sides.values()):
-        return named_design(None)
-    return chosen_design(what, sides, theta_z_deg)
 
 
 def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]:
@@ -193,10 +192,9 @@ def _figures(result: SweepResult, what: str | None) -> Iterator[tuple[str, Any]]
     from ninedof import plot
     from ninedof.paper import figures
 
-    named: dict[str, Any] = {"figure-6": figures.figure_6, "figure-7": figures.figure_7}
-    if what in named:
-        yield "sweep", named[what](result)
+    if what in FIGURES:
+        yield "sweep", (figures.figure_6 if what == "figure-6" else figures.figure_7)(result)
         return
-    indices = list(result)
-    for name in indices:
-        yield ("sweep" if len(indices) == 1 else f"sweep_{name}"), plot.sweep(result, name)
+    names = list(result)
+    for name in names:
+        yield ("sweep" if len(names) == 1 else f"sweep_{name}"), plot.sweep(result, name)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.chunks import Arrays
 from ninedof.support.arrays import Floats
+from ninedof.support.files import Arrays
 
 OCTAVES, PER_OCTAVE = 4, 16  # base / platform from 1/16 to 16; 2, the paper's limit, is an edge
 DECADES, PER_DECADE = 4, 40  # condition numbers from 1 to 10^4
@@ -25,16 +25,21 @@ def condition_edges() -> Floats:
 
 
 class Tally:
-    """Counts, and the best design of each bin of radius_ratio.
+    """Counts, and the best design of each bin of radius_ratio; without arrays that of no designs.
 
     Two tallies add up to the same whatever the order: counts are whole numbers, and of designs equally good the one
     with the least number is kept.
     """
 
-    def __init__(self) -> None:
-        self.histogram: NDArray[np.int64] = np.zeros((ROWS, COLUMNS), dtype=np.int64)
-        self.best: Floats = np.full(ROWS, np.inf)
-        self.number: NDArray[np.int64] = np.full(ROWS, -1, dtype=np.int64)
+    def __init__(
+        self,
+        histogram: NDArray[np.int64] | None = None,
+        best: Floats | None = None,
+        number: NDArray[np.int64] | None = None,
+    ) -> None:
+        self.histogram = np.zeros((ROWS, COLUMNS), dtype=np.int64) if histogram is None else histogram
+        self.best: Floats = np.full(ROWS, np.inf) if best is None else best
+        self.number = np.full(ROWS, -1, dtype=np.int64) if number is None else number
 
     def add(self, first: int, squared_ratio: Floats, kappa: Floats) -> None:
         """Add designs first, first + 1, ...: their numbers are above all those added before."""
@@ -48,33 +53,22 @@ class Tally:
         self.best[rows] = kappa[better[where]]
         self.number[rows] = first + better[where]
 
-    def merge(self, arrays: Arrays) -> None:
-        """Add another tally."""
-        self.histogram += arrays["histogram"]
-        best, number = arrays["best"], arrays["number"]
-        better = (best < self.best) | ((best == self.best) & (number < self.number) & (number >= 0))
-        self.best = np.where(better, best, self.best)
-        self.number = np.where(better, number, self.number)
-
-    @property
-    def designs(self) -> int:
-        """Return how many designs were counted."""
-        return int(self.histogram.sum())
+    def plus(self, other: Tally) -> Tally:
+        """Return the tally of both."""
+        tie = (other.best == self.best) & (other.number < self.number) & (other.number >= 0)
+        better = (other.best < self.best) | tie
+        return Tally(
+            self.histogram + other.histogram,
+            np.where(better, other.best, self.best),
+            np.where(better, other.number, self.number),
+        )
 
     def arrays(self) -> Arrays:
-        """Return the arrays of the tally."""
+        """Return its arrays."""
         return {"histogram": self.histogram, "best": self.best, "number": self.number}
-
-
-def is_tally(arrays: Arrays, count: int) -> bool:
-    """Return whether arrays are the tally of so many designs."""
-    expected = {name: (array.shape, array.dtype) for name, array in Tally().arrays().items()}
-    if {name: (array.shape, array.dtype) for name, array in arrays.items()} != expected:
-        return False
-    return int(arrays["histogram"].min()) >= 0 and int(arrays["histogram"].sum()) == count
 
 
 def _bin(value: Floats, per_unit: float, zero: int, most: int) -> NDArray[np.intp]:
     """Return the bin of each value: the outermost beyond both ends, the last for NaN."""
-    found = np.fmax(np.fmin(np.floor(value * per_unit) + zero, float(most)), 0.0)
-    return np.asarray(found, dtype=np.intp)
+    inside = np.fmax(np.fmin(np.floor(value * per_unit) + zero, float(most)), 0.0)
+    return np.asarray(inside, dtype=np.intp)

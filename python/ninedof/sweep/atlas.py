@@ -1,4 +1,4 @@
-"""The survey of the hexagonal family."""
+"""Surveys of hundreds of millions of hexagonal designs, which are counted and compared and not kept."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ninedof.atlas import sample
-from ninedof.atlas.sample import Sample, bounds_of, squared_radius_ratio
-from ninedof.atlas.tally import Tally, condition_edges, is_tally, ratio_edges
-from ninedof.chunks import Arrays, chunk_argument, run
 from ninedof.conditioning.hexagonal import HEXAGONAL
-from ninedof.support.arguments import whole
+from ninedof.support.arguments import finite, known_keys, pair, shown, whole
+from ninedof.support.files import Arrays
 from ninedof.support.json import plain
 from ninedof.support.progress import Progress
 from ninedof.support.versions import versions
+from ninedof.sweep.chunks import FINISHED, Folder, chunk_argument, chunks_of, run
 from ninedof.sweep.result import SweepResult
+from ninedof.sweep.sample import BOUNDS, Sample, closed_form, squared_radius_ratio
+from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
 
 CHUNK = 2**19  # designs: some 30 ms of work; signals are checked between chunks
 BLOCK = 2**14  # designs evaluated together: they fit into the caches
@@ -55,7 +55,7 @@ def atlas(
         Where the chunks are computed, as in `sweep`. By default in this process, by one processor; processes use more,
         threads do not.
     out : path, optional
-        Folder that keeps finished chunks, as in `sweep`.
+        Folder that keeps what is finished, as in `sweep`.
     chunk : int, optional
         Designs per chunk. The result does not depend on it.
     progress : callable, optional
@@ -78,35 +78,18 @@ def atlas(
     Examples
     --------
     >>> import ninedof as nd
-    >>> found = nd.atlas(100_000)
-    >>> int(found["histogram"].sum()), bool(found.least("best")[0] > 1.0)
+    >>> survey = nd.atlas(100_000)
+    >>> int(survey["histogram"].sum()), bool(survey.least("best")[0] > 1.0)
     (100000, True)
 
     """
-    drawn = Sample(whole("seed", seed, 0), bounds_of(bounds))
-    work = AtlasWork(drawn, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
-    total = Tally()
-    run(work, lambda _: lambda first, last, arrays: total.merge(arrays), executor=executor, out=out, progress=progress)
-    if total.designs != work.points:
-        raise RuntimeError(f"got {total.designs} designs, expected {work.points}")
+    sample = Sample(whole("seed", seed, 0), _bounds(bounds))
+    work = AtlasWork(sample, whole("designs", designs, 1, MOST), chunk_argument(chunk, CHUNK))
+    total = run(work, executor, out, progress).tally
+    counted = int(total.histogram.sum())
+    if counted != work.points:
+        raise RuntimeError(f"got {counted} designs, expected {work.points}")
     return _labelled(work, total)
-
-
-@dataclass(frozen=True)
-class AtlasTask:
-    """The tally of designs first ... last - 1."""
-
-    sample: Sample
-    first: int
-    last: int
-
-    def __call__(self) -> Arrays:
-        """Compute the tally."""
-        tally = Tally()
-        for first in range(self.first, self.last, BLOCK):
-            designs = self.sample.designs(first, min(first + BLOCK, self.last))
-            tally.add(first, squared_radius_ratio(designs), sample.closed_form(designs))
-        return tally.arrays()
 
 
 @dataclass(frozen=True)
@@ -117,17 +100,55 @@ class AtlasWork:
     points: int
     chunk: int
 
-    def task(self, first: int, last: int) -> AtlasTask:
-        """Return the work on designs first ... last - 1."""
-        return AtlasTask(self.sample, first, last)
+    def part(self, first: int, last: int) -> AtlasWork:
+        """Return the same: it is small."""
+        return self
 
-    def fits(self, count: int, arrays: Arrays) -> bool:
-        """Return whether arrays are the tally of so many designs."""
-        return is_tally(arrays, count)
+    def values(self, first: int, last: int) -> Arrays:
+        """Return the tally of designs first ... last - 1."""
+        tally = Tally()
+        for begin in range(first, last, BLOCK):
+            designs = self.sample.designs(begin, min(begin + BLOCK, last))
+            tally.add(begin, squared_radius_ratio(designs), closed_form(designs))
+        return tally.arrays()
 
     def question(self) -> dict[str, Any]:
         """Return what the tally depends on."""
         return {"kind": "atlas", **self.sample.question(), "designs": self.points}
+
+    def begin(self, folder: Folder | None) -> Total:
+        """Return the total that a folder has."""
+        return Total(self, folder)
+
+
+class Total:
+    """The tally of the chunks so far. An interruption finds it with all of a chunk, or with nothing of it."""
+
+    def __init__(self, work: AtlasWork, folder: Folder | None) -> None:
+        """Begin with that of the folder."""
+        self._chunk = work.chunk
+        none: Arrays = {FINISHED: np.zeros(chunks_of(work), np.bool_), **Tally().arrays()}
+        self._arrays = folder.saved if folder is not None and folder.saved else none
+
+    @property
+    def finished(self) -> Any:
+        """Return whether each chunk is in it."""
+        return self._arrays[FINISHED]
+
+    @property
+    def tally(self) -> Tally:
+        """Return it as a tally."""
+        return Tally(*(self._arrays[name] for name in Tally().arrays()))
+
+    def add(self, first: int, arrays: Arrays) -> None:
+        """Take the tally of the chunk that begins with design `first`."""
+        finished = self.finished.copy()
+        finished[first // self._chunk] = True
+        self._arrays = {FINISHED: finished, **self.tally.plus(Tally(**arrays)).arrays()}
+
+    def noted(self) -> Arrays:
+        """Return what the folder notes."""
+        return self._arrays
 
 
 def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
@@ -146,3 +167,18 @@ def _labelled(work: AtlasWork, total: Tally) -> SweepResult:
         | {"design": "l_c"},
         attributes=plain({**work.question(), **versions()}),
     )
+
+
+def _bounds(bounds: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[float, float], ...]:
+    """Return the bounds of all six variables, the usual ones where there are no others."""
+    own = {} if bounds is None else bounds
+    known_keys("bounds", own, BOUNDS)
+    return tuple(_bound(name, own.get(name, usual)) for name, usual in BOUNDS.items())
+
+
+def _bound(name: str, value: Any) -> tuple[float, float]:
+    where = f"bounds[{name!r}]"
+    low, high = (finite(where, end, 0.0) for end in pair(where, value, "(low, high)"))
+    if low > high or (name == "zs_fraction" and high > 1.0):
+        raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
+    return low, high

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninedof import _core
-from ninedof.support.arguments import finite, known_keys, pair, shown
 from ninedof.support.arrays import Floats
 
 BOUNDS: dict[str, tuple[float, float]] = {
@@ -40,7 +38,7 @@ class Sample:
     """
 
     seed: int
-    bounds: tuple[tuple[float, float], ...]
+    bounds: tuple[tuple[float, float], ...] = tuple(BOUNDS.values())
     """Of a1, a2, b1, b2, zp and zs / zp."""
 
     def designs(self, first: int, last: int) -> Floats:
@@ -64,29 +62,13 @@ class Sample:
 
 def closed_form(designs: Floats) -> Floats:
     """Return the condition number at the neutral pose of designs (n, 6), lengths in characteristic lengths."""
-    found: Floats = _core.hexagonal_condition_numbers(designs, 1, None)
-    return found.reshape(-1)
+    values: Floats = _core.hexagonal_condition_numbers(designs, 1, None)
+    return values.reshape(-1)
 
 
 def squared_radius_ratio(designs: Floats) -> Floats:
     """Return (base / platform radius)^2; the joints of a hexagon are sqrt((a1^2 + a1 a2 + a2^2) / 3) off the axis."""
     a1, a2, b1, b2 = designs.T[:4]
-    with np.errstate(
-        divide="ignore", invalid="ignore", over="ignore"
-    ):  # plates of size 0, or so small that squares underflow
-        found: Floats = (a1 * a1 + a1 * a2 + a2 * a2) / (b1 * b1 + b1 * b2 + b2 * b2)
-    return found
-
-
-def bounds_of(given: Mapping[str, tuple[float, float]] | None) -> tuple[tuple[float, float], ...]:
-    """Return the bounds of all six variables, the defaults where none are given."""
-    known_keys("bounds", {} if given is None else given, BOUNDS)
-    return tuple(_bound(name, (given or {}).get(name, usual)) for name, usual in BOUNDS.items())
-
-
-def _bound(name: str, value: Any) -> tuple[float, float]:
-    where = f"bounds[{name!r}]"
-    low, high = (finite(where, end, 0.0) for end in pair(where, value, "(low, high)"))
-    if low > high or (name == "zs_fraction" and high > 1.0):
-        raise ValueError(f"{where}: got {shown(value)}, expected 0 <= low <= high" + " <= 1" * (name == "zs_fraction"))
-    return low, high
+    with np.errstate(all="ignore"):  # plates of size 0, or so small or large that squares are not numbers
+        ratio: Floats = (a1 * a1 + a1 * a2 + a2 * a2) / (b1 * b1 + b1 * b2 + b2 * b2)
+    return ratio

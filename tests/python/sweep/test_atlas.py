@@ -4,9 +4,7 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,14 +12,14 @@ import design_oracle as designs
 import numpy as np
 import numpy_model as model
 import pytest
+from sweep_work import finished
 
 import ninedof as nd
-from ninedof.atlas import run as module
-from ninedof.atlas import sample
-from ninedof.atlas.run import AtlasTask
-from ninedof.atlas.sample import STEPS, Sample, bounds_of, squared_radius_ratio
-from ninedof.atlas.tally import Tally, condition_edges, is_tally, ratio_edges
 from ninedof.conditioning.hexagonal import HEXAGONAL
+from ninedof.sweep import chunks
+from ninedof.sweep.atlas import BLOCK, CHUNK, AtlasWork
+from ninedof.sweep.sample import BOUNDS, STEPS, Sample, closed_form, squared_radius_ratio
+from ninedof.sweep.tally import Tally, condition_edges, ratio_edges
 
 RATIO_EDGES, CONDITION_EDGES = ratio_edges(), condition_edges()
 OPTIMUM = 3.762659  # of the paper's study, proved in the theory notes
@@ -48,7 +46,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def all_designs():
-    return Sample(3, bounds_of(None)).designs(0, 40_000)
+    return Sample(3).designs(0, 40_000)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +56,7 @@ def kappas(all_designs):
 
 def test_the_closed_form_against_lapack(all_designs, kappas):
     """At 40 000 designs; LAPACK loses digits with the condition number."""
-    np.testing.assert_allclose(sample.closed_form(all_designs) / kappas, 1.0, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(closed_form(all_designs) / kappas, 1.0, rtol=0.0, atol=1e-8)
 
 
 def test_every_design_is_counted_in_its_bin(found, all_designs, kappas):
@@ -116,7 +114,7 @@ def test_steps_are_powers_of_the_root():
 
 
 def test_designs_by_number_do_not_depend_on_the_chunk():
-    drawn = Sample(7, bounds_of(None))
+    drawn = Sample(7)
     whole = drawn.designs(10**11, 10**11 + 1000)
     parts = [drawn.designs(10**11 + k, 10**11 + min(k + 77, 1000)) for k in range(0, 1000, 77)]
     assert np.concatenate(parts).tobytes() == whole.tobytes()
@@ -128,7 +126,7 @@ def test_designs_by_number_do_not_depend_on_the_chunk():
 def test_designs_fill_their_bounds_evenly(first):
     """In every variable and every pair, closer to uniform than random numbers, also at large numbers."""
     bounds = {"a1": (1.0, 3.0), "zp": (2.0, 4.0), "zs_fraction": (0.25, 0.75)}
-    x = Sample(0, bounds_of(bounds)).designs(first, first + 65536)
+    x = Sample(0, tuple((BOUNDS | bounds).values())).designs(first, first + 65536)
     unit = np.stack(
         [(x[:, 0] - 1) / 2, *(x[:, k] / 10 for k in (1, 2, 3)), (x[:, 4] - 2) / 2, (x[:, 5] / x[:, 4] - 0.25) * 2]
     )
@@ -143,7 +141,7 @@ def test_designs_fill_their_bounds_evenly(first):
 
 
 def test_seeds_differ():
-    one, other = (Sample(seed, bounds_of(None)).designs(0, 100) for seed in (0, 1))
+    one, other = (Sample(seed).designs(0, 100) for seed in (0, 1))
     assert not np.isin(one, other).any()
 
 
@@ -171,10 +169,10 @@ def test_tallies_add_up_in_any_order_and_ties_go_to_the_first():
     for k in range(8):
         tally = Tally()
         tally.add(100 * k, np.full(100, 2.0), np.full(100, 5.0 + (k == 3)))
-        parts.append(tally.arrays())
+        parts.append(tally)
     total = Tally()
     for k in order:
-        total.merge(parts[k])
+        total = total.plus(parts[k])
     row = int(np.flatnonzero(total.number >= 0)[0])
     assert (total.number[row], total.best[row], total.histogram.sum()) == (0, 5.0, 800)
 
@@ -192,11 +190,13 @@ def test_values_out_of_range_are_counted_in_the_outermost_bins():
     assert tally.number[64 + 1] == -1, "nothing singular is best"
 
 
-def test_a_killed_atlas_is_resumed(tmp_path, found):
+def test_a_killed_atlas_is_resumed(tmp_path, found, monkeypatch):
     """SIGKILL in the middle of a write; finished chunks are not computed again."""
     out = tmp_path / "out"
     code = f"""
 import os, signal, stat, ninedof as nd
+from ninedof.sweep import chunks
+chunks.EVERY = 0.0
 real, calls = os.fsync, []
 def fsync(file):
     if not stat.S_ISDIR(os.fstat(file).st_mode):
@@ -210,20 +210,45 @@ nd.atlas(40_000, seed=3, chunk=4000, out={str(out)!r})
     path = os.pathsep.join([str(Path(nd.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     ended = subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, timeout=60, check=False)
     assert ended.returncode == -signal.SIGKILL
-    assert len(list(out.glob("chunk-*"))) == 3
-    calls, lock, original = [], threading.Lock(), AtlasTask.__call__
+    assert finished(out) == {0, 1, 2}
+    calls, original = [], AtlasWork.values
 
-    def counted(self):
-        with lock:
-            calls.append(self.first)
-        return original(self)
+    def counted(self, first, last):
+        calls.append(first)
+        return original(self, first, last)
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(AtlasTask, "__call__", counted)
-        same(nd.atlas(40_000, seed=3, out=out), found)
-    assert sorted(calls) == list(range(12_000, 40_000, 4000))
-    with pytest.raises(ValueError, match=r"another question \(it differs in seed"):
+    monkeypatch.setattr(AtlasWork, "values", counted)
+    same(nd.atlas(40_000, seed=3, out=out), found)
+    assert calls == list(range(12_000, 40_000, 4000))
+    with pytest.raises(ValueError, match=r"another question \(seed: 3 there, 4 here"):
         nd.atlas(40_000, seed=4, out=out)
+
+
+@pytest.mark.parametrize("after", [0, 12_000])
+def test_an_interrupted_atlas_is_resumed(tmp_path, found, monkeypatch, after):
+    """Within a chunk, in the middle of adding it up too: all of a chunk is in the total, or nothing of it."""
+    plus, calls = Tally.plus, []
+
+    def interrupted(self, other):
+        calls.append(other)
+        if len(calls) == after // 4000 + 1:
+            raise KeyboardInterrupt
+        return plus(self, other)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Tally, "plus", interrupted)
+        patch.setattr(chunks, "EVERY", 1e9)
+        with pytest.raises(KeyboardInterrupt):
+            nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path)
+    assert finished(tmp_path) == set(range(after // 4000))
+    same(nd.atlas(40_000, seed=3, out=tmp_path), found)
+
+
+def test_fewer_designs_than_asked_are_an_error(monkeypatch):
+    real = AtlasWork.values
+    monkeypatch.setattr(AtlasWork, "values", lambda self, first, last: real(self, first, last - 1))
+    with pytest.raises(RuntimeError, match="got 39990 designs, expected 40000"):
+        nd.atlas(40_000, seed=3, chunk=4000)
 
 
 def test_memory_does_not_grow_with_the_number(monkeypatch):
@@ -284,54 +309,4 @@ def test_progress():
     seen = []
     nd.atlas(10_000, chunk=1000, progress=lambda *a: seen.append(a))
     assert [done for done, *_ in seen] == list(range(0, 11_000, 1000))
-    assert module.BLOCK < module.CHUNK
-
-
-# --- What is counted is what was asked --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("chunk", [8000, 2000])
-def test_a_chunk_size_changed_in_the_manifest_is_refused(tmp_path, chunk):
-    """It was taken: fewer designs were counted than asked, with status 0."""
-
-    def stop(done, *_):
-        if done >= 12_000:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path, progress=stop)
-    manifest = tmp_path / "manifest.json"
-    text = manifest.read_text()
-    assert '"chunk": 4000' in text
-    manifest.write_text(text.replace('"chunk": 4000', f'"chunk": {chunk}'))
-    with pytest.raises(ValueError, match=r"manifest\.json: got a file that was changed or damaged"):
-        nd.atlas(40_000, seed=3, out=tmp_path)
-    manifest.write_text(text)
-    assert nd.atlas(40_000, seed=3, out=tmp_path)["histogram"].sum() == 40_000
-
-
-def test_a_tally_of_fewer_designs_is_not_taken(tmp_path, found, monkeypatch):
-    whole = nd.atlas(40_000, seed=3, chunk=4000, out=tmp_path / "whole")
-    same(whole, found)
-    real = AtlasTask.__call__
-    monkeypatch.setattr(AtlasTask, "__call__", lambda self: real(replace(self, last=self.last - 1)))
-    with pytest.raises(RuntimeError, match="chunk 0: got arrays that are not of its 4000 points"):
-        nd.atlas(40_000, seed=3, chunk=4000)
-    same(nd.atlas(40_000, seed=3, out=tmp_path / "whole"), found)
-
-
-@pytest.mark.parametrize("change", ["fewer", "negative", "shape", "name", "float"])
-def test_what_is_no_tally_of_the_designs_is_told(change):
-    tally = Tally()
-    tally.add(0, np.full(10, 2.0), np.full(10, 5.0))
-    assert is_tally(tally.arrays(), 10)
-    arrays = {name: array.copy() for name, array in tally.arrays().items()}
-    if change == "negative":
-        arrays["histogram"][0, :2] = [-1, 1]
-    elif change == "shape":
-        arrays["best"] = arrays["best"][:-1]
-    elif change == "name":
-        arrays["other"] = arrays.pop("number")
-    elif change == "float":
-        arrays["histogram"] = arrays["histogram"].astype(float)
-    assert not is_tally(arrays, 9 if change == "fewer" else 10)
+    assert BLOCK < CHUNK

@@ -1,0 +1,371 @@
+"""Finished chunks survive kills, damaged files, other questions and other runs."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import time
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import sweep_work as work
+from sweep_work import GRID, HOME, G, finished
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.support.npz import read_npz, write_npz
+from ninedof.sweep import chunks
+from ninedof.sweep.chunks import HEAD, STATE
+
+
+@pytest.fixture(autouse=True)
+def _noted_at_once(monkeypatch):
+    monkeypatch.setattr(chunks, "EVERY", 0.0)
+
+
+def asked(folder=None, **options):
+    return nd.sweep(G, HOME, GRID, out=folder, **({"chunk": 20} | options))["condition_number"]
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return asked()
+
+
+@pytest.fixture
+def child(forks, tmp_path):
+    """Starts a sweep in another process; `errors` is the file of its standard error."""
+
+    def start(folder, notes, before=list):
+        process = forks.Process(target=work.main, args=(folder, notes, errors, before))
+        process.start()
+        return process
+
+    errors = start.errors = tmp_path / "stderr"
+    return start
+
+
+def until_a_chunk_is_kept(folder):
+    deadline = time.monotonic() + 60.0
+    while not finished(folder) and time.monotonic() < deadline:
+        time.sleep(0.002)
+
+
+# --- Killed at any moment ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_a_sweep_killed_many_times_is_resumed(child, tmp_path, expected, monkeypatch):
+    """SIGKILL at random moments. Finished chunks are not computed again, and the result has the same bits."""
+    folder, notes = tmp_path / "out", tmp_path / "notes"
+    moments = random.Random(5)
+    kills = computed_before_the_end = 0
+    first_of = {repr(start): k for k, start in enumerate(firsts())}
+    for round_ in range(400):  # five or so where the machine is idle
+        mine = notes / str(round_)
+        mine.mkdir(parents=True)
+        kept = finished(folder)
+        process = child(folder, mine)
+        deadline = time.monotonic() + 60.0
+        while not any(mine.iterdir()) and process.is_alive() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        process.join(moments.uniform(0.04, 0.05))  # of the 20 chunks six at most
+        if process.is_alive():
+            process.kill()
+            kills += 1
+        process.join()
+        status = process.exitcode
+        assert status in (0, -signal.SIGKILL), child.errors.read_text()
+        called = [first_of[p.read_text()] for p in mine.iterdir() if p.read_text()]
+        assert len(set(called)) == len(called)
+        assert not kept & set(called), "a finished chunk was computed again"
+        computed_before_the_end += len(called)
+        if status == 0:
+            break
+    assert status == 0
+    assert kills >= 3
+    lost = computed_before_the_end - 20  # a chunk that was computed but not kept when the kill came
+    assert 0 <= lost <= kills
+    last = notes / "last"
+    last.mkdir()
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(last))
+    found = nd.sweep(G, HOME, GRID, work.noted, out=folder, chunk=20)["noted"]
+    assert found.tobytes() == expected.tobytes()
+    assert not list(last.iterdir()), "a complete sweep computes nothing"
+    assert {p.name for p in folder.iterdir()} == {STATE, "noted.npy"}
+
+
+def firsts():
+    """Position of the platform at the first point of each chunk."""
+    x = np.repeat(nd.sweep(G, HOME, GRID)["x_p"], 17)[::20]
+    return [[float(v), 0.0, 3.9828] for v in x]
+
+
+def test_killed_in_the_middle_of_a_write(child, tmp_path, expected, monkeypatch):
+    out, notes, later = (tmp_path / name for name in ("out", "notes", "later"))
+    notes.mkdir()
+    later.mkdir()
+    process = child(out, notes, work.killed_in_a_write)
+    process.join(60)
+    assert process.exitcode == -signal.SIGKILL, child.errors.read_text()
+    assert finished(out) == {0, 1}
+    assert len(list(out.glob(f".part-{STATE}-*"))) == 1
+    (out / ".part-film.mkv").write_text("mine")
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(later))
+    assert nd.sweep(G, HOME, GRID, work.noted, out=out)["noted"].tobytes() == expected.tobytes()
+    assert len(list(later.iterdir())) == 18
+    assert [p.name for p in out.glob(".part-*")] == [".part-film.mkv"]
+
+
+@pytest.mark.parametrize("after", [100, 0])
+def test_an_interruption_leaves_what_was_finished(tmp_path, expected, monkeypatch, after):
+    """Noted at the end, whenever that was done last; of nothing, nothing is left."""
+    monkeypatch.setattr(chunks, "EVERY", 1e9)
+
+    def stop(done, *_):
+        if done >= after:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        asked(tmp_path, progress=stop)
+    assert finished(tmp_path) == set(range(after // 20))
+    assert after or not list(tmp_path.iterdir())
+    seen = []
+    assert asked(tmp_path, progress=lambda *a: seen.append(a)).tobytes() == expected.tobytes()
+    assert seen == [(done, 391, None) for done in [*range(after, 391, 20), 391]]
+
+
+def test_control_c_ends_a_run_at_the_next_chunk(child, tmp_path):
+    notes = tmp_path / "notes"
+    notes.mkdir()
+    process = child(tmp_path / "out", notes)
+    try:
+        until_a_chunk_is_kept(tmp_path / "out")
+        os.kill(process.pid, signal.SIGINT)
+        process.join(30)
+        assert process.exitcode == 1
+    finally:
+        process.kill()
+    assert "KeyboardInterrupt" in child.errors.read_text()
+    assert 1 <= len(finished(tmp_path / "out")) < 20
+    assert not list((tmp_path / "out").glob(".part-*"))
+
+
+# --- Damage -----------------------------------------------------------------------------------------------------------
+
+
+def one_bit(path):
+    data = bytearray(path.read_bytes())
+    data[128 + 8 * 20 * 7 + 3] ^= 4  # of chunk 7
+    path.write_bytes(data)
+
+
+def of_its_neighbour(path):
+    values = np.load(path)
+    values.reshape(-1)[140:160] = values.reshape(-1)[160:180]
+    np.save(path, values)
+
+
+def shorter(path):
+    path.write_bytes(path.read_bytes()[:-7])
+
+
+def other_numbers(path):
+    np.save(path, np.load(path).astype(np.float32))
+
+
+DAMAGE = {one_bit: [7], of_its_neighbour: [7], shorter: range(20), other_numbers: range(20), os.unlink: range(20)}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_chunk_is_computed_again_and_no_other(tmp_path, damage, expected, monkeypatch):
+    out, notes = tmp_path / "out", tmp_path / "notes"
+    notes.mkdir()
+    monkeypatch.setenv("NINEDOF_TEST_NOTES", str(notes))
+    nd.sweep(G, HOME, GRID, work.noted, out=out, chunk=20)
+    for path in notes.iterdir():
+        path.unlink()
+    damage(out / "noted.npy")
+    assert nd.sweep(G, HOME, GRID, work.noted, out=out)["noted"].tobytes() == expected.tobytes()
+    assert sorted(p.read_text() for p in notes.iterdir()) == sorted(repr(firsts()[k]) for k in DAMAGE[damage])
+
+
+@pytest.mark.parametrize("change", ["bit", "format", "shorter", "empty", "foreign"])
+def test_a_damaged_note_is_refused(tmp_path, change):
+    asked(tmp_path)
+    file = tmp_path / STATE
+    data = bytearray(file.read_bytes())
+    if change == "bit":
+        data[len(data) // 2] ^= 4
+    noted = read_npz(file)
+    if change == "format":
+        noted[HEAD] = np.array(str(noted[HEAD]).replace("-3", "-1"))
+    file.write_bytes({"bit": data, "shorter": data[:-9], "empty": b"", "foreign": b"mine"}.get(change, b""))
+    if change == "format":
+        with file.open("wb") as out:
+            write_npz(out, noted)
+    before = file.read_bytes()
+    with pytest.raises(ValueError, match=r"finished\.npz: got no whole 'ninedof-chunks-3' file, expected one that"):
+        asked(tmp_path)
+    assert file.read_bytes() == before
+
+
+def test_a_link_in_the_place_of_values_is_not_written_through(tmp_path, expected):
+    (tmp_path / "mine").write_text("kept")
+    asked(tmp_path / "out")
+    (tmp_path / "out" / "condition_number.npy").unlink()
+    (tmp_path / "out" / "condition_number.npy").symlink_to(tmp_path / "mine")
+    assert asked(tmp_path / "out").tobytes() == expected.tobytes()
+    assert (tmp_path / "mine").read_text() == "kept"
+
+
+# --- Other questions --------------------------------------------------------------------------------------------------
+
+OTHERS = {
+    "over: .*high': 1.0,.* there, .*high': 1.000000000000001,.* here": {
+        "over": {**GRID, "x_p": (-1.0, 1.0 + 1e-15, 23)}
+    },
+    "over: ": {"over": dict(reversed(GRID.items()))},
+    r"index: \['condition_number'\] there, \['manipulability'\] here": {"index": "manipulability"},
+    "home: .*2.4435.* there, .*2.4436.* here": {"home": nd.Configuration.neutral(3.9828, 2.4436)},
+    "geometry: ": {"geometry": nd.Geometry.hexagonal(0.0, 5.8125, 2.9062, 0.0)},
+    "relative: True there, False here": {"relative": False},
+    "internal_point: 'held' there, 'carried' here": {"internal_point": "carried"},
+    "characteristic_length: 1.0 there, 'optimal' here": {"characteristic_length": "optimal"},
+}
+
+
+@pytest.mark.parametrize("words", OTHERS)
+def test_a_folder_refuses_another_question(tmp_path, words, expected):
+    asked(tmp_path)
+    before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    with pytest.raises(ValueError, match=rf"out: got .*another question \({words}.*\), expected an empty folder"):
+        nd.sweep(**({"geometry": G, "home": HOME, "over": GRID} | OTHERS[words]), out=tmp_path)
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+
+
+def test_work_of_another_kind_and_another_version_are_other_questions(tmp_path, monkeypatch):
+    asked(tmp_path)
+    with pytest.raises(ValueError, match=r"\(kind: 'sweep' there, 'atlas' here\)"):
+        nd.atlas(100, out=tmp_path)
+    monkeypatch.setattr("ninedof._core.version", "99.0")
+    with pytest.raises(ValueError, match=r"\(ninedof: '.*' there, '99.0' here\)"):
+        asked(tmp_path)
+
+
+def test_the_chunk_size_of_a_folder_is_kept(tmp_path, expected):
+    asked(tmp_path)
+    assert asked(tmp_path, chunk=64).tobytes() == expected.tobytes()
+    assert len(finished(tmp_path)) == 20
+
+
+@pytest.mark.parametrize("name", ["notes.txt", ".part-film.mkv", f".part-{STATE}"])
+def test_a_folder_of_other_files_is_refused_and_not_changed(tmp_path, name):
+    (tmp_path / name).write_text("mine")
+    before = tmp_path.stat().st_mtime_ns
+    with pytest.raises(ValueError, match=rf"^out: got .*, which holds '{name}' but no finished.npz, expected it empty"):
+        asked(tmp_path)
+    assert [p.read_text() for p in tmp_path.iterdir()] == ["mine"]
+    assert tmp_path.stat().st_mtime_ns == before
+
+
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path):
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(ValueError, match=r"out: got .*file, which cannot be created"):
+        asked(tmp_path / "file")
+
+
+def test_an_index_without_a_name_cannot_be_kept(tmp_path):
+    with pytest.raises(ValueError, match=r"index: got <function .*expected a function with a name of its own"):
+        nd.sweep(G, HOME, GRID, lambda g, c, lc: nd.condition_number(g, c, lc), out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["../../evil", "a/b", "a\\b", "", ".hidden", "x" * 300, "a\0b", "a\nb", 5])
+def test_the_name_of_an_index_does_not_lead_outside(tmp_path, name):
+    index = type("Own", (), {"__call__": lambda self, *a: nd.condition_number(*a), "__qualname__": "Own"})()
+    index.__name__ = name
+    with pytest.raises(ValueError, match=r"^index: got a function of the name .*, expected a name"):
+        nd.sweep(G, HOME, GRID, index, out=tmp_path / "deep" / "out")
+    assert not list(tmp_path.iterdir())
+
+
+def test_two_runs_do_not_share_a_folder(child, tmp_path):
+    notes = tmp_path / "notes"
+    notes.mkdir()
+    process = child(tmp_path / "out", notes)
+    try:
+        until_a_chunk_is_kept(tmp_path / "out")
+        os.kill(process.pid, signal.SIGSTOP)  # it must not finish during the test
+        with pytest.raises(ValueError, match="which another run is using"):
+            asked(tmp_path / "out")
+    finally:
+        process.kill()
+        process.join()
+    with pytest.raises(ValueError, match="another question"):  # a killed run holds no lock
+        asked(tmp_path / "out")
+
+
+# --- The disk ---------------------------------------------------------------------------------------------------------
+
+HUGE = 10**11  # points, 800 GB
+
+
+def test_arrays_are_read_from_their_files(tmp_path, expected):
+    found = nd.sweep(G, HOME, GRID, ["condition_number", "leg_lengths"], out=tmp_path, chunk=20)
+    assert isinstance(found["condition_number"], np.memmap)
+    assert not found["condition_number"].flags.writeable
+    assert found["condition_number"].tobytes() == expected.tobytes()
+    assert found["leg_lengths"].tobytes() == nd.sweep(G, HOME, GRID, "leg_lengths")["leg_lengths"].tobytes()
+    assert np.load(tmp_path / "leg_lengths.npy").shape == (23, 17, 9)
+
+
+def test_arrays_for_which_the_disk_has_no_room_are_refused_before_the_work(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(total=10**12, free=31 * 10**9))
+    room = "their values take 800 GB, and 31 GB are free on the disk of out"
+    with pytest.raises(ValueError, match=f"^over: got {HUGE} points, expected fewer: {room}$"):
+        nd.sweep(G, HOME, {"x_p": (-1.0, 1.0, HUGE)}, out=tmp_path / "out")
+    assert not list((tmp_path / "out").iterdir())
+    with pytest.raises(SystemExit) as end:
+        main(["sweep", "--over", f"x_p=-1:1:{HUGE}", "--out", str(tmp_path / "run")])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"ninedof: --over: got {HUGE} points, expected fewer: ")
+    assert said.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("usage", [OSError(), SimpleNamespace(total=0, free=0)])
+def test_a_disk_that_does_not_say_what_is_free_is_tried(tmp_path, expected, monkeypatch, usage):
+    def disk(_):
+        if isinstance(usage, OSError):
+            raise usage
+        return usage
+
+    monkeypatch.setattr(shutil, "disk_usage", disk)
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="this system has no disk that is always full")
+def test_a_disk_that_is_full_ends_the_run_and_keeps_what_is_finished(tmp_path, expected, monkeypatch):
+    real, calls = chunks.Folder.put, []
+
+    def put(self, name, first, values):
+        calls.append(first)
+        if len(calls) == 4:
+            self._files[name][0].close()
+            self._files[name] = open("/dev/full", "r+b", buffering=0), 0  # noqa: SIM115
+        real(self, name, first, values)
+
+    monkeypatch.setattr(chunks.Folder, "put", put)
+    with pytest.raises(OSError, match="No space left on device") as caught:
+        asked(tmp_path)
+    assert caught.value.filename == str(tmp_path / "condition_number.npy")
+    assert caught.value.__notes__ == [f"Finished chunks are kept in {tmp_path}: the same call goes on from there."]
+    assert finished(tmp_path) == {0, 1, 2}
+    monkeypatch.undo()
+    assert asked(tmp_path).tobytes() == expected.tobytes()
+    assert json.loads(str(read_npz(tmp_path / STATE)[HEAD]))["chunk"] == 20
