@@ -1,4 +1,4 @@
-"""The report at the end of a job, beside its record and its figures."""
+"""The end of a job: its record, what it says, its figures and its report."""
 
 from __future__ import annotations
 
@@ -7,11 +7,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from ninedof.cli.answer import Answer
 from ninedof.cli.screen import Screen
 from ninedof.report.report import FILE, report
+from ninedof.runs.command_file import FILE as COMMAND
+from ninedof.runs.folder import FILE as RECORD
 from ninedof.support.printable import one_line
 
 Draw = Callable[[Path], Sequence[Path]]
+FIGURES = (".png", ".svg", ".pdf")
 
 
 def with_report(draw: Draw | None, wanted: bool, screen: Screen, words: Callable[[], object] = lambda: None) -> Draw:
@@ -63,6 +67,25 @@ def told(screen: Screen, words: Callable[[], object], data: Any) -> Iterator[Cal
         once()
         screen.data(data)
         raise
+
+
+def kept(
+    screen: Screen, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None = None, report: bool = False
+) -> Path:
+    """Write a run, print its answer, draw its figures and write its report; return its record."""
+    with told(screen, lambda: screen.print(*answer.parts), answer.data) as once:
+        record = write(with_report(draw, report, screen, once))
+        once()
+    return record
+
+
+def folder_words(folder: Path) -> str:
+    """Return what a run folder has in it."""
+    names = sorted(path.name for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
+    stems = [Path(name).stem for name in names if name.endswith(FIGURES[0])]
+    others = [name for name in names if not name.endswith(FIGURES) and name not in (RECORD, FILE, COMMAND)]
+    figures = [f"figure{'s' * (len(stems) > 1)} {', '.join(stems)} (PNG, SVG, PDF)"] if stems else []
+    return f"run folder {folder}: {', '.join([RECORD, *others, *figures, *([FILE] if FILE in names else [])])}"
 
 
 def report_words(directory: Path) -> str:

@@ -1,11 +1,15 @@
-"""Options that several commands share."""
+"""Options that several commands share, and the structs that hold those of a command."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+Two = tuple[float, float]
+Three = tuple[float, float, float]
 
 Json = Annotated[
     bool, typer.Option("--json", help="Print the result as JSON on standard output, text on standard error.")
@@ -31,6 +35,9 @@ Resume = Annotated[bool, typer.Option("--resume", help="Continue the interrupted
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
 ]
+LegLimits = Annotated[
+    Two | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default.")
+]
 
 BaseSide1 = Annotated[float | None, typer.Option(help="Base side (eq. 37).")]
 BaseSide2 = Annotated[float | None, typer.Option(help="Base side.")]
@@ -39,3 +46,19 @@ PlatformSide2 = Annotated[float | None, typer.Option(help="Platform side.")]
 Height = Annotated[float | None, typer.Option(help="Height of the platform.")]
 InternalHeight = Annotated[float | None, typer.Option(help="Height of the internal point.")]
 TwistDeg = Annotated[float | None, typer.Option(help="Twist of the platform, degrees; 0 by default.")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """Options of a command that prints."""
+
+    json: Json = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class JobOptions(Options):
+    """Options of a command that makes a run folder."""
+
+    out: Out = None
+    figures: Figures = True
+    report: Report = True

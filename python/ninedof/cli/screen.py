@@ -27,6 +27,7 @@ from rich.text import Text
 from ninedof.optimize.result import Result, Status
 from ninedof.support.json import encode
 from ninedof.support.printable import escaped, one_line
+from ninedof.tables.terminal import terminal
 
 DONE = 0
 REFUSED = 1  # by the system: a file, the disk; of `ninedof check`, a certificate
@@ -78,8 +79,9 @@ class Screen:
         self.words = _Plain(stderr=True) if json else _Plain()
 
     def print(self, *parts: Any) -> None:
-        """Print text or a table."""
-        self.words.print(*parts)
+        """Print sentences and tables, each on lines of its own."""
+        for part in parts:
+            self.words.print(terminal(part, self.words.width))
 
     def data(self, value: Any) -> None:
         """Print the result as JSON with --json."""

@@ -16,7 +16,7 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.agreement import agreement_words
 from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
-from ninedof.optimize.result_html import result_html
+from ninedof.optimize.tables import candidates_table
 from ninedof.proof.machine import certify
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.proof.machine_seal import belongs, machine_digest
@@ -32,6 +32,7 @@ from ninedof.support.fields import entries_of
 from ninedof.support.fixed import Fixed
 from ninedof.support.progress import progress_argument
 from ninedof.support.short import short_repr
+from ninedof.tables.html import notebook
 
 if TYPE_CHECKING:
     from ninedof import _core
@@ -230,7 +231,9 @@ class Result:
         return f"<Result: {self.status}, {value}, limits reached: {', '.join(self.best.active) or 'nothing'}>"
 
     def _repr_html_(self) -> str:
-        return result_html(self)
+        if not self.candidates:
+            return notebook(f"{self.status}: {self.reason}", f"causes: {', '.join(self.causes) or 'none found'}")
+        return notebook(f"{self.status}: {self.reason}", candidates_table(self))
 
     def sheet(self, poses: Configuration | None = None, **options: Any) -> Sheet:
         """Return the engineering sheet of the best candidate: `ninedof.sheet` with its arguments."""

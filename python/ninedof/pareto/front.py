@@ -10,8 +10,9 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto.limited import unit_of, without_degrees
-from ninedof.support.html import html_table
-from ninedof.support.units import unit_entry
+from ninedof.support.units import unit_entry, with_unit
+from ninedof.tables import RIGHT, Column, Table
+from ninedof.tables.html import notebook
 
 SAME = 1e-9  # relative: smaller differences of objectives do not count
 
@@ -49,20 +50,7 @@ class Front:
         return f"<Front: {count}; {words}{', interrupted' * self.interrupted}>"
 
     def _repr_html_(self) -> str:
-        rows = []
-        for number, row in enumerate(self.table(), start=1):
-            reached = ", ".join(row["active"] or ()) or "nothing"
-            words = f"{row['status']}: {row['reason']}" if row["objective"] is None else reached
-            rows.append((number, *(row[key] for key in ("limit", "objective", "condition_number", "price")), words))
-        head = (
-            "no.",
-            f"{self.against} at most",
-            "objective",
-            "neutral condition number",
-            "price, % for 1 %",
-            "limits reached",
-        )
-        return html_table(f"{self.study.words} against {self.against}", rows, head)
+        return notebook(front_table(self))
 
     @property
     def objectives(self) -> tuple[float, ...]:
@@ -149,7 +137,35 @@ def objective_of(result: Result) -> float:
     return result.best.objective
 
 
-def row_words(front: Front, row: Mapping[str, Any]) -> str:
+def front_table(front: Front) -> Table:
+    """Return the table of a front: one limit per row, the tightest first."""
+    limit = front.limit_name.replace("_", " ")
+    columns = [
+        Column("no.", "", RIGHT),
+        Column(f"{limit}\n{with_unit('at most', 'deg' if front.unit == 'rad' else front.unit)}", "", RIGHT),
+        Column("objective", "", ".6f"),
+        Column("neutral\ncondition number", "", ".6f"),
+        Column("price\n% for 1 %", "", ".3f"),
+        Column("limits reached, or why there is no design"),
+    ]
+    rows = [
+        (
+            str(number),  # RUN#1 names the first
+            limit_text(front, row["limit"]),
+            *(None if row["objective"] is None else row[key] for key in ("objective", "condition_number", "price")),
+            _row_words(front, row),
+        )
+        for number, row in enumerate(front.table(), start=1)
+    ]
+    return Table(f"{front.study.words} against {limit}", columns, rows)
+
+
+def limit_text(front: Front, value: float) -> str:
+    """Return a limit of a front as text; angles in degrees."""
+    return f"{math.degrees(value) if front.unit == 'rad' else value:.5g}"
+
+
+def _row_words(front: Front, row: Mapping[str, Any]) -> str:
     """Return what a row of the table of a front reached, or why it has no design."""
     if row["objective"] is None or row["status"] != Status.OPTIMAL:
         return f"{row['status']}: {row['reason']}"

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable
 from pathlib import Path
 
 from ninedof.paper.published import FIGURES
-from ninedof.report.markup import Html, joined, safe, tag
+from ninedof.tables.html import Html, joined, safe, tag
 
 CAPTIONS = {
     "mechanism": "The mechanism at its neutral pose.",
@@ -27,19 +26,18 @@ KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 
 def stems(folder: Path) -> list[str]:
     """Return the names of the figures of a folder, known ones first."""
-    found = {file.stem for kind in KINDS for file in folder.glob(f"*{kind}") if _own(file)}
-    return sorted(found, key=lambda stem: ([*CAPTIONS, stem].index(stem), stem))
+    names = {file.stem for kind in KINDS for file in folder.glob(f"*{kind}") if _own(file)}
+    return sorted(names, key=lambda stem: ([*CAPTIONS, stem].index(stem), stem))
 
 
-def figures(folder: Path, names: Iterable[str]) -> Html:
-    """Return the figures of these names with their captions."""
-    return joined(*(tag("figure", image(folder, stem), tag("figcaption", _caption(stem))) for stem in names))
+def figures(folder: Path) -> Html:
+    """Return the figures of a folder with their captions."""
+    return joined(*(tag("figure", image(folder, stem), tag("figcaption", _caption(stem))) for stem in stems(folder)))
 
 
 def image(folder: Path, stem: str) -> Html:
     """Return a figure as an element that holds its file: SVG or PNG, whichever is smaller."""
-    files = [path for kind in KINDS if _own(path := folder / f"{stem}{kind}")]
-    smallest = min(files, key=lambda path: path.stat().st_size)
+    smallest = min((p for kind in KINDS if _own(p := folder / f"{stem}{kind}")), key=lambda path: path.stat().st_size)
     data = b64encode(smallest.read_bytes()).decode()
     return Html(f'<img alt="{safe(_caption(stem))}" src="data:{KINDS[smallest.suffix]};base64,{data}">')
 

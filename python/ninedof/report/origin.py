@@ -12,9 +12,9 @@ from typing import Any
 from ninedof.design.study import Study
 from ninedof.pareto import Front
 from ninedof.pareto.limited import with_degrees
-from ninedof.report.markup import Html, facts, joined, listing, paragraphs, tag
 from ninedof.support.angles import degrees_of
 from ninedof.support.json import encode
+from ninedof.tables.html import Html, facts, joined, listing, paragraphs, tag
 
 SAME = "The same study and seed give the same bits, for any number of threads, with the same versions."
 SAME_LIMITS = (
@@ -52,7 +52,7 @@ def of_study(study: Study, command: str, record: Any, note: str = SAME) -> Html:
         ),
         listing(command),
         _versions(record, [("starts", study.starts), ("seed", study.seed)]),
-        paragraphs([note], "note"),
+        paragraphs([note], class_="note"),
         tag("h3", "study.toml"),
         listing(text),
     )
@@ -82,7 +82,7 @@ def _made_by(record: Any) -> Html:
         return Html()
     resumed = "--resume" in record.command.split()  # of a stranger: shlex may find no end of a quote
     said = "It continued an interrupted run: without --resume it begins anew." if resumed else ""
-    return joined(paragraphs(["The command that made it:"]), listing(record.command), paragraphs([said], "note"))
+    return joined(paragraphs(["The command that made it:"]), listing(record.command), paragraphs([said], class_="note"))
 
 
 def _versions(record: Any, more: list[tuple[str, object]]) -> Html:

@@ -4,45 +4,55 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from hashlib import sha256
 from importlib.resources import files
-from pathlib import Path
 from string import Template
+from typing import Any
 
-from ninedof.report.figures import figures, image
-from ninedof.report.markup import Html, Section, facts, joined, safe, tag
-from ninedof.report.pages import Page
+from ninedof.tables.html import Html, facts, joined, safe, tag
 
 SCRIPTS = ("camera.js", "paint.js", "scene.js")
 # Nothing is loaded; style and script are the ones written here, known by their hashes, and no text becomes code.
 POLICY = (
     "default-src 'none'; img-src data:; style-src {style}; script-src {script}; base-uri 'none'; form-action 'none'"
 )
+TITLES = {
+    "question": "Question",
+    "answer": "Answer",
+    "machine": "Machine",
+    "sheet": "Engineering sheet",
+    "figures": "Figures",
+    "proof": "What is proved, and what is searched",
+    "again": "How to reproduce it",
+}
 
 
-def page(
-    contents: Page, name: str, created: str, folder: Path, stems: Sequence[str], still: tuple[Path, str] | None
-) -> str:
-    """Return the HTML of a page.
+@dataclass(frozen=True)
+class Page:
+    """The contents of a page."""
 
-    Parameters
-    ----------
-    contents : Page
-    name : str
-        Of the run.
-    created : str
-        When the run was written.
-    folder, stems
-        Where the figures are, and their names.
-    still : (Path, str), optional
-        Folder and name of the figure that stands for the view where scripts are off.
+    kind: str
+    headline: str
+    figures: Sequence[tuple[object, object]]
+    """Names and values under the headline."""
+    sections: Mapping[str, Html]
+    """By the names in TITLES; the section "machine" has the view and a sentence below it."""
+    shown: Mapping[str, Any] | None = None
+    """What the view shows; None without a machine."""
+    good: bool = True
 
-    """
-    sections = list(contents.sections)
-    if stems:
-        sections.insert(_place_of_figures(sections), Section("figures", "Figures", figures(folder, stems)))
-    parts = [_section(s, _view(still) if s.id == "machine" and contents.shown else Html()) for s in sections]
+
+def page(contents: Page, name: str, created: str, figures: Html, still: Html) -> str:
+    """Return the HTML of a page of a run; `still` stands for the view where scripts are off."""
+    bodies = {**contents.sections, "figures": figures}
+    sections = {key: bodies[key] for key in TITLES if bodies.get(key) or key in contents.sections}
+    view = joined(Html(_file("view.html")), tag("noscript", tag("figure", still))) if contents.shown else Html()
+    parts = [
+        tag("section", tag("h2", TITLES[key]), view if key == "machine" else Html(), body, id=key)
+        for key, body in sections.items()
+    ]
     style = f"\n{_file('style.css')}\n"
     script = f"\n{''.join(_file(name) for name in SCRIPTS)}\n" if contents.shown else ""
     return Template(_file("page.html")).substitute(
@@ -55,25 +65,11 @@ def page(
         headline=safe(contents.headline),
         state="good" if contents.good else "poor",
         key_figures=facts(contents.figures),
-        links=joined(*(tag("a", s.title, href=f"#{s.id}") for s in sections)),
+        links=joined(*(tag("a", TITLES[key], href=f"#{key}") for key in sections)),
         sections=joined(*parts),
         scene=_script_data(contents.shown),
         script=f"<script>{script}</script>" if script else "",
     )
-
-
-def _place_of_figures(sections: Sequence[Section]) -> int:
-    ids = [s.id for s in sections]
-    return ids.index("proof") if "proof" in ids else len(ids) - 1
-
-
-def _section(section: Section, before: Html) -> Html:
-    return tag("section", tag("h2", section.title), before, section.body, id=section.id)
-
-
-def _view(still: tuple[Path, str] | None) -> Html:
-    picture = Html() if still is None else tag("noscript", tag("figure", image(*still)))
-    return joined(Html(_file("view.html")), picture)
 
 
 def _hash(text: str) -> str:

@@ -9,7 +9,7 @@ from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.result import Result, Status
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
-from ninedof.report.markup import Html, bullets, joined, paragraphs, tag
+from ninedof.tables.html import Html, bullets, joined, paragraphs, tag
 from ninedof.workspace import WorkspaceMap
 
 ROUNDING = 1e-9  # a gap that no figure on the page shows

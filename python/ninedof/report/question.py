@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 from ninedof.design.limits import Limit
 from ninedof.design.study import Study
-from ninedof.optimize.result_html import MOST_FIXED
+from ninedof.optimize.tables import listed_variables
 from ninedof.redundancy.rules import MEANING, WORDS
-from ninedof.report.markup import Html, beside, joined, paragraphs, table
 from ninedof.support.angles import degrees_of
-from ninedof.support.units import amount, with_unit
+from ninedof.support.units import amount
+from ninedof.tables import RIGHT, Column, Line, Table
+from ninedof.tables.html import Html, html_of, joined, paragraphs
 
 FAMILIES = {
     "hexagonal": "hexagonal plates, eqs. (37) and (38)",
@@ -23,7 +24,7 @@ FAMILIES = {
 
 def question(study: Study) -> Html:
     """Return the question of a study."""
-    return joined(paragraphs(sentences(study)), beside(variables_table(study), limits_table(study)))
+    return joined(paragraphs(sentences(study)), html_of((variables_table(study), limits_table(study))))
 
 
 def sentences(study: Study) -> Iterator[str]:
@@ -54,30 +55,24 @@ def sentences(study: Study) -> Iterator[str]:
     yield f"Lengths are {named}, angles in degrees. The characteristic length is {said}."
 
 
-def variables_table(study: Study) -> Html:
+def variables_table(study: Study) -> Table:
     """Return the variables with their bounds."""
-    free = [name for name, bound in study.variables.items() if isinstance(bound, tuple)]
-    shown = list(study.variables) if len(study.variables) - len(free) <= MOST_FIXED else free
     rows = []
-    for name in shown:
+    for name in listed_variables(study.variables):
         bound = study.variables[name]
-        if isinstance(bound, tuple):
-            ends = tuple(_end(study.shown(name, end)) for end in bound)
-        else:
-            ends = (_end(study.shown(name, bound)), "fixed")
-        rows.append((with_unit(name.replace("_", " "), study.unit_of(name)), *ends))
-    return table("Variables", ("variable", "least", "greatest"), rows)
+        low, *high = (_end(study.shown(name, end)) for end in (bound if isinstance(bound, tuple) else (bound,)))
+        rows.append(Line(name, [low, *(high or ["fixed"])], unit=study.unit_of(name)))
+    return Table("Variables", [Column("variable"), Column("least", "", RIGHT), Column("greatest", "", RIGHT)], rows)
 
 
-def limits_table(study: Study) -> Html:
-    """Return the limits; nothing without one."""
+def limits_table(study: Study) -> Table:
+    """Return the limits; a note where there is none."""
     several = bool(study.objective.poses) or study.objective.region is not None
     rows = [_limit_row(limit, study.unit, several) for limit in study.limits]
-    if not rows:
-        return paragraphs(["No limit is set beside these bounds and 0 < zs < zp."])
+    columns = [Column("limit"), Column("least", "", RIGHT), Column("greatest", "", RIGHT), Column("how")]
     if not any(row[-1] for row in rows):
-        return table("Limits", ("limit", "least", "greatest"), [row[:-1] for row in rows])
-    return table("Limits", ("limit", "least", "greatest", "how"), rows, words=(3,))
+        rows, columns = [row[:-1] for row in rows], columns[:-1]
+    return Table("Limits", columns, rows, () if rows else ["No limit is set beside these bounds and 0 < zs < zp."])
 
 
 def _limit_row(limit: Limit, unit: str, several: bool) -> tuple[str, ...]:

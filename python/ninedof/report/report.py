@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninedof.optimize.result import Result
+from ninedof.paper.tables import comparison_table
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
 from ninedof.report import origin
-from ninedof.report.damage import named
-from ninedof.report.figures import stems
-from ninedof.report.front_page import of_front
-from ninedof.report.markup import Section, joined
-from ninedof.report.other_pages import of_comparison, of_workspace
-from ninedof.report.page import page
-from ninedof.report.pages import Page, of_result
+from ninedof.report.figures import figures, image, stems
+from ninedof.report.front import of_front
+from ninedof.report.optimization import of_result
+from ninedof.report.page import Page, page
 from ninedof.report.recorded import FROM_RECORD, of_recorded
+from ninedof.report.workspace import of_workspace
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
 from ninedof.runs.folder import Record, load_record
@@ -26,10 +26,14 @@ from ninedof.runs.machine_file import certificate_file, load_certificate
 from ninedof.runs.objects import load, split
 from ninedof.support.arguments import path_argument, shown
 from ninedof.support.files import write_whole
+from ninedof.support.printable import escaped, one_line
+from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 
 FILE = "report.html"
 STILL = "mechanism"
+ODD = (LookupError, TypeError, AttributeError, ArithmeticError)
+"""Raised by values of another kind than the record of a run has: entries that are missing, words for numbers."""
 
 
 def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
@@ -84,13 +88,19 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     folder = place if place.is_dir() else place.parent
     name = folder.resolve().name + (f"#{point}" if point else "")
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    with named(place):
+    try:
         record = load_record(place)
         found = None if record.kind in FROM_RECORD and not point else load(run)
         whole = load(place) if point else None
         certificate = _certificate_of(found, run) if isinstance(found, Result) else None
         made = _page_of(found, record, name, point, whole, certificate)
         text = _text(made, record, None if point else folder, name)
+    except ValueError as error:
+        words = one_line(str(error))
+        raise ValueError(words if words.startswith(escaped(str(place))) else f"{place}: {words}") from None
+    except ODD as error:
+        words = one_line(f"{type(error).__name__}: {error}")
+        raise ValueError(f"{place}: got a record that is not whole ({words}), expected that of a run") from None
     return write_whole(file, text.encode())
 
 
@@ -120,29 +130,24 @@ def _page_of(
     if isinstance(found, Front):
         return of_front(found, record)
     if isinstance(found, WorkspaceMap):
-        return of_workspace(found, record, name)
+        return of_workspace(found, record)
     if not isinstance(found, Result):
         return of_recorded(record, name)
     again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
     made = of_result(found, record, f"RUN#{point}" if point else "RUN", again, certificate)
     if record.kind != "comparison" or point:
         return made
-    sections = [
-        Section(s.id, s.title, joined(of_comparison(record.results["designs"]), s.body)) if s.id == "answer" else s
-        for s in made.sections
-    ]
-    return Page(made.kind, made.headline, made.figures, sections, made.shown, made.good)
+    published = html_of(comparison_table(record.results["designs"]))
+    return replace(made, sections={**made.sections, "answer": joined(published, made.sections["answer"])})
 
 
 def _text(made: Page, record: Record, folder: Path | None, name: str) -> str:
-    names = [] if folder is None else stems(folder)
     with TemporaryDirectory() as spare:
-        still = None
+        still = Html()
         if made.shown is not None:
-            still = (
-                (folder, STILL) if folder is not None and STILL in names else (_drawn(made.shown, Path(spare)), STILL)
-            )
-        return page(made, name, record.created, folder or Path(spare), names, still)
+            has_still = folder is not None and STILL in stems(folder)
+            still = image(folder if folder and has_still else _drawn(made.shown, Path(spare)), STILL)
+        return page(made, name, record.created, Html() if folder is None else figures(folder), still)
 
 
 def _drawn(scene: Any, folder: Path) -> Path:

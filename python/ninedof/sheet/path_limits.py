@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,10 +17,7 @@ from ninedof.robot.configuration import Configuration, single
 from ninedof.sheet.pose_limits import PoseLimit, pose_limits
 from ninedof.support.arguments import instance
 from ninedof.support.arrays import Floats
-from ninedof.support.margins import margin_words, tolerance_of
-from ninedof.support.units import amount
-
-LENGTHS = ("leg_clearance", "stroke")
+from ninedof.support.margins import tolerance_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -106,14 +102,3 @@ def path_limits(study: Study, followed: Followed, home: Configuration) -> PathLi
     single(g, home, "home")
     every = pose_limits(study, g, followed.configurations, home, followed.characteristic_length)
     return PathLimits(followed.time, tuple(one for one in every if one.name not in OF_LENGTHS))
-
-
-def row_words(row: Mapping[str, Any], unit: str) -> tuple[str, ...]:
-    """Return a row of `PathLimits.worst` as text: limit, side, what is allowed, the worst, its margin and time."""
-    if "limit_deg" in row:
-        ends = [f"{row[key]:.2f}°" for key in ("limit_deg", "value_deg")]
-    else:
-        of = unit if row["name"] in LENGTHS else ""
-        ends = [amount(f"{row[key]:.6g}", of) for key in ("limit", "value")]
-    margin = margin_words(row["margin"], "sign" if row["name"] == "singularity_free" else "")
-    return f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"

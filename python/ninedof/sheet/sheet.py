@@ -25,14 +25,15 @@ from ninedof.sheet.limit_rows import LimitRow, limit_rows
 from ninedof.sheet.near_singularity import NearSingularity, near_singularities
 from ninedof.sheet.numbers import SAMPLES, Asked, RegionLook, look_over, numbers_at
 from ninedof.sheet.pose_words import turn_deg
+from ninedof.sheet.tables import lengths_table, limits_table, summary_parts, worst_table
 from ninedof.sheet.weight import Weight
-from ninedof.sheet.words import sheet_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.statics.accuracy import MOST_SAMPLES
 from ninedof.support.arguments import shown, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.html import html_table
 from ninedof.support.units import per, unit_argument, with_unit
+from ninedof.tables.html import notebook
+from ninedof.tables.plain import plain
 
 
 class Extreme(NamedTuple):
@@ -140,7 +141,8 @@ class Sheet:
 
     def summary(self) -> str:
         """Return the sheet as lines of text, without joints and forces; angles in degrees."""
-        return "\n".join(sheet_words(self))
+        parts = (*summary_parts(self), worst_table(self), *([limits_table(self)] if self.limits else []))
+        return "\n".join(map(plain, parts))
 
     def __repr__(self) -> str:
         """Show the count of poses and the worst condition number."""
@@ -150,11 +152,7 @@ class Sheet:
         return f"<Sheet over {where}: worst condition number {self.condition_number.value:.6g}>"
 
     def _repr_html_(self) -> str:
-        keys = ("shortest", "longest", "neutral", "stroke", "stroke_ratio", "speed")
-        rows = [(leg.name, *(getattr(leg, key) for key in keys)) for leg in self.legs]
-        above = 1 + bool(self.unit) + (self.region is not None)
-        others = "; ".join(sheet_words(self)[above + len(rows) :])
-        return html_table(f"{repr(self)[1:-1]}; {others}", rows, ("leg", *(key.replace("_", " ") for key in keys)))
+        return notebook(repr(self)[1:-1], lengths_table(self), worst_table(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain values; names of angles end in _deg, those of poses are indices into "poses".

@@ -13,9 +13,10 @@ from ninedof.design.indices import size_of
 from ninedof.support.arguments import choice, items, shown, whole
 from ninedof.support.extras import optional
 from ninedof.support.files import Arrays, Saved
-from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
 from ninedof.support.short import short
+from ninedof.tables import Column, Table
+from ninedof.tables.html import notebook
 
 HEAD, COORDINATE, ARRAY = "ninedof", "coordinate ", "array "
 
@@ -60,21 +61,15 @@ class SweepResult(Saved):
         return f"<SweepResult {', '.join(shown)}>"
 
     def _repr_html_(self) -> str:
+        columns = [*(Column(name) for name in ("index", "unit", "over")), Column("least", "", ".6g"), Column("at")]
         rows = []
         for name, array in self.arrays.items():
             over = " x ".join(f"{len(self.coords[d])} {d}" for d in self.dims[name])
             missing = array.dtype.kind != "f" or bool(np.isnan(array).all())
             value, where = (None, {}) if missing else self.least(name)
-            rows.append(
-                (
-                    name,
-                    self.units.get(name, "1"),
-                    over,
-                    value,
-                    ", ".join(f"{d} = {x if isinstance(x, str) else short(x)}" for d, x in where.items()),
-                )
-            )
-        return html_table("SweepResult", rows, ("index", "unit", "over", "least", "at"))
+            at = ", ".join(f"{d} = {x if isinstance(x, str) else short(x)}" for d, x in where.items())
+            rows.append((name, self.units.get(name, "1"), over, value, at))
+        return notebook(Table("SweepResult", columns, rows))
 
     def at(self, name: str, position: tuple[Any, ...]) -> dict[str, Any]:
         """Return the values of the coordinates at a position of an array, by dimension.

@@ -14,14 +14,14 @@ from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
 from ninedof.support.files import Arrays, Saved
-from ninedof.support.html import html_table
 from ninedof.support.json import decode, encode
-from ninedof.support.short import short
+from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
 from ninedof.workspace.field import WorkspaceField, field_of
 from ninedof.workspace.statistics import IndexStatistics
 from ninedof.workspace.surface import WorkspaceSurface, surface_of
+from ninedof.workspace.tables import workspace_table
 
 
 class WorkspaceStatus(StrEnum):
@@ -129,17 +129,7 @@ class WorkspaceMap(Saved):
         return f"<WorkspaceMap: {self.archetype}, {self.status}, volume {self.volume:.6g} +- {self.error:.1g}, {index}>"
 
     def _repr_html_(self) -> str:
-        limits = ", ".join(f"{name} {100.0 * part:.3g} %" for name, part in self.limits(grouped=True).items())
-        rows = (
-            ("volume", f"{self.volume:.6g} \u00b1 {self.error:.1g}, {100.0 * self.share:.3g} % of the box or region"),
-            ("pieces", self.pieces),
-            ("largest ball", f"radius {self.ball_radius:.6g}, centre {short(self.ball_centre)}"),
-            ("largest box", f"{short(self.box_low)} to {short(self.box_high)}"),
-            ("conditioning index", f"{self.conditioning_index:.6g} \u00b1 {self.conditioning_index_error:.1g}"),
-            ("worst condition number", f"{self.worst_condition_number:.6g} at {short(self.worst_at)}"),
-            ("boundary due to", limits or None),
-        )
-        return html_table(f"{self.archetype.replace('_', ' ')} workspace, {self.status}", rows)
+        return notebook(f"{self.archetype.replace('_', ' ')} workspace, {self.status}", workspace_table(self))
 
     def limits(self, grouped: bool = False) -> dict[str, float]:
         """Return the share of the boundary due to each limit, the largest first.

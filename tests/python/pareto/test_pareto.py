@@ -9,9 +9,9 @@ from interrupts import interrupter
 from sizes import size
 
 import ninedof as nd
-from ninedof.cli.commands.pareto import front_table
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
+from ninedof.pareto.front import front_table
 from ninedof.pareto.limited import limited, resolve, value_at
 from ninedof.verify import check
 
@@ -103,7 +103,7 @@ def test_a_limit_at_price_0_is_not_reached():
     assert found.limits[-1] == pytest.approx(value_at(PAPER, "radius_ratio", last["variables"]), rel=1e-6)
     assert "radius_ratio" not in last["active"]
     assert "radius_ratio" in found.table()[0]["active"]
-    shown = list(front_table(found).columns[-1].cells)
+    shown = [row[-1] for row in front_table(found).rows]
     assert "(radius_ratio without effect)" in shown[-1]
     assert "without effect" not in shown[0]
 

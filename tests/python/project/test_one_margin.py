@@ -1,25 +1,24 @@
 """A margin is one number and one text wherever it is shown, for every limit; by hand from value and limit."""
 
-import io
 import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from rich.console import Console
 from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.cli.commands import certify as certify_command
-from ninedof.cli.sheet_tables import limits_table
+from ninedof.cli.commands.certify import certificate_table
 from ninedof.design.limits import ROWS, split_label
 from ninedof.export.latex import _limits as latex_limits
 from ninedof.motion.followed import stretches
 from ninedof.proof.machine import certify
 from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_limits import pose_limits
+from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
+from ninedof.tables.plain import plain
 from ninedof.verify.objective import ObjectiveRule
 from ninedof.verify.robot import DesignSpace
 from ninedof.verify.rules import limits_of, margins
@@ -128,10 +127,9 @@ def test_every_place_has_the_same_text(seed):
     assert [margin_words(row.margin, row.unit) for row in rows] == every
     found = nd.sheet(point)
     object.__setattr__(found, "limits", rows)
-    out = io.StringIO()
-    Console(file=out, width=200).print(limits_table(found))
-    assert re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)(?= *[^\w%]*$)", out.getvalue(), re.MULTILINE) == every
-    assert re.findall(r"margin ((?:over |below )?-?[\d.]+(?: %)?)", found.summary()) == every
+    (shown,) = limits_table(found).texts()
+    assert [row[-1] for row in shown] == every
+    assert re.findall(r"((?:over |below )?-?[\d.]+(?: %)?)$", plain(limits_table(found)), re.MULTILINE) == every
     latex = [
         word.replace(r"\,\%", " %")
         for word in re.findall(r"\$((?:over |below )?-?[\d.]+(?:\\,\\%)?)\$ *\\\\", latex_limits(rows, ""))
@@ -144,8 +142,7 @@ def test_every_place_has_the_same_text(seed):
     cells = re.findall(r'text-align:right">([^<]*)</td></tr>', limits_html(at_home, "mm"))
     assert cells == [text(one.margin, one.unit) for one in at_home.limits]
     proved = certify(study, point.geometry, point.configurations, 1.0, time_limit=5.0)
-    table = certify_command._table(proved)
-    cells = list(table.columns[3].cells)[9 : 9 + len(proved.limits)]
+    cells = [row[3] for row in certificate_table(proved).rows][9 : 9 + len(proved.limits)]
     assert cells == [text(one.margin, one.kind) for one in proved.limits]
 
 

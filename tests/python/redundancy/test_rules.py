@@ -7,7 +7,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.posed import chosen_poses
+from ninedof.cli.posed import PoseOptions
 from ninedof.redundancy.rules import MEANING, RULES, STUDY_RULES, WORDS, where_o
 from ninedof.viewer.machine import machine_of
 from ninedof.viewer.state import State
@@ -48,7 +48,7 @@ def test_a_rule_places_o_at_the_same_point_everywhere(chosen):
             expected(rule, state.variant.home, state.configuration.rotation),
             atol=1e-12,
         )
-        at = chosen_poses(chosen, tuple(pose), TURN_DEG, rule, False)
+        at = PoseOptions(design="", position=tuple(pose), rotation_deg=TURN_DEG, internal_point=rule).poses(chosen)
         np.testing.assert_allclose(at.internal_point[0], o, atol=1e-12)
         if rule in STUDY_RULES:
             study = dataclasses.replace(

@@ -14,7 +14,7 @@ from changed_files import entries_of, write_sealed
 import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.report import figures
-from ninedof.report.markup import tag
+from ninedof.tables.html import tag
 
 HOSTILE = (
     "<script>window.ran=1</script>",

@@ -50,7 +50,7 @@ def test_a_path(here):
     assert status == (3 if motion["breaks"] else 0)
     assert f"condition number, worst {motion['condition_number']['worst']:.4f} at t =" in words
     assert f"limits broken {len(motion['breaks'])}" in words
-    assert "longest (mm) speed (mm/s) acceleration (mm/s²)" in words
+    assert "most (mm) low (mm) high (mm) margin speed (mm/s) accel. (mm/s²)" in words
     assert "[0.0, 0.0, 398.28]" in words  # lists of numbers in one line
     assert f"{motion['legs']['l1']['longest']:.6g}" in words
     assert "along 41 poses from t = 0 to 1" in words

@@ -22,10 +22,11 @@ from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
 from ninedof.pareto.limited import without_degrees
 from ninedof.report import origin
-from ninedof.report.markup import Html, table, tag
-from ninedof.report.numbers import short
 from ninedof.report.question import FAMILIES
 from ninedof.runs.folder import Record
+from ninedof.tables import Column, Table
+from ninedof.tables.html import Html, html_of, tag
+from ninedof.tables.numbers import short
 
 IMPOSSIBLE = {"height": (None, 1.0), "leg_length": (3.0, None), "footprint": (None, 1.0)}
 VOID = {"meta", "link", "img", "input", "br"}
@@ -239,10 +240,10 @@ def test_an_orientation_workspace_is_shown_in_degrees(tmp_path):
     found = nd.load(place)
     words = " ".join(words.split())
     assert "from (-60, -60, -60) to (60, 60, 60) deg." in words
-    assert f"largest ball, radius (deg) {found.ball_radius * 180.0 / math.pi:.5g}" in words
+    assert f"largest ball: radius (deg) {found.ball_radius * 180.0 / math.pi:.4g}" in words
     sides = (found.box_high - found.box_low) * 180.0 / math.pi
-    assert f"largest box, sides (deg) {sides[0]:.4g} × {sides[1]:.4g}" in words
-    assert f"volume (rad³) {found.volume:.6g}" in words
+    assert f"largest box: sides (deg) {sides[0]:.4g} {sides[1]:.4g}" in words
+    assert f"volume (rad³, of 8 π² in all) {found.volume:.6g}" in words
     assert "(rad)" not in words
 
 
@@ -359,7 +360,7 @@ def test_a_machine_in_metres_keeps_its_digits(tmp_path):
 
 def test_text_is_escaped_wherever_it_is_put():
     nasty = '<script>alert("x")</script>'
-    assert "<script>" not in table(nasty, (nasty, "b"), [(nasty, nasty)])
+    assert "<script>" not in html_of(Table(nasty, [Column(nasty, nasty), Column("b")], [(nasty, nasty)], [nasty]))
     assert tag("p", nasty, title=nasty).count("<") == 2
     assert tag("p", Html("<i>x</i>")) == "<p><i>x</i></p>"
 

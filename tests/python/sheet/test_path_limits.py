@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.sheet.path_limits import row_words
+from ninedof.motion.tables import limits_table
 
 EVERY = {
     "leg_ratio": (None, 3.0),
@@ -91,10 +91,12 @@ def test_shifted_keeps_the_arm_of_o():
 
 
 def test_rows_as_text_have_the_unit_of_their_limit():
-    row = {"name": "base_cone", "part": "l2", "side": "max", "limit_deg": 45.0, "value_deg": 2.5, "margin": 17 / 18}
-    assert row_words(row | {"at": 0.5}, "mm") == ("base_cone l2", "max", "45.00°", "2.50°", "94.44 %", "0.5")
-    row = {"name": "leg_clearance", "part": "", "side": "min", "limit": 20.0, "value": 30.0, "margin": 0.5, "at": 0.0}
-    assert row_words(row, "mm") == ("leg_clearance", "min", "20 mm", "30 mm", "50.00 %", "0")
-    assert row_words(row | {"name": "stroke_ratio"}, "mm")[2:4] == ("20", "30")
-    row |= {"name": "singularity_free", "limit": 0.1, "value": 0.35, "margin": 0.25}
-    assert row_words(row, "mm")[4] == "0.2500"
+    cone = {"name": "base_cone", "part": "l2", "side": "max", "limit_deg": 45.0, "value_deg": 2.5, "margin": 17 / 18}
+    length = {"name": "leg_clearance", "part": "", "side": "min", "limit": 20.0, "value": 30.0, "margin": 0.5}
+    ratio = length | {"name": "stroke_ratio"}
+    sign = length | {"name": "singularity_free", "limit": 0.1, "value": 0.35, "margin": 0.25}
+    rows = limits_table({"unit": "mm", "limits": [row | {"at": 0.5} for row in (cone, length, ratio, sign)]}).rows
+    assert rows[0] == ("base_cone l2", "max", "45.00°", "2.50°", "94.44 %", "0.5")
+    assert rows[1] == ("leg_clearance", "min", "20 mm", "30 mm", "50.00 %", "0.5")
+    assert rows[2][2:4] == ("20", "30")
+    assert rows[3][4] == "0.2500"

@@ -134,7 +134,7 @@ def test_configurations_are_those_of_the_core(region):
 def test_words_and_plain_values(boxed):
     found = boxed
     assert repr(found).startswith("<Sheet over a region, ")
-    assert f"{found.region.looked_at} poses looked at" in found.summary().splitlines()[0]
+    assert f"Poses looked at: {found.region.looked_at}" in found.summary().splitlines()[0]
     plain = found.to_dict()
     assert plain["region"]["looked_at"] == found.region.looked_at
     assert len(plain["poses"]) == len(found.configurations)

@@ -49,6 +49,7 @@ NOWHERE = {"pybind11", "Python.h", "iostream"}
 # a characteristic length. `__init__` holds the public names; what follows it is not loaded by `import ninedof`.
 PYTHON_ROOMS = (
     "support",
+    "tables",
     "chunks",
     "robot",
     "conditioning",

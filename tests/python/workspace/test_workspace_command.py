@@ -11,8 +11,8 @@ from numpy.testing import assert_allclose
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.cli.workspace_limits import compare_poses
-from ninedof.cli.workspace_summary import _planes, _section
+from ninedof.cli.workspace_figures import _planes, _section
+from ninedof.cli.workspace_question import compare_poses
 from ninedof.paper.published import published_variables
 from ninedof.runs.folder import write_run
 from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
@@ -264,7 +264,6 @@ def test_limits_of_legs_and_what_a_region_needs_hold_together():
     both = narrowed(criteria, np.linspace(1.0, 1.4, 9), np.full(9, 2.0))
     assert both["leg_limits"][0].tolist() == np.maximum(1.2, np.linspace(1.0, 1.4, 9)).tolist()
     assert both["leg_limits"][1].tolist() == [2.0] * 9
-    options = dict.fromkeys(("leg_length", "external_length", "upper_length", "lower_length"))
-    assert compare_poses(["stroke_ratio"], options)
-    assert not compare_poses(["height"], options)
-    assert not compare_poses(["stroke_ratio"], options | {"upper_length": (1.0, 2.0)})
+    assert compare_poses(["stroke_ratio"], {})
+    assert not compare_poses(["height"], {})
+    assert not compare_poses(["stroke_ratio"], {"upper_length": (1.0, 2.0)})

@@ -5,24 +5,25 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich import box
-from rich.table import Table
 
-from ninedof.cli import options, posed
-from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.screen import DONE, NO_RESULT, Screen
+from ninedof.cli import options
+from ninedof.cli.answer import Answer
+from ninedof.cli.chosen_design import with_length
+from ninedof.cli.posed import Looked, PosesOptions, length_at_home
+from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.redundancy.redundancy import InternalPoint, best_internal_point
 from ninedof.redundancy.search_arguments import CRITERIA
-from ninedof.robot.configuration import Configuration
 from ninedof.sheet.pose_words import decimals_of, fixed, vector_words
 from ninedof.singularity.singularity import singularity_margins
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount, unit_entry, with_unit
+from ninedof.support.units import amount, with_unit
+from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -37,50 +38,48 @@ WORDS = {"condition_number": "condition number", "singularity": "least |det|", "
 SHOWN = 12  # poses, the worst ones
 
 
-def best(
-    design: options.Design,
-    criterion: Annotated[str, typer.Option(help=f"One of {', '.join(CRITERIA)}.")] = "condition_number",
-    legs: Annotated[
-        tuple[float, float] | None,
-        typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default."),
-    ] = None,
-    position: posed.Position = None,
-    rotation_deg: posed.RotationDeg = None,
-    internal_point: posed.InternalPoint = None,
-    all_poses: posed.AllPoses = False,
-    lc: options.Lc = None,
-    json: options.Json = False,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Best(PosesOptions):
+    """The options."""
+
+    criterion: Annotated[str, typer.Option(help=f"One of {', '.join(CRITERIA)}.")] = "condition_number"
+    legs: options.LegLimits = None
+    lc: options.Lc = None
+
+
+def best(asked: Best) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
-    screen = Screen(json)
-    chosen = with_length(named_design(design), lc)
-    c = posed.chosen_poses(chosen, position, rotation_deg, internal_point, all_poses)
-    limits: Any = chosen.leg_limits() if legs is None else legs
-    length = posed.length_at_home(chosen)
-    asked = {"criterion": criterion, "limits": limits, "characteristic_length": length}
-    found = best_internal_point(chosen.geometry, c.position, c.rotation, **asked, start=c.internal_point)
-    now = _now(chosen, c, criterion, length)
-    for line in posed.pose_lines(c, chosen):
-        screen.print(line)
+    at = Looked.at(asked)
+    at = replace(at, chosen=with_length(at.chosen, asked.lc))
+    chosen, c = at.chosen, at.c
+    limits: Any = chosen.leg_limits() if asked.legs is None else asked.legs
+    length = length_at_home(chosen)
+    how = {"criterion": asked.criterion, "limits": limits, "characteristic_length": length}
+    found = best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
+    now = _now(at, asked.criterion, length)
+    words, small = WORDS[asked.criterion], asked.criterion == "condition_number"
     if len(c) == 1:
-        for line in _words(c, found, now, WORDS[criterion], chosen.unit):
-            screen.print(line)
+        parts: list[Any] = list(_words(at, found, now, words))
     else:
-        screen.print(_table(c, found, now, WORDS[criterion], criterion == "condition_number", chosen.unit))
-        for line in _over_poses(found, now, WORDS[criterion], criterion == "condition_number"):
-            screen.print(line)
-    data = {"poses": posed.poses_data(c), "criterion": criterion, "limits": limits}
-    data |= {"internal_point": found.configuration.internal_point, "value": found.value, "now": now}
-    screen.data(unit_entry(chosen.unit) | data | {"status": found.status, "active": found.active})
-    raise typer.Exit(DONE if np.isfinite(found.value).any() else NO_RESULT)
+        parts = [_table(at, found, now, words, small), *_over_poses(found, now, words, small)]
+    data = {
+        "criterion": asked.criterion,
+        "limits": limits,
+        "internal_point": found.configuration.internal_point,
+        "value": found.value,
+        "now": now,
+        "status": found.status,
+        "active": found.active,
+    }
+    return at.answer(parts, data, status=DONE if np.isfinite(found.value).any() else NO_RESULT)
 
 
-def _now(chosen: Chosen, c: Configuration, criterion: str, length: float) -> Floats | None:
+def _now(at: Looked, criterion: str, length: float) -> Floats | None:
     """Return the criterion where O is; None for one that depends on limits."""
     if criterion == "condition_number":
-        return np.asarray(condition_number(chosen.geometry, c, length))
+        return np.asarray(condition_number(at.chosen.geometry, at.c, length))
     if criterion == "singularity":
-        return np.asarray(np.min(np.abs(np.stack(singularity_margins(chosen.geometry, c))), axis=0))
+        return np.asarray(np.min(np.abs(np.stack(singularity_margins(at.chosen.geometry, at.c))), axis=0))
     return None
 
 
@@ -96,47 +95,40 @@ def _over_poses(found: InternalPoint, now: Floats | None, words: str, small: boo
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(c: Configuration, found: InternalPoint, now: Floats | None, words: str, unit: str) -> Iterator[str]:
+def _words(at: Looked, found: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
-        yield f"O now {amount(_point(c.internal_point[0]), unit)}: {words} {now[0]:.6g}"
+        yield f"O now {_point(at.c.internal_point[0], at.chosen.unit)}: {words} {now[0]:.6g}"
     if not np.isnan(found.value[0]):
-        yield f"best O {amount(_point(found.configuration.internal_point[0]), unit)}: {words} {found.value[0]:.6g}"
+        place = _point(found.configuration.internal_point[0], at.chosen.unit)
+        yield f"best O {place}: {words} {found.value[0]:.6g}"
     yield f"{found.status[0]}; limits reached: {', '.join(found.active[0]) or 'nothing'}"
 
 
-def _table(c: Configuration, found: InternalPoint, now: Floats | None, words: str, small: bool, unit: str) -> Table:
+def _table(at: Looked, found: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
+    c, points = at.c, found.configuration.internal_point
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
-    worst, points = order[:SHOWN], found.configuration.internal_point
-    why = [_why(str(found.status[k]), found.active[k]) for k in worst]
-    table = Table(title=f"Best places of O by {words}", title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    table.padding = (0, 1, 0, 0)
-    for head in (
-        "pose",
-        f"{with_unit('p', unit)}\nx",
-        "\ny",
-        "\nz",
-        "now",
-        "best",
-        f"{with_unit('best O', unit)}\nx",
-        "\ny",
-        "\nz",
-    ):
-        table.add_column(head, justify="right", no_wrap=True)
-    if any(why):
-        table.add_column("why", overflow="fold")
     decimals = decimals_of(c.position, points)
-    for k, reason in zip(worst, why, strict=True):
-        p, o = (["-" if math.isnan(x) else fixed(x, decimals) for x in row] for row in (c.position[k], points[k]))
-        values = ("-" if math.isnan(x) else f"{x:.4g}" for x in (math.nan if now is None else now[k], found.value[k]))
-        table.add_row(str(k), *p, *values, *o, *([reason] if any(why) else []))
-    return table
+    p, o = (f"{with_unit(name, at.chosen.unit)}\nx" for name in ("p", "best O"))
+    heads = [Column(head, "", RIGHT) for head in (p, "\ny", "\nz", "now", "best", o, "\ny", "\nz")]
+    rows = []
+    for k in order[:SHOWN].tolist():
+        place, centre = (
+            ["-" if math.isnan(x) else fixed(x, decimals) for x in row] for row in (c.position[k], points[k])
+        )
+        values = (
+            None if x is None or math.isnan(x) else f"{x:.4g}"
+            for x in (None if now is None else now[k], found.value[k])
+        )
+        status = str(found.status[k])
+        why = ", ".join([*([] if status == "found" else [status]), *found.active[k]])
+        rows.append((str(k), *place, *values, *centre, why))
+    columns = [Column("pose", "", RIGHT), *heads, Column("why")]
+    if not any(row[-1] for row in rows):
+        columns, rows = columns[:-1], [row[:-1] for row in rows]
+    return Table(f"Best places of O by {words}", columns, rows)
 
 
-def _why(status: str, active: tuple[str, ...]) -> str:
-    return ", ".join([*([] if status == "found" else [status]), *active])
-
-
-def _point(values: Floats) -> str:
-    return vector_words(float(f"{x:.4g}") for x in values)
+def _point(values: Floats, unit: str) -> str:
+    return amount(vector_words(float(f"{x:.4g}") for x in values), unit)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
-from rich.table import Column, Table
 
-from ninedof.cli.job_report import told
-from ninedof.cli.options import Json, Threads
+from ninedof.cli.answer import Answer
+from ninedof.cli.job_report import kept
+from ninedof.cli.options import Options, Threads
 from ninedof.cli.remembered import given, remember, resumed
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
@@ -25,6 +26,7 @@ from ninedof.runs.objects import load, split
 from ninedof.support.arguments import finite
 from ninedof.support.margins import margin_words
 from ninedof.support.units import with_unit
+from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -36,22 +38,26 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof certify runs/20260101-120000 --resume       go on where time was over"""
 
 
-def certify(
-    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")],
-    condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None,
-    gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05,
-    time: Annotated[float, typer.Option(help="Seconds for the condition number; limits take seconds.")] = 300.0,
-    tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with the boxes that an earlier run left.")] = False,
-    threads: Threads = None,
-    json: Json = False,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Certify(Options):
+    """The options."""
+
+    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
+    condition: Annotated[float | None, typer.Option(help="A bound of the condition number to be proved too.")] = None
+    gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05
+    time: Annotated[float, typer.Option(help="Seconds for the condition number; limits take seconds.")] = 300.0
+    tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the boxes that an earlier run left.")] = False
+    threads: Threads = None
+
+
+def certify(asked: Certify) -> None:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
-    screen = Screen(json)
-    finite("--time", time, 0.0)
-    if condition is not None:
-        finite("--condition", condition, 1.0)
-    run = given(run)
+    screen = Screen(asked.json)
+    finite("--time", asked.time, 0.0)
+    if asked.condition is not None:
+        finite("--condition", asked.condition, 1.0)
+    run = given(asked.run)
     found = load(run)
     if not isinstance(found, Result):
         raise ValueError(
@@ -59,43 +65,41 @@ def certify(
         )
     file = certificate_file(run)
     begun = begun_file(file)
-
-    kept = []
+    states = []
 
     def keep(so_far: MachineCertificate) -> None:
         with suppress(OSError):  # a full disk: the proof is worth more than its states
-            kept.append(save_certificate(so_far, begun))
+            states.append(save_certificate(so_far, begun))
 
     try:
         with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
-            earlier = _earlier(file) if resume else None  # nobody writes it now
+            earlier = _earlier(file) if asked.resume else None  # nobody writes it now
             remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
             certificate = found.certify(
-                condition_number=condition,
-                gap=gap,
-                time_limit=time,
-                tolerance=tolerance,
-                threads=threads or 0,
+                condition_number=asked.condition,
+                gap=asked.gap,
+                time_limit=asked.time,
+                tolerance=asked.tolerance,
+                threads=asked.threads or 0,
                 resume=earlier,
                 progress=bar,
                 keep=keep,
             )
     except KeyboardInterrupt:
-        what = "what is proved so far is kept" if kept else "the run folder is as it was"
+        what = "what is proved so far is kept" if states else "the run folder is as it was"
         screen.print(bold("interrupted", f" before the limits were proved: {what}"))
         raise typer.Exit(INTERRUPTED) from None
 
-    def words() -> None:
-        screen.print(_table(certificate))
-        for sentence in certificate.sentences():
-            screen.print(sentence)
-
-    with told(screen, words, certificate.to_dict() | {"left": []}) as once:
+    def write(_: object) -> Path:
         save_certificate(certificate, file)
         begun.unlink(missing_ok=True)
-        once()
+        return file
+
+    data = certificate.to_dict() | {"left": []}
+    answer = Answer([certificate_table(certificate), *certificate.sentences()], data)
+    kept(screen, answer, write)
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
-    screen.data(certificate.to_dict() | {"file": str(file), "left": []})
+    screen.data(data | {"file": str(file)})
     if certificate.interrupted:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
@@ -109,20 +113,21 @@ def _earlier(file: Path) -> MachineCertificate | None:
     return load_certificate(file) if file.exists() or not resumed() else None
 
 
-def _table(certificate: MachineCertificate) -> Table:
-    table = Table("at every pose", "limit", Column("proved", no_wrap=True), Column("margin", no_wrap=True), "")
-    unit = certificate.unit
+def certificate_table(certificate: MachineCertificate) -> Table:
+    """Return what is proved of legs, limits and condition number at every pose."""
+    heads = [Column("at every pose"), Column("limit"), Column("proved", "", RIGHT), Column("margin", "", RIGHT)]
+    unit, rows = certificate.unit, list[Any]()
     for leg, (low, high) in zip(LEGS, certificate.lengths, strict=True):
-        table.add_row(with_unit(leg, unit), "", f"{outward(low, False)} to {outward(high, True)}", "", "")
+        rows.append((with_unit(leg, unit), "", f"{outward(low, False)} to {outward(high, True)}", "", ""))
     for one in certificate.limits:
         word = "at most" if one.side == "max" else "at least"
         limit = "above 0" if one.limit == 0.0 else f"{word} {one.shown(one.limit):.6g}"
         on_limit = abs(one.margin) <= certificate.tolerance * (one.limit if one.kind == "sign" else 1.0)
         proved = f"{word} {one.worded(9 if on_limit else 6)}"
         margin = f"within {certificate.tolerance:g}" if on_limit else margin_words(one.margin, one.kind)
-        table.add_row(with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer)
-    low, high = certificate.condition
+        rows.append((with_unit(one.name.replace("_", " "), one.unit(unit)), limit, proved, margin, one.answer))
+    high = certificate.condition[1]
     if not any(one.name == "condition_number" for one in certificate.limits):
         proved = f"at most {outward(high, True)}" if math.isfinite(high) else "nothing"
-        table.add_row("condition number", "", proved, "", "")
-    return table
+        rows.append(("condition number", "", proved, "", ""))
+    return Table("", [*heads, Column()], rows)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli.options import Json
+from ninedof.cli.answer import Answer
+from ninedof.cli.options import Options
 from ninedof.cli.screen import DONE, REFUSED, Screen, bold
 from ninedof.proof.optimum import FILE, check_certificate
 
@@ -19,21 +21,23 @@ EXAMPLES = f"""[bold]Examples[/bold]
   ninedof check proved"""
 
 
-def check(
-    certificate: Annotated[Path, typer.Argument(help=f"A certificate, or a run folder that has {FILE}.")],
-    json: Json = False,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Check(Options):
+    """The options."""
+
+    certificate: Annotated[Path, typer.Argument(help=f"A certificate, or a run folder that has {FILE}.")]
+
+
+def check(asked: Check) -> Answer:
     """Check a certificate: that no design of its study has a condition number below the bound it states."""
-    screen = Screen(json)
-    path = certificate / FILE if certificate.is_dir() else certificate
-    if not path.exists() and path != certificate:
-        raise ValueError(f"{certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
-    with screen.points("reading the certificate") as bar:
+    path = asked.certificate / FILE if asked.certificate.is_dir() else asked.certificate
+    if not path.exists() and path != asked.certificate:
+        raise ValueError(f"{asked.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
+    with Screen(asked.json).points("reading the certificate") as bar:
         found = check_certificate(path, progress=bar)
-    for k, line in enumerate(found.study):
-        screen.print(f"  {line}" if k else f"study of the certificate: {line}")
-    screen.print(bold("Proved" if found.proved else "Refused", f": {found.words}"))
+    parts: list[Any] = [f"  {line}" if k else f"study of the certificate: {line}" for k, line in enumerate(found.study)]
+    parts.append(bold("Proved" if found.proved else "Refused", f": {found.words}"))
     if found.proved:
-        screen.print(f"{found.boxes} boxes of designs read, {found.recut} cut further by the checker")
-    screen.data({"proved": found.proved, "words": found.words, "boxes": found.boxes, "study": found.study})
-    raise typer.Exit(DONE if found.proved else REFUSED)
+        parts.append(f"{found.boxes} boxes of designs read, {found.recut} cut further by the checker")
+    data = {"proved": found.proved, "words": found.words, "boxes": found.boxes, "study": found.study}
+    return Answer(parts, data, DONE if found.proved else REFUSED)

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.table import Table
 
 from ninedof.cli import options
-from ninedof.cli.chosen_design import chosen_design, with_length
-from ninedof.cli.screen import Screen
-from ninedof.cli.sheet_tables import limits_table, poses_table
+from ninedof.cli.answer import Answer
+from ninedof.cli.chosen_design import Chosen, chosen_design, with_length
 from ninedof.design.indices import computed
 from ninedof.runs.design_file import indices
 from ninedof.sheet.sheet import sheet
-from ninedof.support.units import amount, unit_entry, with_unit
+from ninedof.sheet.tables import limits_table, poses_table
+from ninedof.support.units import amount, unit_entry
+from ninedof.tables import RIGHT, Column, Line, Table
 
 PLACE = 3
 EXAMPLES = """[bold]Examples[/bold]
@@ -30,54 +31,57 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof evaluate runs/20260101-120000#7    the design of point 7 of a front"""
 
 
-def evaluate(
-    design: Annotated[str | None, typer.Argument(help=f"{options.DESIGN[0].upper()}{options.DESIGN[1:]}.")] = None,
-    a1: options.BaseSide1 = None,
-    a2: options.BaseSide2 = None,
-    b1: options.PlatformSide1 = None,
-    b2: options.PlatformSide2 = None,
-    zp: options.Height = None,
-    zs: options.InternalHeight = None,
-    theta_z_deg: options.TwistDeg = None,
-    lc: options.Lc = None,
-    json: options.Json = False,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Evaluate(options.Options):
+    """The options."""
+
+    design: Annotated[str | None, typer.Argument(help=f"{options.DESIGN[0].upper()}{options.DESIGN[1:]}.")] = None
+    a1: options.BaseSide1 = None
+    a2: options.BaseSide2 = None
+    b1: options.PlatformSide1 = None
+    b2: options.PlatformSide2 = None
+    zp: options.Height = None
+    zs: options.InternalHeight = None
+    theta_z_deg: options.TwistDeg = None
+    lc: options.Lc = None
+
+
+def evaluate(asked: Evaluate) -> Answer:
     """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
-    screen = Screen(json)
-    sides = {"a1": a1, "a2": a2, "b1": b1, "b2": b2, "zp": zp, "zs": zs}
-    given = with_length(chosen_design(design, sides, theta_z_deg), lc)
-    values = unit_entry(given.unit) | indices(given.design)
-    table = Table(title="Indices", title_justify="left", title_style="bold", show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
-    for name, index in computed().items():
-        if name in values and name not in ("singular_values", "leg_lengths"):
-            table.add_row(index.words, "  ".join(map(_digits, np.atleast_1d(values[name]))))
-    length = with_unit("characteristic length", given.unit)
-    table.add_row(length, _digits(values["characteristic_length"]), end_section=True)
-    for k, value in enumerate(values["singular_values"]):
-        table.add_row(f"singular value {k + 1} of J'", _digits(value), end_section=k == 5)
-    for kind, lengths in values["leg_lengths"].items():
-        table.add_row(with_unit(f"legs {kind}1 {kind}2 {kind}3", given.unit), "  ".join(map(_digits, lengths)))
-    table.add_section()
-    for kind, found in values["characteristic_lengths"].items():
-        if math.isfinite(found["length"]):
-            length = amount(_digits(found["length"]), given.unit)
-            table.add_row(f"at the {kind} length {length}", f"k = {_digits(found['condition_number'])}")
-    screen.print(table)
+    sides = {name: getattr(asked, name) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
+    chosen = with_length(chosen_design(asked.design, sides, asked.theta_z_deg), asked.lc)
+    values = unit_entry(chosen.unit) | indices(chosen.design)
+    parts: list[Any] = [_table(values, chosen)]
     if values["singular"]:
-        screen.print("This configuration is singular: the platform or O can move with all legs locked.")
-    p, o = given.configuration.position[2], given.configuration.internal_point[2]
+        parts.append("This configuration is singular: the platform or O can move with all legs locked.")
+    p, o = chosen.configuration.position[2], chosen.configuration.internal_point[2]
     if not 0.0 < o < p:
-        screen.print("O is not between base and platform: studies require 0 < zs < zp.")
-    if given.result is not None:
-        found = sheet(given.result, characteristic_length=given.characteristic_length)
-        if len(found.configurations) > 1:
-            screen.print(poses_table(found))
-        if found.limits:
-            screen.print(limits_table(found))
+        parts.append("O is not between base and platform: studies require 0 < zs < zp.")
+    if chosen.result is not None:
+        found = sheet(chosen.result, characteristic_length=chosen.characteristic_length)
+        parts += [poses_table(found)] if len(found.configurations) > 1 else []
+        parts += [limits_table(found)] if found.limits else []
         values |= {"sheet": found.to_dict()}
-    screen.data(values)
+    return Answer(parts, values)
+
+
+def _table(values: dict[str, Any], chosen: Chosen) -> Table:
+    rows: list[Any] = [
+        Line(index.words, ["  ".join(map(_digits, np.atleast_1d(values[name])))])
+        for name, index in computed().items()
+        if name in values and name not in ("singular_values", "leg_lengths")
+    ]
+    rows += [Line("characteristic length", [_digits(values["characteristic_length"])], unit=chosen.unit), ()]
+    rows += [Line(f"singular value {k} of J'", [_digits(x)]) for k, x in enumerate(values["singular_values"], start=1)]
+    rows.append(())
+    for kind, lengths in values["leg_lengths"].items():
+        rows.append(Line(f"legs {kind}1 {kind}2 {kind}3", ["  ".join(map(_digits, lengths))], unit=chosen.unit))
+    rows.append(())
+    for kind, at in values["characteristic_lengths"].items():
+        if math.isfinite(at["length"]):
+            length = amount(_digits(at["length"]), chosen.unit)
+            rows.append(Line(f"at the {kind} length {length}", [f"k = {_digits(at['condition_number'])}"]))
+    return Table("Indices", [Column(), Column("", "", RIGHT)], rows)
 
 
 def _digits(value: float) -> str:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ninedof.cli import options
+from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.screen import Screen
 from ninedof.export.export import export as write
 from ninedof.export.export import options_of
 from ninedof.export.formats import FORMATS
@@ -30,50 +31,51 @@ EXAMPLES = """[bold]Examples[/bold]
 WORDS = "; ".join(f"{name}: {row.words}" for name, row in FORMATS.items())
 
 
-def export(
-    design: options.Design,
-    to: Annotated[str | None, typer.Option(help=f"{WORDS}. Follows from the suffix of --out if that is given.")] = None,
+@dataclass(frozen=True, kw_only=True)
+class Export(options.Options):
+    """The options."""
+
+    design: options.Design
+    to: Annotated[str | None, typer.Option(help=f"{WORDS}. Follows from the suffix of --out if that is given.")] = None
     out: Annotated[
         Path | None, typer.Option(help="The file; in this folder, with the name of the design, by default.")
-    ] = None,
-    leg_mass: Annotated[float | None, typer.Option(help="mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")] = None,
+    ] = None
+    leg_mass: Annotated[float | None, typer.Option(help="mjcf, urdf, sdf: mass of a leg, kg; 1 by default.")] = None
     platform_mass: Annotated[
         float | None, typer.Option(help="mjcf, urdf, sdf: mass of the platform, kg; 5 by default.")
-    ] = None,
-    gravity: Annotated[float | None, typer.Option(help="mjcf: downward, m/s²; 0 by default.")] = None,
+    ] = None
+    gravity: Annotated[float | None, typer.Option(help="mjcf: downward, m/s²; 0 by default.")] = None
     unit: Annotated[
         str | None, typer.Option(help="The length unit (mm, cm, m, in, ft); that of the study or file by default.")
-    ] = None,
-    json: options.Json = False,
-) -> None:
+    ] = None
+
+
+def export(asked: Export) -> Answer:
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
-    screen = Screen(json)
-    name = _by_suffix(out) if to is None else choice("--to", to, FORMATS)
-    others = [row.suffix for key, row in FORMATS.items() if row.suffix != FORMATS[name].suffix]
-    if out is not None and out.suffix.lower() in others:
-        raise ValueError(f"--out: got {out} with --to {name}, expected a file that ends in {FORMATS[name].suffix}")
-    chosen = named_design(design)
-    file = out or Path(_stem(design) + FORMATS[name].suffix)
-    if file.resolve() == Path(design).resolve():
+    out = asked.out
+    name = _by_suffix(out) if asked.to is None else choice("--to", asked.to, FORMATS)
+    row = FORMATS[name]
+    if out is not None and out.suffix.lower() in {one.suffix for one in FORMATS.values()} - {row.suffix}:
+        raise ValueError(f"--out: got {out} with --to {name}, expected a file that ends in {row.suffix}")
+    chosen = named_design(asked.design)
+    file = out or Path(_stem(asked.design) + row.suffix)
+    if file.resolve() == Path(asked.design).resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
     if not file.absolute().parent.is_dir():
         raise ValueError(f"--out: got {file}, expected a file in a folder that exists")
-    given = {"leg_mass": leg_mass, "platform_mass": platform_mass, "gravity": gravity}
-    kept = {key: value for key, value in given.items() if value is not None}
+    more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(asked, key)) is not None}
     taken = options_of(name)
-    for key in kept.keys() - taken:
+    for key in more.keys() - taken:
         what = ", ".join(map(_typed, taken)) or "no option"
-        raise ValueError(f"{_typed(key)}: got {kept[key]:g} with --to {name}, which takes {what}")
-    own_or_new("--out", file, FORMATS[name].mark)
-    for suffix, mark in FORMATS[name].beside:
+        raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {name}, which takes {what}")
+    for suffix, mark in ((file.suffix, row.mark), *row.beside):
         own_or_new("--out", file.with_suffix(suffix), mark)
-    own = chosen.unit if unit is None else unit_argument(unit)
+    unit = chosen.unit if asked.unit is None else unit_argument(asked.unit)
     try:
-        written = write(chosen.result or chosen.design, name, file, unit=own, **kept)
+        written = write(chosen.result or chosen.design, name, file, unit=unit, **more)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
-    screen.print(f"{FORMATS[name].words}: {written}")
-    screen.data({"format": name, "file": str(written)})
+    return Answer([f"{row.words}: {written}"], {"format": name, "file": str(written)})
 
 
 def _by_suffix(out: Path | None) -> str:

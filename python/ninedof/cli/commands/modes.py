@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich import box
-from rich.table import Table
 
-from ninedof.cli import options, posed
-from ninedof.cli.chosen_design import named_design
-from ninedof.cli.screen import DONE, NO_RESULT, Screen
+from ninedof.cli.answer import Answer
+from ninedof.cli.posed import Looked, PoseOptions, length_at_home, poses_data, several
+from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.position.forward_position import AssemblyModes, forward_position
 from ninedof.robot.configuration import Configuration
-from ninedof.sheet.pose_words import decimals_of, fixed
+from ninedof.sheet.pose_words import decimals_of, fixed, turn_deg
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_entry, with_unit
+from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -33,42 +32,45 @@ EXAMPLES = """[bold]Examples[/bold]
 SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
-def modes(
-    design: options.Design,
+@dataclass(frozen=True, kw_only=True)
+class Modes(PoseOptions):
+    """The options."""
+
     lengths: Annotated[
         str | None, typer.Option(help='Nine leg lengths "l1 l2 l3 q1 q2 q3 r1 r2 r3", in place of those of a pose.')
-    ] = None,
-    position: posed.Position = None,
-    rotation_deg: posed.RotationDeg = None,
-    internal_point: posed.InternalPoint = None,
-    json: options.Json = False,
-) -> None:
+    ] = None
+
+
+def modes(asked: Modes) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
-    screen = Screen(json)
-    if lengths is not None and any(x is not None for x in (position, rotation_deg, internal_point)):
+    if asked.lengths is not None and asked.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
-    chosen = named_design(design)
-    c = posed.chosen_poses(chosen, position, rotation_deg, internal_point, False)
-    given = leg_lengths(chosen.geometry, c)[0]
-    if lengths is not None:
-        given = np.array(posed.several("--lengths", lengths, 9, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
-    found = forward_position(chosen.geometry, given)
-    kappa = condition_number(chosen.geometry, found, posed.length_at_home(chosen)) if found.count else np.zeros(0)
-    if lengths is None:
-        for line in posed.pose_lines(c, chosen):
-            screen.print(line)
-    screen.print(f"{found.count} assembly modes: {found.status}" + ("" if found.certain else ", the count is not sure"))
-    if found.reason:
-        screen.print(found.reason)
-    this = _this(found, float(given.max()), c) if lengths is None else -1
-    if found.count:
-        screen.print(_table(found, kappa, this, chosen.configuration.rotation, chosen.unit))
-    if this >= 0:
-        screen.print("* the given pose")
-    data = {"lengths": given, "status": found.status, "reason": found.reason, "count": found.count}
-    data |= {"certain": found.certain, "given_pose": this + 1 if this >= 0 else None}
-    screen.data(unit_entry(chosen.unit) | data | {"modes": posed.poses_data(found), "condition_number": kappa})
-    raise typer.Exit(DONE if found.count else NO_RESULT)
+    at = Looked.at(asked)
+    g, unit = at.chosen.geometry, at.chosen.unit
+    lengths = leg_lengths(g, at.c)[0]
+    if asked.lengths is not None:
+        lengths = np.array(several("--lengths", asked.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
+    found = forward_position(g, lengths)
+    kappa = condition_number(g, found, length_at_home(at.chosen)) if found.count else np.zeros(0)
+    this = _this(found, float(lengths.max()), at.c) if asked.lengths is None else -1
+    certain = "" if found.certain else ", the count is not sure"
+    parts: list[Any] = [f"{found.count} assembly modes: {found.status}{certain}"]
+    parts += [found.reason] if found.reason else []
+    parts += [_table(found, kappa, this, at.chosen.configuration.rotation, unit)] if found.count else []
+    parts += ["* the given pose"] if this >= 0 else []
+    data = {
+        "lengths": lengths,
+        "status": found.status,
+        "reason": found.reason,
+        "count": found.count,
+        "certain": found.certain,
+        "given_pose": this + 1 if this >= 0 else None,
+        "modes": poses_data(found),
+        "condition_number": kappa,
+    }
+    if asked.lengths is None:
+        parts = list(at.answer(parts, {}).parts)
+    return Answer(parts, unit_entry(unit) | data, DONE if found.count else NO_RESULT)
 
 
 def _this(found: AssemblyModes, size: float, c: Configuration) -> int:
@@ -81,21 +83,12 @@ def _this(found: AssemblyModes, size: float, c: Configuration) -> int:
 
 def _table(found: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
-    table = Table(box=box.SIMPLE_HEAD, padding=0)
     p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
-    for name in ("", p, "\ny", "\nz", "turn °\nx", "\ny", "\nz", o, "\ny", "\nz", "cond.\nno."):
-        table.add_column(name, justify="right", no_wrap=True)
-    decimals = decimals_of(found.position, found.internal_point)
+    heads = (p, "\ny", "\nz", "turn °\nx", "\ny", "\nz", o, "\ny", "\nz", "cond.\nno.")
+    decimals, turns = decimals_of(found.position, found.internal_point), turn_deg(found, neutral)
+    rows = []
     for k in range(len(found)):
         at, centre = ([fixed(x, decimals) for x in row] for row in (found.position[k], found.internal_point[k]))
-        turn = [fixed(x, 1) for x in np.degrees(_rotation_vector(found.rotation[k] @ neutral.T))]
-        table.add_row(f"{k + 1}{'*' if k == this else ''}", *at, *turn, *centre, f"{kappa[k]:.4g}")
-    return table
-
-
-def _rotation_vector(q: Floats) -> Floats:
-    skew = 0.5 * np.array([q[2, 1] - q[1, 2], q[0, 2] - q[2, 0], q[1, 0] - q[0, 1]])
-    angle = math.atan2(float(np.linalg.norm(skew)), 0.5 * (float(np.trace(q)) - 1.0))
-    values, vectors = np.linalg.eigh(0.5 * (q + q.T))  # the axis, up to half a turn too
-    axis = vectors[:, int(np.argmax(values))]
-    return np.asarray(angle * (axis if axis @ skew >= 0.0 else -axis))
+        turn = [fixed(x, 1) for x in turns[k]]
+        rows.append((f"{k + 1}{'*' if k == this else ''}", *at, *turn, *centre, f"{kappa[k]:.4g}"))
+    return Table("", [Column("", "", RIGHT), *(Column(head, "", RIGHT) for head in heads)], rows)

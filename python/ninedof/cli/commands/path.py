@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,23 +10,24 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from ninedof.cli import options
+from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import report_words, told, with_report
-from ninedof.cli.motion_summary import draw, legs_table, limits_table, sentences
-from ninedof.cli.options import DesignOrPublished, Figures, Json, Lc, Out, Report
-from ninedof.cli.screen import DONE, NO_RESULT, Screen
+from ninedof.cli.job_report import folder_words, kept
+from ninedof.cli.options import JobOptions, Three, Two
+from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
-from ninedof.motion import Trajectory, follow
+from ninedof.motion import Followed, Trajectory, follow
+from ninedof.motion.tables import legs_table, limits_table, motion_words
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
 from ninedof.runs.directory import run_directory
-from ninedof.runs.motion_folder import ARRAYS_FILE, LEGS_FILE, POSES_FILE, plain, write_motion
-from ninedof.sheet.path_limits import path_limits
+from ninedof.runs.motion_folder import plain, write_motion
+from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.weight import Weight
 from ninedof.support.units import unit_entry
 
-Three = tuple[float, float, float]
 PLACE = 7
 EXAMPLES = """[bold]Examples[/bold]
 
@@ -40,119 +42,114 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof path --line 0.5 0 0.2 --force 0 0 -9.81 --json | jq .motion.legs.l1"""
 
 
-def path(
-    design: DesignOrPublished = None,
+@dataclass(frozen=True, kw_only=True)
+class PathOptions(JobOptions):
+    """The options."""
+
+    design: options.DesignOrPublished = None
     file: Annotated[
         Path | None,
         typer.Argument(
             help="Poses (CSV): columns t x y z, and for the rotation qw qx qy qz, rx ry rz or yaw pitch roll, in "
             "degrees as rx_deg, yaw_deg."
         ),
-    ] = None,
+    ] = None
     circle: Annotated[
         float | None, typer.Option(metavar="RADIUS", help="A horizontal circle about the neutral pose.")
-    ] = None,
+    ] = None
     line: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="A line from the neutral pose, from rest to rest.")
-    ] = None,
+    ] = None
     spiral: Annotated[
-        tuple[float, float] | None,
-        typer.Option(metavar="RADIUS HEIGHT", help="Three turns outwards and up, from rest to rest."),
-    ] = None,
-    duration: Annotated[float | None, typer.Option(help="Of a circle, line or spiral; 1 by default.")] = None,
-    points: Annotated[int | None, typer.Option(help="Poses of a circle, line or spiral; 1001 by default.")] = None,
+        Two | None, typer.Option(metavar="RADIUS HEIGHT", help="Three turns outwards and up, from rest to rest.")
+    ] = None
+    duration: Annotated[float | None, typer.Option(help="Of a circle, line or spiral; 1 by default.")] = None
+    points: Annotated[int | None, typer.Option(help="Poses of a circle, line or spiral; 1001 by default.")] = None
     internal_point: Annotated[
         str | None,
         typer.Option(
             help="Position of O: carried, shifted, held, best, or a fraction between the plates; by default as in the "
             "region of the run's study, else carried."
         ),
-    ] = None,
-    legs: Annotated[
-        tuple[float, float] | None,
-        typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; those of the run's study by default."),
-    ] = None,
-    force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None,
-    moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None,
-    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to the load.")] = None,
+    ] = None
+    legs: options.LegLimits = None
+    force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None
+    moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None
+    mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to the load.")] = None
     centre: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="Its centre in the platform frame; the origin by default.")
-    ] = None,
+    ] = None
     gravity: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="Force per mass, base axes; 0 0 -9.81 by default.")
-    ] = None,
-    lc: Lc = None,
-    out: Out = None,
-    figures: Figures = True,
-    report: Report = True,
-    json: Json = False,
-) -> None:
+    ] = None
+    lc: options.Lc = None
+
+    @property
+    def shapes(self) -> dict[str, Any]:
+        """The shapes that are asked for."""
+        return {name: x for name in ("circle", "line", "spiral") if (x := getattr(self, name)) is not None}
+
+
+def path(asked: PathOptions) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
 
     A run brings every limit of its study.
     """
-    screen = Screen(json)
-    if file is None and design is not None and design.endswith(".csv"):
-        file, design = Path(design), None
-    given = with_length(named_design(design), lc)
-    g, home, length = given.geometry, given.configuration, given.characteristic_length
-    shape = {"circle": circle, "line": line, "spiral": spiral}
-    trajectory = _trajectory(given, file, shape, {"duration": duration, "points": points})
-    study = given.study
-    limits: Any = given.leg_limits() if legs is None else legs
-    asked = {"internal_point": _rule(internal_point, study), "limits": limits, "force": force, "moment": moment}
-    weight = Weight.checked(mass, centre, gravity)
-    load = _with_weight(asked, weight, trajectory)
-    with run_directory(out) as directory:
-        found = follow(g, trajectory, home, **(asked | load), characteristic_length=length, unit=given.unit)
-    of_study = path_limits(study, found, home) if study else None
-
-    def words() -> None:
-        screen.print(legs_table(found))
-        if of_study is not None and of_study.limits:
-            screen.print(limits_table(of_study, given.unit))
-        for sentence in sentences(found, of_study):
-            screen.print(sentence)
-
-    shapes = {name: value for name, value in shape.items() if value is not None}
+    screen = Screen(asked.json)
+    if asked.file is None and asked.design is not None and asked.design.endswith(".csv"):
+        asked = replace(asked, file=Path(asked.design), design=None)
+    chosen = with_length(named_design(asked.design), asked.lc)
+    g, home, study = chosen.geometry, chosen.configuration, chosen.study
+    trajectory = _trajectory(chosen, asked)
+    limits: Any = chosen.leg_limits() if asked.legs is None else asked.legs
+    how = {"internal_point": _rule(asked.internal_point, study), "limits": limits}
+    load: dict[str, Any] = {"force": asked.force, "moment": asked.moment}
+    weight = Weight.checked(asked.mass, asked.centre, asked.gravity)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),
-        **unit_entry(given.unit),
-        **asked,
+        **unit_entry(chosen.unit),
+        **how,
+        **load,
         **({} if weight is None else {"weight": weight._asdict()}),
-        **({"file": str(file)} if file else {**shapes, "duration": trajectory.time[-1], "points": len(trajectory)}),
     }
-    drawing = partial(draw, found, screen, of_study) if figures else None
-    with told(screen, words, {"motion": plain(found, of_study)}) as once:
-        drawn = with_report(drawing, figures and report, screen, once)
-        record = write_motion(found, directory, drawn, question, of_study)
-    figure = ", figure motion (PNG, SVG, PDF)" if figures else ""
-    figure += report_words(directory)
-    screen.print(f"run folder {directory}: {record.name}, {LEGS_FILE}, {POSES_FILE}, {ARRAYS_FILE}{figure}")
-    screen.data({"motion": plain(found, of_study), "record": str(record)})
-    broken = found.breaks or (of_study is not None and of_study.breaks)
-    raise typer.Exit(DONE if found.tracked and not broken else NO_RESULT)
+    if asked.file:
+        question["file"] = str(asked.file)
+    else:
+        question |= asked.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
+    load |= _with_weight(load, weight, trajectory)
+    with run_directory(asked.out) as directory:
+        length = chosen.characteristic_length
+        found = follow(g, trajectory, home, **how, **load, characteristic_length=length, unit=chosen.unit)
+    of_study = path_limits(study, found, home) if study else None
+    motion = plain(found, of_study)
+    parts: list[Any] = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
+    parts += [bold(*words) for words in motion_words(found, motion)]
+
+    def write(draw: Any) -> Path:
+        return write_motion(found, directory, draw, question, of_study)
+
+    drawing = partial(_draw, found, screen, of_study) if asked.figures else None
+    record = kept(screen, Answer(parts, {"motion": motion}), write, drawing, asked.figures and asked.report)
+    screen.print(folder_words(directory))
+    screen.data({"motion": motion, "record": str(record)})
+    raise typer.Exit(DONE if found.tracked and not motion["breaks"] else NO_RESULT)
 
 
-def _trajectory(
-    given: Chosen, file: Path | None, shape: dict[str, Any], times: dict[str, float | int | None]
-) -> Trajectory:
+def _trajectory(chosen: Chosen, asked: PathOptions) -> Trajectory:
     """Return the one trajectory that was asked for."""
-    home = given.configuration
-    shapes = {name: value for name, value in shape.items() if value is not None}
-    options = {name: value for name, value in times.items() if value is not None}
-    asked = [*(["a file"] if file else []), *(f"--{name}" for name in shapes)]
-    if len(asked) != 1:
-        got = " and ".join(asked) or "none"
+    home, shapes = chosen.configuration, asked.shapes
+    times = {name: value for name in ("duration", "points") if (value := getattr(asked, name)) is not None}
+    names = [*(["a file"] if asked.file else []), *(f"--{name}" for name in shapes)]
+    if len(names) != 1:
+        got = " and ".join(names) or "none"
         raise ValueError(f"path: got {got}, expected one of a CSV file, --circle, --line and --spiral")
-    if file is not None:
-        for name, value in options.items():
+    if asked.file is not None:
+        for name, value in times.items():
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
-        return Trajectory.load(file, home, given.unit)
+        return Trajectory.load(asked.file, home, chosen.unit)
     ((name, value),) = shapes.items()
-    make = getattr(Trajectory, name)
-    made: Trajectory = make(home, *(value if name == "spiral" else (value,)), **options)
+    made: Trajectory = getattr(Trajectory, name)(home, *(value if name == "spiral" else (value,)), **times)
     return made
 
 
@@ -161,8 +158,8 @@ def _with_weight(load: dict[str, Any], weight: Weight | None, trajectory: Trajec
     if weight is None:
         return {}
     own = weight.wrench(trajectory.rotation)
-    given = {name: np.zeros(3) if load[name] is None else np.asarray(load[name]) for name in ("moment", "force")}
-    return {"moment": own[:, :3] + given["moment"], "force": own[:, 3:] + given["force"]}
+    force, moment = (np.zeros(3) if load[name] is None else np.asarray(load[name]) for name in ("force", "moment"))
+    return {"moment": own[:, :3] + moment, "force": own[:, 3:] + force}
 
 
 def _rule(text: str | None, study: Study | None) -> str | float:
@@ -176,3 +173,15 @@ def _rule(text: str | None, study: Study | None) -> str | float:
         return float(text)
     except ValueError:
         raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+
+
+def _draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:
+    """Draw lengths, condition number and the margins of a study's limits; return the files."""
+    screen.say("drawing the motion")
+    from ninedof import plot
+
+    margins = None
+    if of_study:
+        margin = found.leg_margins.min(axis=1)  # infinite without limits
+        margins = ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins
+    return plot.save(plot.motion(found, margins), directory, "motion")

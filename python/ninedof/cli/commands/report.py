@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ninedof.cli.options import Json
-from ninedof.cli.screen import Screen
+from ninedof.cli.answer import Answer
+from ninedof.cli.options import Options
 from ninedof.report.report import report as write_report
 from ninedof.support.files import own_or_new
 
@@ -23,19 +24,22 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof report front#3                              point 3 of a trade-off"""
 
 
-def report(
-    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")],
+@dataclass(frozen=True, kw_only=True)
+class Report(Options):
+    """The options."""
+
+    run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
     out: Annotated[
         Path | None, typer.Option(help="File to write; report.html in the run folder, or report-7.html, by default.")
-    ] = None,
-    json: Json = False,
-) -> None:
+    ] = None
+
+
+def report(asked: Report) -> Answer:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
-    screen = Screen(json)
-    if out is not None and not out.absolute().parent.is_dir():
-        raise ValueError(f"--out: got {out}, expected a file in a folder that exists")
-    if out is not None:
-        own_or_new("--out", out, MARK)
-    file = write_report(run, out)
-    screen.print(f"report {file}, {file.stat().st_size / 1e6:.2f} MB: open it in a browser")
-    screen.data({"report": str(file)})
+    if asked.out is not None:
+        if not asked.out.absolute().parent.is_dir():
+            raise ValueError(f"--out: got {asked.out}, expected a file in a folder that exists")
+        own_or_new("--out", asked.out, MARK)
+    file = write_report(asked.run, asked.out)
+    size = file.stat().st_size / 1e6
+    return Answer([f"report {file}, {size:.2f} MB: open it in a browser"], {"report": str(file)})

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.table import Table
 
-from ninedof.cli import options, posed
-from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.screen import Screen
+from ninedof.cli.answer import Answer
+from ninedof.cli.posed import Looked, PosesOptions, several
 from ninedof.kinematics.kinematics import leg_lengths
-from ninedof.robot.configuration import Configuration, arrays_of
+from ninedof.robot.configuration import arrays_of
 from ninedof.sheet.pose_words import pose_words
-from ninedof.sheet.words import MECHANISMS
+from ninedof.sheet.tables import MECHANISMS
 from ninedof.singularity.nearest_singularity import PARTS, NearestSingularity, nearest_singularity
 from ninedof.singularity.singularity import singularity as singularity_of
-from ninedof.singularity.singularity_distance import SingularityDistance, distance_to_singularity
+from ninedof.singularity.singularity_distance import distance_to_singularity
 from ninedof.support.arrays import Floats
-from ninedof.support.units import amount, unit_entry
+from ninedof.support.units import amount
+from ninedof.tables import RIGHT, Column, Table
 
 PLACE = 4
 EXAMPLES = """[bold]Examples[/bold]
@@ -39,88 +39,75 @@ GROUPS = {
 }
 
 
-def singularity(
-    design: options.Design,
+@dataclass(frozen=True, kw_only=True)
+class SingularityOptions(PosesOptions):
+    """The options."""
+
     direction: Annotated[
         str | None,
         typer.Option(help='A motion "wx wy wz px py pz sx sy sz" of platform and O, radians and lengths, base axes.'),
-    ] = None,
-    most: Annotated[float, typer.Option(help="End of it, in multiples of the motion.")] = 1.0,
-    position: posed.Position = None,
-    rotation_deg: posed.RotationDeg = None,
-    internal_point: posed.InternalPoint = None,
-    all_poses: posed.AllPoses = False,
-    json: options.Json = False,
-) -> None:
+    ] = None
+    most: Annotated[float, typer.Option(help="End of it, in multiples of the motion.")] = 1.0
+
+
+def singularity(asked: SingularityOptions) -> Answer:
     """Print the distance to the nearest singularity, with its kind and pose: along each coordinate, or one motion.
 
     Along a coordinate the others stay, O too while the platform moves. Turns are looked at up to half a turn, p and O
     up to twice the longest leg.
     """
-    screen = Screen(json)
     words = "wx wy wz px py pz sx sy sz"
-    motion = None if direction is None else np.array(posed.several("--direction", direction, 9, words))
+    motion = None if asked.direction is None else np.array(several("--direction", asked.direction, words))
     if motion is not None and not motion.any():
-        raise ValueError(f"--direction: got {direction!r}, expected a motion that is not zero")
-    chosen = named_design(design)
-    c = posed.chosen_poses(chosen, position, rotation_deg, internal_point, all_poses)
-    here = singularity_of(chosen.geometry, c)
-    for line in posed.pose_lines(c, chosen):
-        screen.print(line)
-    dets = {name: np.abs(values) for name, values in here.margins._asdict().items()}
-    for name, values in dets.items():
-        at = int(np.argmin(values))
-        where = f" at pose {at}" if len(c) > 1 else ""
-        screen.print(f"|det {name[-1].upper()}| = {values[at]:.6f}{where} (0: {MECHANISMS[name]})")
-    data = {
-        "poses": posed.poses_data(c),
-        "margins": here.margins._asdict(),
-        "mechanism": here.mechanism,
-    }
-    screen.data(
-        unit_entry(chosen.unit)
-        | data
-        | (_coordinates(chosen, c, screen) if motion is None else _along(chosen, c, motion, most, screen))
-    )
+        raise ValueError(f"--direction: got {asked.direction!r}, expected a motion that is not zero")
+    at = Looked.at(asked)
+    here = singularity_of(at.chosen.geometry, at.c)
+    parts: list[Any] = []
+    for name, values in here.margins._asdict().items():
+        k = int(np.argmin(np.abs(values)))
+        parts.append(f"|det {name[-1].upper()}| = {abs(values[k]):.6f}{at.where(k)} (0: {MECHANISMS[name]})")
+    more, data = _coordinates(at) if motion is None else _along(at, motion, asked.most)
+    return at.answer([*parts, *more], {"margins": here.margins._asdict(), "mechanism": here.mechanism} | data)
 
 
-def _along(chosen: Chosen, c: Configuration, motion: Floats, most: float, screen: Screen) -> dict[str, Any]:
-    """Print the first singularity on one motion."""
-    found = distance_to_singularity(chosen.geometry, c, motion, most)
+def _along(at: Looked, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
+    """Return the first singularity on one motion, in words and as data."""
+    found = distance_to_singularity(at.chosen.geometry, at.c, motion, most)
     k = int(np.argmin(found.distance))
     if math.isfinite(found.distance[k]):
-        where = pose_words(c[k].moved(found.distance[k] * motion), chosen.configuration.rotation, chosen.unit)
-        screen.print(f"first singularity at {found.distance[k]:.6g} of the motion: {_kind(found, k)}")
-        screen.print(f"there {where}")
+        there = pose_words(at.c[k].moved(found.distance[k] * motion), at.chosen.configuration.rotation, at.chosen.unit)
+        kind = MECHANISMS[f"det_{found.mechanism[k]}"]
+        words = [f"first singularity at {found.distance[k]:.6g} of the motion: {kind}", f"there {there}"]
     else:
-        screen.print(f"no singularity up to {most:g} of the motion" + ("" if found.resolved.all() else ", not proved"))
-    return {"direction": motion, "distance": found.distance, "at": found.mechanism, "resolved": found.resolved}
+        words = [f"no singularity up to {most:g} of the motion" + ("" if found.resolved.all() else ", not proved")]
+    data = {"direction": motion, "distance": found.distance, "at": found.mechanism, "resolved": found.resolved}
+    return words, data
 
 
-def _coordinates(chosen: Chosen, c: Configuration, screen: Screen) -> dict[str, Any]:
-    """Print the distances along the coordinates, and the nearest singularities in any direction."""
-    table = Table(title="Distance to the first singularity", title_justify="left", title_style="bold")
-    for k, head in enumerate(("", "backward", "kind", "forward", "kind")):
-        table.add_column(head, justify="right" if k % 2 else "left")
-    reach = 2.0 * float(leg_lengths(chosen.geometry, c).max())
-    nearest, out = [], {}
-    for part, (name, unit, factor) in GROUPS.items():
-        far = math.pi if unit else reach
+def _coordinates(at: Looked) -> tuple[list[Any], dict[str, Any]]:
+    """Return the distances along the coordinates, and the nearest singularities in any direction."""
+    g, c, length_unit = at.chosen.geometry, at.c, at.chosen.unit
+    reach = 2.0 * float(leg_lengths(g, c).max())
+    nearest, out, rows = [], {}, list[Any]()
+    for part, (name, degree, factor) in GROUPS.items():
+        far = math.pi if degree else reach
         motions = np.zeros((6, 9))
         motions[:, PARTS[part] : PARTS[part] + 3] = far * np.concatenate([-np.eye(3), np.eye(3)])
-        found = distance_to_singularity(chosen.geometry, c[:, None], motions)
-        at, axes = np.argmin(found.distance, axis=0), np.arange(6)
-        least, kinds = factor * far * found.distance[at, axes], found.mechanism[at, axes]
-        texts = (f"{x:.4g}{unit}" if unit else amount(f"{x:.4g}", chosen.unit) for x in least)
-        shown_kinds = zip(texts, least, kinds, strict=True)
-        cells = [(text if math.isfinite(x) else "-", str(k)) for text, x, k in shown_kinds]
+        found = distance_to_singularity(g, c[:, None], motions)
+        pose, axes = np.argmin(found.distance, axis=0), np.arange(6)
+        least, kinds = factor * far * found.distance[pose, axes], found.mechanism[pose, axes]
+
+        def text(x: float, digits: int, degree: str = degree) -> str:
+            shown = f"{x:.{digits}g}"
+            return "-" if not math.isfinite(x) else shown + degree if degree else amount(shown, length_unit)
+
         for k, axis in enumerate("xyz"):
-            table.add_row(f"{name} {axis}", *cells[k], *cells[k + 3], end_section=k == 2)
-        one = nearest_singularity(chosen.geometry, c, part, far)
-        far_off = f"{factor * one.distance:.5g}"
-        shown = far_off + unit if unit else amount(far_off, chosen.unit)
-        nearest.append(_nearest(name, shown, one, len(c), chosen))
-        out[part + ("_deg" if unit else "")] = {
+            backward, forward = ((text(least[j], 4), str(kinds[j])) for j in (k, k + 3))
+            rows.append((f"{name} {axis}", *backward, *forward))
+        rows.append(())
+        one = nearest_singularity(g, c, part, far)
+        nearest.append(_nearest(name, text(factor * one.distance, 5), one, at))
+        out[part + ("_deg" if degree else "")] = {
             "backward": least[:3],
             "forward": least[3:],
             "kinds": kinds,
@@ -132,22 +119,18 @@ def _coordinates(chosen: Chosen, c: Configuration, screen: Screen) -> dict[str, 
                 "there": arrays_of(one.configuration),
             },
         }
-    screen.print(table)
-    for name, words in MECHANISMS.items():
-        screen.print(f"kind {name[-1]}: {words}")
-    for line in nearest:
-        screen.print(line)
-    return {"distance": out}
+    columns = [
+        Column(),
+        *(Column(*one) for one in (("backward", "", RIGHT), ("kind",), ("forward", "", RIGHT), ("kind",))),
+    ]
+    kinds_words = [f"kind {name[-1]}: {words}" for name, words in MECHANISMS.items()]
+    return [Table("Distance to the first singularity", columns, rows), *kinds_words, *nearest], {"distance": out}
 
 
-def _nearest(name: str, distance: str, one: NearestSingularity, count: int, chosen: Chosen) -> str:
+def _nearest(name: str, distance: str, one: NearestSingularity, at: Looked) -> str:
     """Return the nearest singularity of a part in words."""
     if not math.isfinite(one.distance):
         return f"{name} any axis: no singularity found"
-    pose = f" from pose {one.pose}" if count > 1 else ""
-    where = pose_words(one.configuration, chosen.configuration.rotation, chosen.unit)
-    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {where}"
-
-
-def _kind(found: SingularityDistance, k: int) -> str:
-    return MECHANISMS[f"det_{found.mechanism[k]}"]
+    pose = at.where(one.pose).replace(" at ", " from ")
+    there = pose_words(one.configuration, at.chosen.configuration.rotation, at.chosen.unit)
+    return f"{name} any axis: nearest {distance}{pose}, kind {one.mechanism}, where {there}"

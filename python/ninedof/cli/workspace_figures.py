@@ -1,112 +1,24 @@
-"""The summary of a workspace: table, remarks and figure."""
+"""The figures of a workspace."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from rich.table import Table
-from rich.text import Text
 
-from ninedof.cli.screen import Screen, bold
-from ninedof.design.indices import INDICES, Index
+from ninedof.cli.screen import Screen
 from ninedof.design.region import Region
 from ninedof.design.region_outline import region_lines, section_outline
 from ninedof.robot.configuration import Configuration
 from ninedof.support.arrays import Floats
-from ninedof.support.units import with_unit
-from ninedof.workspace import CertifiedWorkspace, IndexStatistics, WorkspaceMap
-from ninedof.workspace.region_share import RegionShare
+from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
 
 if TYPE_CHECKING:
     from ninedof.plot import Section
 
-SHOWN = 8  # limits in the table
 NEAR = 10.0  # home is marked in a section within this part of the size of the workspace
-
-
-def workspace_table(found: WorkspaceMap) -> Table:
-    """Return the table of a workspace."""
-    table = Table(title="Workspace", title_justify="left", title_style="bold", show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
-    angles = found.of_angles
-    cubed = "rad³, of 8 π² in all" if angles else found.unit + "³" * bool(found.unit)
-    turn, unit = (math.degrees, "deg") if angles else (float, found.unit)
-
-    def numbers(label: str, values: Floats) -> None:
-        table.add_row(with_unit(label, unit), "  ".join(f"{turn(value):.4g}" for value in values))
-
-    table.add_row(with_unit("volume", cubed), f"{found.volume:.6g}")
-    table.add_row("  error, estimated", f"{found.error:.2g}")
-    table.add_row(
-        f"  share of the {'region' if found.archetype == 'orientation' else 'box'}", f"{100.0 * found.share:.3g} %"
-    )
-    if found.unseen > 0.0:
-        table.add_row("  of it, for parts that may be unseen", f"{found.unseen:.2g}")
-    if len(found.pieces) > 1:
-        table.add_row("  pieces", str(len(found.pieces)))
-    if found.ball_radius > 0.0:
-        numbers("largest ball: radius", np.array([found.ball_radius]))
-        numbers("  centre", found.ball_centre)
-        numbers("largest box: sides", found.box_high - found.box_low)
-        numbers("  centre", 0.5 * (found.box_low + found.box_high))
-    table.add_section()
-    table.add_row("global conditioning index", f"{found.conditioning_index:.5f}")
-    table.add_row("condition number: median", f"{found.percentiles[50]:.4f}")
-    table.add_row("condition number: 95 %", f"{found.percentiles[95]:.4f}")
-    table.add_row("condition number: worst", f"{found.worst_condition_number:.4f}")
-    for name, over in found.indices.items():
-        known = INDICES[name]
-        for label, *values in _rows(known, over):
-            table.add_row(
-                with_unit(
-                    f"{label}: mean, least, greatest{' modulus' if known.signed else ''}",
-                    found.unit if known.unit == "length" else "",
-                ),
-                "  ".join(f"{value:.5g}" for value in values),
-            )
-    table.add_section()
-    for name, share in list(found.limits().items())[:SHOWN]:
-        words = "ends of the torsion" if name == "box" and found.archetype == "orientation" else name.replace("_", " ")
-        table.add_row(f"boundary by {words}", f"{100.0 * share:.1f} %")
-    if (rest := sum(list(found.limits().values())[SHOWN:])) > 0.0:
-        table.add_row("boundary by others", f"{100.0 * rest:.1f} %")
-    return table
-
-
-def _rows(index: Index, over: IndexStatistics) -> Iterator[tuple[Any, ...]]:
-    if not index.components:
-        yield index.words, over.mean, over.least, over.greatest
-    else:
-        yield from zip(index.components, over.mean, over.least, over.greatest, strict=True)
-
-
-def sentences(found: WorkspaceMap) -> Iterator[str | Text]:
-    """Yield remarks on the table, one sentence each."""
-    words = {
-        "limited": "the greatest number of poses was reached before the wanted error",
-        "empty": "no allowed pose was found",
-        "stopped": "interrupted: the state after the last complete level",
-    }
-    if found.status in words:
-        yield bold(found.status, f": {words[found.status]}")
-    if not found.home_allowed:
-        yield f"the home pose is not allowed: {found.home_limit}"
-    if found.box_limits:
-        where = "boundary of the region" if found.archetype == "orientation" else "faces of the box"
-        what = where.split()[-1]
-        yield f"the workspace reaches the {where}: it is larger in a larger {what}"
-
-
-def region_words(region: Region, found: RegionShare, unit: str = "") -> str:
-    """Return a sentence on how much of a region keeps the limits."""
-    words = f"region of the study, {region.worded(unit)}: {100.0 * found.share:.4g} % of it within these limits"
-    passed = f"; passed: {', '.join(name.replace('_', ' ') for name in found.passed)}" if found.passed else ""
-    return f"{words}, {found.looked_at} poses looked at{passed}"
 
 
 def draw(

@@ -1,0 +1,257 @@
+"""The options of `ninedof workspace`, and the question they ask of a design and the study of its run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import typer
+
+from ninedof.cli.chosen_design import Chosen
+from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Resume, Threads, Three, Two
+from ninedof.cli.posed import length_at_home
+from ninedof.design.indices import computed
+from ninedof.design.leg_limits import SPREADS
+from ninedof.design.limit_numbers import CONES
+from ninedof.design.region import Region
+from ninedof.design.study import Study
+from ninedof.redundancy.rules import RULES
+from ninedof.support.arguments import finite
+from ninedof.workspace.certified import GAPS, require_certifiable
+from ninedof.workspace.region_share import box_about
+from ninedof.workspace.study_criteria import LEGS
+from ninedof.workspace.study_question import (
+    box_around,
+    built_ranges,
+    narrowed,
+    rule_of_region,
+    study_limits,
+    with_leg_limits,
+)
+
+Ends = Annotated[Two | None, typer.Option(metavar="LOW HIGH")]
+CRITERIA = {  # by the names of the options
+    "legs": "leg_length",
+    "external": "external_length",
+    "upper": "upper_length",
+    "lower": "lower_length",
+    "condition": "condition_number",
+    "base_cone_deg": "base_cone",
+    "platform_cone_deg": "platform_cone",
+    "base_cone_axis": "base_cone_axis",
+    "platform_cone_axis": "platform_cone_axis",
+    "clearance": "leg_clearance",
+    "singularity_free": "singularity_free",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Workspace(JobOptions):
+    """The options of `ninedof workspace`."""
+
+    design: DesignOrPublished = None
+    archetype: Annotated[
+        str, typer.Option(help="constant_orientation, orientation, reachable, inclusive or dexterous.")
+    ] = "constant_orientation"
+    x: Ends = None
+    y: Ends = None
+    z: Ends = None
+    legs: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Limits of all nine legs; HIGH may be inf.")] = (
+        None
+    )
+    external: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the external legs, besides.")] = None
+    upper: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the upper internal legs, besides.")] = None
+    lower: Annotated[Two | None, typer.Option(metavar="LOW HIGH", help="Of the lower internal legs, besides.")] = None
+    condition: Annotated[float | None, typer.Option(help="Greatest condition number.")] = None
+    base_cone_deg: Annotated[float | None, typer.Option(help="Greatest angle at a base joint from home.")] = None
+    platform_cone_deg: Annotated[float | None, typer.Option(help="The same at a platform joint.")] = None
+    base_cone_axis: Annotated[
+        Three | None,
+        typer.Option(metavar="X Y Z", help="Axis of the cones of the base, in place of the legs at home."),
+    ] = None
+    platform_cone_axis: Annotated[Three | None, typer.Option(metavar="X Y Z", help="The same at the platform.")] = None
+    clearance: Annotated[float | None, typer.Option(help="Least distance of legs that share no joint.")] = None
+    singularity_free: Annotated[
+        bool | None,
+        typer.Option(
+            "--singularity-free/--any-singularity", help="Connected with home, on its side of every singularity."
+        ),
+    ] = None
+    study_limits: Annotated[
+        bool, typer.Option("--study-limits/--no-study-limits", help="Take the limits of the run's study.")
+    ] = True
+    angle_deg: Annotated[float | None, typer.Option(help="Region: rotations of at most this angle.")] = None
+    tilt_deg: Annotated[float | None, typer.Option(help="Region: tilts of at most this angle.")] = None
+    torsion_deg: Annotated[float | None, typer.Option(help="Region: torsions of at most this angle.")] = None
+    orientations: Annotated[int | None, typer.Option(help="Number of rotations of a set.")] = None
+    position: Annotated[
+        Three | None,
+        typer.Option(metavar="X Y Z", help="Position of the platform, for orientation; the home position by default."),
+    ] = None
+    internal_point: Annotated[
+        str | None,
+        typer.Option(
+            help="Position of O: carried, shifted, held, best, or a fraction between the plates; "
+            "by default as in the region of the run's study, else the design's."
+        ),
+    ] = None
+    lc: Lc = None
+    method: Annotated[str, typer.Option(help="octree, grid or sample.")] = "octree"
+    tolerance: Annotated[float, typer.Option(help="Wanted error, as a share of the volume.")] = 1e-3
+    resolution: Annotated[int | None, typer.Option(help="Cells along each side before any is divided.")] = None
+    points: Annotated[int | None, typer.Option(help="Poses of the audit, or of each shift of a sample.")] = None
+    seed: Annotated[int | None, typer.Option(help="Of the audit and of a sample; 0 by default.")] = None
+    index: Annotated[
+        list[str] | None, typer.Option(help=f"An index over the workspace, may be repeated: {', '.join(computed())}.")
+    ] = None
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Prove bounds of the volume, and boxes where every pose is allowed.")
+    ] = False
+    gap: Annotated[float | None, typer.Option(help="Of the bounds, relative to the upper one; 0.05 by default.")] = None
+    time: Annotated[float | None, typer.Option(help="Seconds for the proof; 60 by default.")] = None
+    resume: Resume = False
+    threads: Threads = None
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question for `nd.workspace`."""
+
+    asked: dict[str, Any]
+    """Keywords of `nd.workspace`."""
+    own: set[str]
+    """Names of the criteria that come from the study."""
+    left: list[str]
+    """Limits of the study that are no criteria of a pose."""
+    region: Region | None
+    """The region of the study."""
+    proof: dict[str, Any] | None
+    """Gap and time of the proof; None without one."""
+
+
+def question_of(options: Workspace, chosen: Chosen) -> Question:
+    """Return what is asked by options of a design."""
+    study, home = chosen.study, chosen.configuration
+    region = None if study is None else study.objective.region
+    given = _present(options, CRITERIA)
+    values = {CRITERIA[name]: _radians(name, x) if name.endswith("_deg") else x for name, x in given.items()}
+    criteria, own, left = criteria_of(study if options.study_limits else None, float(home.position[2]), values)
+    if options.study_limits and compare_poses(left, values):
+        built = built_ranges(chosen.geometry, home, region, chosen.leg_ranges)
+        if built is not None:
+            criteria = narrowed(criteria, *built)
+            own.discard("leg_limits")
+    if not criteria:
+        raise ValueError("workspace: got no criterion, expected at least one of --legs, --condition, --clearance, ...")
+    if options.method == "grid":
+        for name, value in _present(options, ("points", "seed")).items():
+            raise ValueError(f"--{name}: got {value}, expected none with --method grid")
+    of_angles = options.archetype == "orientation"
+    at = None if not of_angles else home.position if options.position is None else options.position
+    turns = options.archetype not in ("constant_orientation", "orientation")
+    bounds = _present(options, ("angle_deg", "tilt_deg", "torsion_deg"))
+    asked: dict[str, Any] = {
+        "archetype": options.archetype,
+        "criteria": criteria,
+        "characteristic_length": float(length_at_home(chosen)),
+        "internal_point": _rule(options.internal_point, chosen, region, at, turns),
+        "method": options.method,
+        "tolerance": options.tolerance,
+        **_present(options, ("orientations", "resolution", "points", "seed")),
+    }
+    if bounds:
+        asked["region"] = {name.removesuffix("_deg"): _radians(name, value) for name, value in bounds.items()}
+    if options.index:
+        asked["index"] = options.index
+    if chosen.unit:
+        asked["unit"] = chosen.unit
+    proof = _proof(options, asked["internal_point"])
+    return Question(asked | _place(options, chosen, region), own, left, region, proof)
+
+
+def criteria_of(
+    study: Study | None, zp: float, values: Mapping[str, Any]
+) -> tuple[dict[str, Any], set[str], list[str]]:
+    """Return criteria, the names of those that come from the study, and the limits of the study that are none.
+
+    `values` holds what options give for constraints of leg lengths, angles and axes of cones, and other criteria.
+    """
+    from_study, left = ({}, []) if study is None else study_limits(study, zp)
+    criteria = from_study | {name: value for name, value in values.items() if not name.endswith("_axis")}
+    for cone in CONES:
+        axis = values.get(f"{cone}_axis", _axis(from_study.get(cone)))
+        if cone not in criteria:
+            if axis is not None:
+                raise ValueError(f"--{cone.replace('_', '-')}-axis: got an axis alone, expected the angle too")
+        elif axis is not None:
+            angle = criteria[cone]["max"] if isinstance(criteria[cone], Mapping) else criteria[cone]
+            criteria[cone] = {"max": angle, "axis": axis}
+    if criteria.get("singularity_free") is False:
+        del criteria["singularity_free"]
+    ranges = {name for name in LEGS if name in criteria}
+    unchanged = {name for name in from_study if name not in values}
+    own = {name for name in criteria if name in unchanged and name not in ranges}
+    return with_leg_limits(criteria), own | ({"leg_limits"} if ranges and ranges <= unchanged else set()), left
+
+
+def compare_poses(left: Sequence[str], values: Mapping[str, Any]) -> bool:
+    """Return whether limits on the spread of lengths are left over and no lengths are given by options."""
+    return any(name in SPREADS for name in left) and not any(name in values for name in LEGS)
+
+
+def _rule(text: str | None, chosen: Chosen, region: Region | None, position: Any, turns: bool) -> Any:
+    """Return the rule for O: that of the option, of the region of a study, or where the design has O.
+
+    `position` is the one position of a set of orientations; `turns` says that there are sets of rotations at many,
+    where O cannot be shifted: the rule of a region is then "carried".
+    """
+    if text is not None and text not in RULES:
+        try:
+            return float(text)
+        except ValueError:
+            raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
+    if text == "shifted" and turns:
+        raise ValueError("--internal-point: got 'shifted' where the platform turns as it moves, expected another rule")
+    return rule_of_region(chosen.geometry, chosen.configuration, region, text, position)
+
+
+def _place(options: Workspace, chosen: Chosen, region: Region | None) -> dict[str, Any]:
+    """Return the box, by default that about a region, or the fixed position and rotation, of an archetype."""
+    home, ends = chosen.configuration, [options.x, options.y, options.z]
+    if options.archetype == "orientation":
+        if any(end is not None for end in ends):
+            raise ValueError("workspace: got a box, expected none for orientations at one position")
+        return {"position": home.position if options.position is None else options.position, "rotation": home.rotation}
+    if options.position is not None:
+        raise ValueError(f"--position: got {options.position}, expected none but for --archetype orientation")
+    low, high = box_around(home) if region is None else box_about(region, home)
+    around = [(low[k], high[k]) if end is None else end for k, end in enumerate(ends)]
+    rotation = {"rotation": home.rotation} if options.archetype == "constant_orientation" else {}
+    return rotation | {"box": tuple(zip(*around, strict=True))}
+
+
+def _proof(options: Workspace, rule: Any) -> dict[str, Any] | None:
+    """Return gap and time of the proof; None where none is wanted."""
+    given = _present(options, ("gap", "time"))
+    if not options.certify:
+        for name, value in given.items():
+            raise ValueError(f"--{name}: got {value:g} without --certify, expected both")
+        return None
+    require_certifiable(options.archetype, rule)
+    finite("--gap", given.get("gap", 0.5), *GAPS)
+    finite("--time", given.get("time", 0.0), 0.0)
+    return {"time_limit" if name == "time" else name: value for name, value in given.items()}
+
+
+def _present(options: Workspace, names: Any) -> dict[str, Any]:
+    return {name: value for name in names if (value := getattr(options, name)) is not None}
+
+
+def _radians(name: str, degrees: float) -> float:
+    return math.radians(finite(f"--{name.replace('_', '-')}", degrees, 0.0, 180.0))
+
+
+def _axis(cone: Any) -> Any:
+    return cone.get("axis") if isinstance(cone, Mapping) else None

@@ -1,0 +1,84 @@
+"""The tables and sentences of an optimization; `result` is a Result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ninedof.design.study import LENGTH
+from ninedof.optimize.prices import price_words
+from ninedof.tables import RIGHT, SHORT, Column, Line, Table
+
+SHOWN = 4  # candidates, side by side
+MOST_FIXED = 8  # variables; of more, only the free ones are listed
+
+
+def candidates_table(result: Any) -> Table:
+    """Return the best candidates side by side, best first."""
+    shown, study = result.candidates[:SHOWN], result.study
+    heads = ["best", *(f"no. {k}" for k in range(2, len(shown) + 1))]
+    rows: list[Any] = [*_index_lines(result), ()]
+    for name in listed_variables(study.variables):
+        if name != LENGTH:
+            values = [study.shown(name, c.variables[name]) for c in shown]
+            rows.append(Line(name, values, SHORT, study.unit_of(name)))
+    if study.characteristic_length != 1.0:
+        rows.append(Line("characteristic length", [c.characteristic_length for c in shown], SHORT, study.unit))
+    rows += [
+        (),
+        Line("limits reached", [", ".join(c.active) or "nothing" for c in shown]),
+        Line("starts that ended here", [c.reached for c in shown], "d"),
+        Line("stationarity", [c.optimality_residual for c in shown], ".1e"),
+        Line("violation", [c.constraint_violation for c in shown], ".1e"),
+    ]
+    count = len(result.candidates)
+    title = "1 local optimum" if count == 1 else f"{count} distinct local optima, best first"
+    return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)
+
+
+def listed_variables(variables: Mapping[str, Any]) -> list[str]:
+    """Return the names of the variables that are listed: the fixed ones where they are few."""
+    free = [name for name, bound in variables.items() if isinstance(bound, tuple)]
+    return list(variables) if len(variables) - len(free) <= MOST_FIXED else free
+
+
+def _index_lines(result: Any) -> Iterator[Line]:
+    """Yield the objective and, if it differs, the condition numbers at the neutral pose and over the poses."""
+    objective, shown = result.study.objective, result.candidates[:SHOWN]
+    yield Line(result.words, [c.objective for c in shown], ".6f")
+    if objective.index == "condition_number" and not objective.poses and objective.region is None:
+        return
+    yield Line("neutral condition number", [c.condition_number for c in shown], ".6f")
+    if len(result.solved.objective.poses) > 1 and objective.region is None:
+        yield Line("worst over the poses", [max(c.conditions) for c in shown], ".6f")
+        yield Line("best over the poses", [min(c.conditions) for c in shown], ".6f")
+
+
+def agreement_words(result: Any) -> Iterator[str]:
+    """Yield what the search shows: the region, where O is, how many starts agree."""
+    if result.region is not None:
+        yield result.region.words
+    if result.internal_points:
+        yield result.internal_points
+    yield result.agreement
+
+
+def best_prices(result: Any) -> list[str]:
+    """Return the shadow prices of the best candidate."""
+    best = result.best
+    return [] if best is None else price_words(result.study, best.variables, best.prices)
+
+
+def proof_words(result: Any) -> tuple[str, str]:
+    """Return what is proved of all designs of the study, and how near the best one is to it."""
+    proof, best = result.proof, result.condition_number
+    assert proof is not None
+    assert best is not None
+    gap = proof.gap(best)
+    near = f"{100.0 * gap:.2g} % of that" if gap >= 1e-4 else f"{gap:.1e} of that, relatively"
+    rest = ""
+    if not proof.complete:
+        ended = "was interrupted" if proof.interrupted else "ended"
+        rest = f"; the search {ended} before {proof.target:.6g} was proved, {proof.open} boxes are left"
+    boxes = f"{proof.boxes} boxes of designs, {proof.seconds:.1f} s{rest}."
+    return proof.words, f"\nThe best design is within {near}; {boxes}"

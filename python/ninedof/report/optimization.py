@@ -1,0 +1,111 @@
+"""The page of an optimization."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ninedof.design.region_outline import region_lines
+from ninedof.design.study import Study
+from ninedof.optimize.result import Candidate, Result, Status
+from ninedof.optimize.tables import SHOWN, agreement_words, best_prices, candidates_table
+from ninedof.proof.machine_record import MachineCertificate
+from ninedof.report import origin, proof, scene
+from ninedof.report.body import quick_body
+from ninedof.report.page import Page
+from ninedof.report.question import question
+from ninedof.robot.configuration import Configuration
+from ninedof.sheet.sheet import Sheet
+from ninedof.sheet.tables import sheet_parts
+from ninedof.support.arrays import Floats
+from ninedof.tables.html import Html, beside, bullets, facts, html_of, joined, paragraphs, tag
+
+NO_CLAIM = "The best design found is shown below. It is not claimed to be an optimum."
+
+
+def of_result(
+    result: Result,
+    record: Any,
+    run: str = "RUN",
+    again: Html | None = None,
+    certificate: MachineCertificate | None = None,
+) -> Page:
+    """Return the page of an optimization; `again` says how to reproduce it, where its study alone does not.
+
+    `run` is the run in the commands of the page: "RUN#7" for a point of a front.
+    """
+    best, study = result.best, result.study
+    sections = {"question": question(study), "answer": _answer(result)}
+    shown, found = None, None
+    if best is not None and result.status != Status.UNBOUNDED:  # without a least value there is no design to build
+        found = result.sheet()
+        body, hint = quick_body(result, run)
+        sections |= {"machine": paragraphs([hint]), "sheet": sheet_html(found)}
+        machines = [design_machine("best design", best, study, found, body)]
+        others = enumerate(result.candidates[1:SHOWN], start=2)
+        machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
+        shown = scene.scene(machines, study.unit)
+    sections["proof"] = proof.of_result(result, certificate)
+    sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
+    words = f"{study.words}: no design" if found is None else result.words
+    headline = words[:1].upper() + words[1:]
+    return Page("optimization", headline, _key_figures(result, found), sections, shown, result.status == Status.OPTIMAL)
+
+
+def sheet_html(found: Sheet) -> Html:
+    """Return the engineering sheet."""
+    return joined(*map(html_of, sheet_parts(found)))
+
+
+def design_machine(
+    title: str, one: Candidate, study: Study, sheet: Sheet | None = None, body: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """Return a design for the view: with the worst poses of its sheet and a body, or at its neutral pose."""
+    lines, length = region_of(study, one.configuration), one.characteristic_length
+    if sheet is None:
+        return scene.machine(title, one.geometry, one.configuration, length, lines=lines)
+    poses = scene.worst_poses(sheet)
+    return scene.machine(title, one.geometry, sheet.configurations, length, poses, lines, body)
+
+
+def region_of(study: Study, home: Configuration) -> list[Floats]:
+    """Return the region of a study about a home pose as lines; none without a region."""
+    region = study.objective.region
+    return [] if region is None else region_lines(region, home)
+
+
+def _answer(result: Result) -> Html:
+    if result.best is None:
+        causes = ", ".join(result.causes) or "none found"
+        return joined(paragraphs([_sentence(result.reason)]), facts([("status", result.status), ("causes", causes)]))
+    claim = [_sentence(result.reason)] if result.status != Status.OPTIMAL else []
+    claim += [NO_CLAIM] if result.status == Status.STOPPED else []
+    shown = paragraphs(map(_sentence, agreement_words(result)))
+    side = joined(_prices(result, result.best), tag("h3", "What the search shows"), shown)
+    return joined(paragraphs(claim), beside(html_of(candidates_table(result)), side))
+
+
+def _prices(result: Result, best: Candidate) -> Html:
+    if not best.active:
+        return joined(tag("h3", "Limits reached"), paragraphs(["No limit and no bound is reached."]))
+    free = (f"{name} is on its bound or limit; it has no price" for name in best.active if name not in best.prices)
+    said = [_sentence(words.replace("_", " ")) for words in (*best_prices(result), *free)]
+    return joined(tag("h3", "Limits reached, and what relaxing them buys"), bullets(said))
+
+
+def _key_figures(result: Result, found: Sheet | None) -> list[tuple[object, object]]:
+    best = result.best
+    if best is None or found is None:
+        return [("status", result.status), ("because of", ", ".join(result.causes) or "none found")]
+    rows: list[tuple[object, object]] = [("status", result.status), ("objective", f"{best.objective:.6f}")]
+    if abs(best.condition_number - best.objective) > 1e-9:
+        rows.append(("condition number, neutral pose", f"{best.condition_number:.6f}"))
+    rows.append(("limits reached", ", ".join(name.replace("_", " ") for name in best.active) or "none"))
+    return rows
+
+
+def _sentence(text: str) -> str:
+    """Return a message as a sentence; names of symbols keep their letter."""
+    ended = text if text.endswith((".", "?", "!")) else f"{text}."
+    first = ended.split(maxsplit=1)[0]
+    return ended[0].upper() + ended[1:] if first.isalpha() and len(first) > 1 else ended

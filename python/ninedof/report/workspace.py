@@ -1,0 +1,63 @@
+"""The page of a workspace."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.region_outline import box_lines
+from ninedof.report import origin, proof, scene
+from ninedof.report.body import body_of
+from ninedof.report.page import Page
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import Geometry
+from ninedof.support.units import amount
+from ninedof.tables.html import Html, bullets, html_of, joined, paragraphs
+from ninedof.workspace import WorkspaceMap
+from ninedof.workspace.question_words import criterion_words, rule_words
+from ninedof.workspace.tables import workspace_table
+
+
+def of_workspace(found: WorkspaceMap, record: Any) -> Page:
+    """Return the page of a workspace; without machine and question where the record does not hold them."""
+    asked, shown = record.asked, None
+    sections = {
+        "answer": html_of(workspace_table(found)),
+        "proof": proof.of_workspace(found, asked),
+        "again": origin.of_question(asked, record),
+    }
+    if "criteria" in asked:
+        sections["question"] = _question(found, asked)
+    if {"geometry", "home"} <= set(asked):
+        shown = _scene(found, asked)
+        hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
+        sections["machine"] = paragraphs([hint if shown["machines"][0]["body"] else ""])
+    cubed = "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)
+    figures = [
+        ("status", found.status),
+        ("volume", amount(f"{found.volume:.6g} ± {found.error:.1g}", cubed)),
+        ("worst condition number", f"{found.worst_condition_number:.4f}"),
+    ]
+    headline = f"Workspace: {found.archetype.replace('_', ' ')}"
+    return Page("workspace", headline, figures, sections, shown, found.status in ("converged", "limited"))
+
+
+def _scene(found: WorkspaceMap, asked: Any) -> dict[str, Any]:
+    g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
+    home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
+    box = [] if found.of_angles else box_lines(found.low, found.high)
+    length = float(asked.get("characteristic_length", 1.0))
+    return scene.scene([scene.machine("robot", g, home, length, (("home", 0),), box, body_of(found))], found.unit)
+
+
+def _question(found: WorkspaceMap, asked: Any) -> Html:
+    turn, unit = (math.degrees, "deg") if found.of_angles else (float, found.unit)
+    low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (found.low, found.high))
+    where = f"{'the box' if not found.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
+    said = f"Which poses keep all limits below? Looked at: {where}."
+    if "internal_point" in asked:
+        said += f" O is {rule_words(asked, found.unit)}."
+    limits = (words for name, value in asked["criteria"].items() for words in criterion_words(name, value, found.unit))
+    return joined(paragraphs([said]), bullets(limits))

@@ -1,0 +1,7 @@
+"""Tables as data: what a result shows, once. The terminal, the page of a run, notebooks and plain text render it."""
+
+from __future__ import annotations
+
+from ninedof.tables.table import DEGREES, RIGHT, SHORT, Column, Line, Table, grouped
+
+__all__ = ["DEGREES", "RIGHT", "SHORT", "Column", "Line", "Table", "grouped"]

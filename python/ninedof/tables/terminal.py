@@ -1,0 +1,58 @@
+"""Tables on a terminal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich import box, table
+from rich.console import Group
+from rich.text import Text
+
+from ninedof.support.printable import escaped
+from ninedof.support.units import heading
+from ninedof.tables.numbers import SCREEN
+from ninedof.tables.table import WORDS, Part, Table
+
+# Styles, from roomy to tight: frame, spaces around a cell, and characters of a column beside its text.
+STYLES: tuple[tuple[box.Box, tuple[int, int, int, int], bool, int], ...] = (
+    (box.HEAVY_HEAD, (0, 1, 0, 1), True, 3),
+    (box.HEAVY_HEAD, (0, 1, 0, 1), False, 3),
+    (box.SIMPLE_HEAD, (0, 1, 0, 0), True, 2),
+    (box.SIMPLE_HEAD, (0, 0, 0, 0), True, 1),
+)
+
+
+def terminal(part: Part, width: int) -> Any:
+    """Return what rich prints for a part; a table of numbers that is wide stands closer together."""
+    if isinstance(part, tuple):
+        return Group(*(terminal(one, width) for one in part))
+    if not isinstance(part, Table):
+        return part
+    title = [Text(escaped(part.title), style="bold")] if part.title else []
+    return Group(*title, _rich(part, width), *part.notes)
+
+
+def _rich(one: Table, width: int) -> table.Table:
+    groups = one.texts(SCREEN)
+    heads = [heading(column.name, column.unit) for column in one.columns]
+    words = [column.format == WORDS for column in one.columns]
+    rows = [row for group in groups for row in group]
+    least = sum(
+        max(_least(head, True), *(_least(row[k], folds) for row in rows), 0)
+        for k, (head, folds) in enumerate(zip(heads, words, strict=True))
+    )
+    styles = (style for style in STYLES if least + style[3] * len(heads) + 2 * style[2] <= width)
+    frame, padding, edge, _ = next(styles, STYLES[-1])
+    shown = table.Table(box=frame, padding=padding, pad_edge=edge, show_header=one.has_head)
+    for head, folds in zip(heads, words, strict=True):
+        shown.add_column(head, justify="left" if folds else "right", overflow="fold")
+    for group in groups:
+        for k, row in enumerate(group, start=1):
+            shown.add_row(*row, end_section=k == len(group))
+    return shown
+
+
+def _least(text: str, folds: bool) -> int:
+    """Return how wide the column of a text must be: words and lists may fold, numbers with their units may not."""
+    folds = folds or ", " in text or "  " in text
+    return max((len(part) for part in (text.split() if folds else text.split("\n"))), default=0)
