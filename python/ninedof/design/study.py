@@ -163,7 +163,6 @@ class Study:
     """Free variables that were not given and took the family's default bounds."""
     length_assumed: bool = field(default=False, init=False, compare=False, repr=False)
     """Whether the characteristic length was not given."""
-    _problems: dict[bool, _core.Problem] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     __hash__ = None  # type: ignore[assignment]  # mappings inside
 
@@ -298,6 +297,10 @@ class Study:
             self._problems[over_region] = problem
         return self._problems[over_region]
 
+    @cached_property
+    def _problems(self) -> dict[bool, _core.Problem]:
+        return {}
+
     def evaluate(self, variables: Mapping[str, float]) -> DesignPoint:
         """Return objective, condition numbers, margins and exact gradients of one design.
 
@@ -338,4 +341,4 @@ class Study:
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out the problems of the core, which are made again."""
-        return self.__dict__ | {"_problems": {}}
+        return {name: value for name, value in vars(self).items() if name != "_problems"}
