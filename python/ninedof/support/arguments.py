@@ -14,7 +14,7 @@ import numpy as np
 from ninedof.support.printable import one_line
 
 LONGEST = 200  # characters of a value that a message repeats
-LONGEST_NAME, LONGEST_PATH = 255, 3500  # bytes: what systems take, with room for the names of parts in a folder
+LONGEST_NAME, LONGEST_PATH = 255, 3500  # what systems take, with room for the names of parts in a folder
 TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # the direction of what follows them
 LARGEST = 2**63 - 1  # what the core's integers hold
 
@@ -26,9 +26,7 @@ def shown(value: Any) -> str:
     """Return the text of a value for a message: of one line, cut where it is long."""
     try:
         text = repr(value)
-    except ValueError:  # a whole number of thousands of digits, which Python does not convert
-        return "a very long number" if isinstance(value, int) else f"a {type(value).__name__} with a very long number"
-    except Exception:  # lists in lists in lists, an object whose own words fail
+    except Exception:  # a number of thousands of digits, lists in lists in lists, an object whose own words fail
         return f"a {type(value).__name__}"
     text = " ".join(text.split()) if "\n" in text else text  # numpy's arrays have a line for each row
     return cleaned(text)
@@ -103,21 +101,17 @@ def number(name: str, value: Any) -> float:
 
 def finite(name: str, value: Any, least: float = -math.inf, most: float = math.inf) -> float:
     """Return a finite number, within limits where they are given."""
-    found = number(name, value)
-    if not math.isfinite(found) or not least <= found <= most:
+    x = number(name, value)
+    if not math.isfinite(x) or not least <= x <= most:
         limits = [f"at least {least:g}"] * math.isfinite(least) + [f"at most {most:g}"] * math.isfinite(most)
         expected = " ".join(["a finite number", " and ".join(limits)]).strip()
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    return found
+    return x
 
 
 def whole(name: str, value: Any, least: int, most: int = LARGEST) -> int:
     """Return a whole number; 3.0 does not count as one."""
-    if (
-        isinstance(value, bool | np.timedelta64)
-        or not isinstance(value, int | np.integer)
-        or not least <= value <= most
-    ):
+    if not is_number(value) or isinstance(value, float | np.floating) or not least <= value <= most:
         to = "to 2^63 - 1" if most == LARGEST else f"to {most}"
         raise ValueError(f"{name}: got {shown(value)}, expected a whole number from {least} {to}")
     return int(value)
@@ -140,18 +134,14 @@ def choice(name: str, value: Any, known: Iterable[str]) -> str:
 
 
 def path_argument(name: str, value: Any) -> Path:
-    """Return a path that the system can name, and a line of text too."""
-    expected = "a path"
-    if not isinstance(value, str | os.PathLike) or isinstance(found := os.fspath(value), bytes):
-        raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    try:
-        parts = [len(os.fsencode(part)) for part in (found, *Path(found).parts)]
-    except UnicodeError:
-        parts = [LONGEST_PATH + 1]
-    odd = any(unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in TURNING for c in found)
-    if not found or odd or parts[0] > LONGEST_PATH or max(parts[1:], default=0) > LONGEST_NAME:
-        raise ValueError(f"{name}: got {shown(found)}, expected {expected} of ordinary characters and length")
-    return Path(found)
+    """Return a path whose name is a line of text: it stands in messages."""
+    path = os.fspath(value) if isinstance(value, str | os.PathLike) else None
+    if not isinstance(path, str):
+        raise ValueError(f"{name}: got {shown(value)}, expected a path")
+    odd = any(unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in TURNING for c in path)
+    if not path or odd or len(path) > LONGEST_PATH or max(map(len, Path(path).parts), default=0) > LONGEST_NAME:
+        raise ValueError(f"{name}: got {shown(path)}, expected a path of ordinary characters and length")
+    return Path(path)
 
 
 def executor_argument(executor: Any) -> None:
@@ -169,10 +159,10 @@ def items(name: str, value: Any, expected: str) -> tuple[Any, ...]:
 
 def pair(name: str, value: Any, expected: str) -> tuple[Any, Any]:
     """Return two things of whatever kind."""
-    found = items(name, value, expected)
-    if len(found) != 2:
+    both = items(name, value, expected)
+    if len(both) != 2:
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    return found[0], found[1]
+    return both[0], both[1]
 
 
 def bound(name: str, value: Any) -> float | tuple[float, float]:
@@ -188,10 +178,10 @@ def bound(name: str, value: Any) -> float | tuple[float, float]:
 def vector(name: str, value: Any, least: float = -math.inf) -> Vector:
     """Return three finite numbers."""
     expected = "three finite numbers [x, y, z]"
-    found = items(name, value, expected)
-    if len(found) != 3 or not all(is_number(x) for x in found):
+    three = items(name, value, expected)
+    if len(three) != 3 or not all(map(is_number, three)):
         raise ValueError(f"{name}: got {shown(value)}, expected {expected}")
-    x, y, z = (finite(name, x, least) for x in found)
+    x, y, z = (finite(name, x, least) for x in three)
     return x, y, z
 
 

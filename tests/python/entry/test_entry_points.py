@@ -82,7 +82,7 @@ def names():
                 yield name, thing
             for member in members(thing):
                 yield f"{name}.{member}", getattr(thing, member)
-    for name in poses.__all__:
+    for name in set(poses.__all__) - set(nd.__all__):
         yield f"poses.{name}", getattr(poses, name)
 
 
