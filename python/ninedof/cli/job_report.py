@@ -69,7 +69,7 @@ def told(screen: Screen, words: Callable[[], object], data: Any) -> Iterator[Cal
         raise
 
 
-def kept(
+def write_job(
     screen: Screen, answer: Answer, write: Callable[[Draw], Path], draw: Draw | None = None, report: bool = False
 ) -> Path:
     """Write a run, print its answer, draw its figures and write its report; return its record."""

@@ -10,10 +10,9 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design
-from ninedof.cli.options import Three
+from ninedof.cli.options import Design, Options, Three
 from ninedof.cli.screen import DONE
 from ninedof.conditioning.characteristic_length import characteristic_length
 from ninedof.redundancy.redundancy import best_internal_point
@@ -26,10 +25,10 @@ from ninedof.support.units import unit_entry
 
 
 @dataclass(frozen=True, kw_only=True)
-class PoseOptions(options.Options):
+class PoseOptions(Options):
     """A design and one pose."""
 
-    design: options.Design
+    design: Design
     position: Annotated[
         Three | None,
         typer.Option(metavar="X Y Z", help="Position of the platform, base frame; the neutral one by default."),
@@ -89,10 +88,10 @@ class Looked:
     c: Configuration
 
     @staticmethod
-    def at(asked: PoseOptions) -> Looked:
+    def at(options: PoseOptions) -> Looked:
         """Return the design and the poses of the options."""
-        chosen = named_design(asked.design)
-        return Looked(chosen, asked.poses(chosen))
+        chosen = named_design(options.design)
+        return Looked(chosen, options.poses(chosen))
 
     def where(self, k: int) -> str:
         """Return " at pose 3", nothing where there is one pose."""

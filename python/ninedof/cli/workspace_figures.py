@@ -22,7 +22,7 @@ NEAR = 10.0  # home is marked in a section within this part of the size of the w
 
 
 def draw(
-    found: WorkspaceMap, screen: Screen, home: Configuration, region: Region | None, directory: Path
+    workspace: WorkspaceMap, screen: Screen, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
     """Draw sections and, of positions, the body; return the files.
 
@@ -32,75 +32,75 @@ def draw(
     screen.say("drawing the workspace")
     from ninedof import plot
 
-    middle = found.ball_centre if found.ball_radius > 0.0 else found.worst_at
+    middle = workspace.ball_centre if workspace.ball_radius > 0.0 else workspace.worst_at
     if region is not None:
         middle = home.position
-    sections = [_section(found, home, region, middle, *plane) for plane in _planes(found, home, middle)]
-    figure = plot.workspace(found, sections)
+    sections = [_section(workspace, home, region, middle, *plane) for plane in _planes(workspace, home, middle)]
+    figure = plot.workspace(workspace, sections)
     files = plot.save(figure, directory, "workspace")
-    if found.of_angles:
+    if workspace.of_angles:
         return files
-    if found.certified is not None and found.certified.volume[1] > 0.0:
-        files += _draw_certified(found, found.certified, home, region, directory)
+    if workspace.certified is not None and workspace.certified.volume[1] > 0.0:
+        files += _draw_certified(workspace, workspace.certified, home, region, directory)
     screen.say("drawing the body of the workspace")
-    surface = found.surface()
+    surface = workspace.surface()
     if len(surface.faces):
         lines = () if region is None else region_lines(region, home)
-        body = plot.workspace_body(surface, found.coordinates, home=home.position, lines=lines, unit=found.unit)
+        body = plot.workspace_body(surface, workspace.coordinates, home=home.position, lines=lines, unit=workspace.unit)
         files += plot.save(body, directory, "workspace_body")
     return files
 
 
 def _draw_certified(
-    found: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
+    workspace: WorkspaceMap, proved: CertifiedWorkspace, home: Configuration, region: Region | None, directory: Path
 ) -> list[Path]:
     """Draw a vertical and the horizontal section of what is proved."""
     from ninedof import plot
 
-    middle = found.ball_centre if found.ball_radius > 0.0 and region is None else home.position
+    middle = workspace.ball_centre if workspace.ball_radius > 0.0 and region is None else home.position
     panels = []
-    for fixed, at in _planes(found, home, middle)[::2]:
+    for fixed, at in _planes(workspace, home, middle)[::2]:
         place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
-        section = _section(found, home, region, middle, fixed, place)
-        plane = proved.section(found.coordinates[fixed], place)
+        section = _section(workspace, home, region, middle, fixed, place)
+        plane = proved.section(workspace.coordinates[fixed], place)
         panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=section.plane))  # type: ignore[arg-type]
-    return plot.save(plot.certified_workspace(panels, found.unit), directory, "certified_workspace")
+    return plot.save(plot.certified_workspace(panels, workspace.unit), directory, "certified_workspace")
 
 
-def _planes(found: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:
+def _planes(workspace: WorkspaceMap, home: Configuration, middle: Floats) -> list[tuple[int, float]]:
     """Return the number of the fixed coordinate and its value for each section."""
-    spans = [float(np.ptp(axis)) for axis in found.field.axes]
-    round_values = [_round(float(middle[k]), spans[k], found, k) for k in range(3)]
-    if found.of_angles:
+    spans = [float(np.ptp(axis)) for axis in workspace.field.axes]
+    round_values = [_round(float(middle[k]), spans[k], workspace, k) for k in range(3)]
+    if workspace.of_angles:
         return [(k, round_values[k]) for k in (1, 2)]
     height = float(home.position[2])
-    heights = found.field.axes[2]
+    heights = workspace.field.axes[2]
     through_home = heights[0] <= height <= heights[-1]
     return [(1, round_values[1]), (0, round_values[0]), (2, height if through_home else round_values[2])]
 
 
 def _section(
-    found: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
+    workspace: WorkspaceMap, home: Configuration, region: Region | None, middle: Floats, fixed: int, at: float
 ) -> Section:
     """Return one section with what is marked in it: home, and the region or else the largest ball and box."""
     from ninedof.plot import Section
 
     drawn = [k for k in range(3) if k != fixed]
-    plane = found.slice(found.coordinates[fixed], at, smooth=True)
-    near = abs(float(home.position[fixed]) - at) <= float(np.ptp(found.field.axes[fixed])) / NEAR
-    marked = home.position[drawn] if near and not found.of_angles else None
+    plane = workspace.slice(workspace.coordinates[fixed], at, smooth=True)
+    near = abs(float(home.position[fixed]) - at) <= float(np.ptp(workspace.field.axes[fixed])) / NEAR
+    marked = home.position[drawn] if near and not workspace.of_angles else None
     if region is not None:
         return Section(plane, region=section_outline(region, home, fixed, at), home=marked)
-    radius = np.sqrt(max(found.ball_radius**2 - (at - float(middle[fixed])) ** 2, 0.0))
+    radius = np.sqrt(max(workspace.ball_radius**2 - (at - float(middle[fixed])) ** 2, 0.0))
     ball = (middle[drawn], radius) if radius > 0.0 else None
-    known = np.isfinite(found.box_low).all() and found.box_low[fixed] <= at <= found.box_high[fixed]
-    inner = (found.box_low[drawn], found.box_high[drawn]) if known else None
+    known = np.isfinite(workspace.box_low).all() and workspace.box_low[fixed] <= at <= workspace.box_high[fixed]
+    inner = (workspace.box_low[drawn], workspace.box_high[drawn]) if known else None
     return Section(plane, ball, inner, home=marked)
 
 
-def _round(value: float, span: float, found: WorkspaceMap, fixed: int) -> float:
+def _round(value: float, span: float, workspace: WorkspaceMap, fixed: int) -> float:
     """Return a round value near a coordinate of a map, of angles round in degrees."""
     from ninedof.plot.style import round_to
 
-    scale = 180.0 / math.pi if found.of_angles else 1.0
-    return float(np.clip(round_to(scale * value, scale * span) / scale, found.low[fixed], found.high[fixed]))
+    scale = 180.0 / math.pi if workspace.of_angles else 1.0
+    return float(np.clip(round_to(scale * value, scale * span) / scale, workspace.low[fixed], workspace.high[fixed]))

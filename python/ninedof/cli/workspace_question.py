@@ -48,7 +48,7 @@ CRITERIA = {  # by the names of the options
 
 
 @dataclass(frozen=True, kw_only=True)
-class Workspace(JobOptions):
+class WorkspaceOptions(JobOptions):
     """The options of `ninedof workspace`."""
 
     design: DesignOrPublished = None
@@ -131,7 +131,7 @@ class Question:
     """Gap and time of the proof; None without one."""
 
 
-def question_of(options: Workspace, chosen: Chosen) -> Question:
+def question_of(options: WorkspaceOptions, chosen: Chosen) -> Question:
     """Return what is asked by options of a design."""
     study, home = chosen.study, chosen.configuration
     region = None if study is None else study.objective.region
@@ -217,7 +217,7 @@ def _rule(text: str | None, chosen: Chosen, region: Region | None, position: Any
     return rule_of_region(chosen.geometry, chosen.configuration, region, text, position)
 
 
-def _place(options: Workspace, chosen: Chosen, region: Region | None) -> dict[str, Any]:
+def _place(options: WorkspaceOptions, chosen: Chosen, region: Region | None) -> dict[str, Any]:
     """Return the box, by default that about a region, or the fixed position and rotation, of an archetype."""
     home, ends = chosen.configuration, [options.x, options.y, options.z]
     if options.archetype == "orientation":
@@ -232,7 +232,7 @@ def _place(options: Workspace, chosen: Chosen, region: Region | None) -> dict[st
     return rotation | {"box": tuple(zip(*around, strict=True))}
 
 
-def _proof(options: Workspace, rule: Any) -> dict[str, Any] | None:
+def _proof(options: WorkspaceOptions, rule: Any) -> dict[str, Any] | None:
     """Return gap and time of the proof; None where none is wanted."""
     given = _present(options, ("gap", "time"))
     if not options.certify:
@@ -245,7 +245,7 @@ def _proof(options: Workspace, rule: Any) -> dict[str, Any] | None:
     return {"time_limit" if name == "time" else name: value for name, value in given.items()}
 
 
-def _present(options: Workspace, names: Any) -> dict[str, Any]:
+def _present(options: WorkspaceOptions, names: Any) -> dict[str, Any]:
     return {name: value for name in names if (value := getattr(options, name)) is not None}
 
 

@@ -60,7 +60,7 @@ def _limit_row(row: Mapping[str, Any], unit: str) -> tuple[str, ...]:
     return f"{row['name']} {row['part']}".strip(), row["side"], *ends, margin, f"{row['at']:.6g}"
 
 
-def motion_words(found: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+def motion_words(followed: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield remarks on the tables, one sentence each: words to be stressed, and the rest."""
     kappa, near = motion["condition_number"], motion["nearest_singularity"]
     o = where_o(motion["internal_point"])
@@ -70,12 +70,12 @@ def motion_words(found: Followed, motion: Mapping[str, Any]) -> Iterator[tuple[s
     ends = f"{kappa['first']:.4f} at the start, {kappa['last']:.4f} at the end"
     yield "", f"condition number at worst {kappa['worst']:.4f} at t = {kappa['at']:.6g}; {ends}"
     yield "", f"nearest singularity: {near['determinant']} = {near['value']:.4f} at t = {near['at']:.6g}"
-    turning, moving = (float(np.linalg.norm(found.velocity[:, k : k + 3], axis=1).max()) for k in (0, 3))
-    speed, time = amount(f"{moving:.5g}", per(found.unit, "s")), "second" if found.unit else "unit of time"
+    turning, moving = (float(np.linalg.norm(followed.velocity[:, k : k + 3], axis=1).max()) for k in (0, 3))
+    speed, time = amount(f"{moving:.5g}", per(followed.unit, "s")), "second" if followed.unit else "unit of time"
     yield "", f"platform: speed at most {speed}, turning at most {math.degrees(turning):.5g} degrees per {time}"
     breaks = motion["breaks"]
     for broken in breaks[:SHOWN]:
-        yield _break_words(broken, found.unit)
+        yield _break_words(broken, followed.unit)
     if len(breaks) > SHOWN:
         yield "", f"and {len(breaks) - SHOWN} more breaks of limits: see record.json"
     error = f"largest difference {motion['tracking_error']:.1e}"

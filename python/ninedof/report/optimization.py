@@ -36,25 +36,25 @@ def of_result(
     """
     best, study = result.best, result.study
     sections = {"question": question(study), "answer": _answer(result)}
-    shown, found = None, None
+    shown, sheet = None, None
     if best is not None and result.status != Status.UNBOUNDED:  # without a least value there is no design to build
-        found = result.sheet()
+        sheet = result.sheet()
         body, hint = quick_body(result, run)
-        sections |= {"machine": paragraphs([hint]), "sheet": sheet_html(found)}
-        machines = [design_machine("best design", best, study, found, body)]
+        sections |= {"machine": paragraphs([hint]), "sheet": sheet_html(sheet)}
+        machines = [design_machine("best design", best, study, sheet, body)]
         others = enumerate(result.candidates[1:SHOWN], start=2)
         machines += [design_machine(f"optimum no. {k}", other, study) for k, other in others]
         shown = scene.scene(machines, study.unit)
     sections["proof"] = proof.of_result(result, certificate)
     sections["again"] = again or origin.of_study(study, "ninedof optimize study.toml", record)
-    words = f"{study.words}: no design" if found is None else result.words
+    words = f"{study.words}: no design" if sheet is None else result.words
     headline = words[:1].upper() + words[1:]
-    return Page("optimization", headline, _key_figures(result, found), sections, shown, result.status == Status.OPTIMAL)
+    return Page("optimization", headline, _key_figures(result, sheet), sections, shown, result.status == Status.OPTIMAL)
 
 
-def sheet_html(found: Sheet) -> Html:
+def sheet_html(sheet: Sheet) -> Html:
     """Return the engineering sheet."""
-    return joined(*map(html_of, sheet_parts(found)))
+    return joined(*map(html_of, sheet_parts(sheet)))
 
 
 def design_machine(
@@ -93,9 +93,9 @@ def _prices(result: Result, best: Candidate) -> Html:
     return joined(tag("h3", "Limits reached, and what relaxing them buys"), bullets(said))
 
 
-def _key_figures(result: Result, found: Sheet | None) -> list[tuple[object, object]]:
+def _key_figures(result: Result, sheet: Sheet | None) -> list[tuple[object, object]]:
     best = result.best
-    if best is None or found is None:
+    if best is None or sheet is None:
         return [("status", result.status), ("because of", ", ".join(result.causes) or "none found")]
     rows: list[tuple[object, object]] = [("status", result.status), ("objective", f"{best.objective:.6f}")]
     if abs(best.condition_number - best.objective) > 1e-9:

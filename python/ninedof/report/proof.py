@@ -42,25 +42,26 @@ def of_front(front: Front) -> Html:
     return _two(checked, searched, "each limit is solved as a study of its own", "front")
 
 
-def of_workspace(found: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
+def of_workspace(workspace: WorkspaceMap, asked: Mapping[str, Any]) -> Html:
     """Return the same of a workspace and what was asked."""
     checked = []
     legs = any(name == "leg_limits" or name.endswith("_length") for name in asked.get("criteria", ()))
-    of_positions = found.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
-    if found.ball_radius > 0.0 and legs and of_positions:
+    of_positions = workspace.archetype not in ("orientation", "reachable") and asked.get("internal_point") != "best"
+    if workspace.ball_radius > 0.0 and legs and of_positions:
         checked.append("Proved: in the largest ball and the largest box every leg keeps to its limits.")
-    if found.certified is not None:
-        checked.extend(found.certified.sentences())
+    if workspace.certified is not None:
+        checked.extend(workspace.certified.sentences())
     searched = [
         "Limits not named as proved were sampled: a hole thinner than the samples may remain.",
         "The error of the volume is an estimate, not a bound.",
-        f"Poses evaluated: {found.evaluations:,}.".replace(",", " "),
+        f"Poses evaluated: {workspace.evaluations:,}.".replace(",", " "),
     ]
-    if found.unseen > 0.0:
+    if workspace.unseen > 0.0:
         searched.append(
-            f"Parts that no sample has shown have a volume of at most {found.unseen:.2g}, with a confidence of 95 %."
+            f"Parts that no sample has shown have a volume of at most {workspace.unseen:.2g}, with a confidence of "
+            "95 %."
         )
-    return _two(checked, searched, "how the search ended", str(found.status))
+    return _two(checked, searched, "how the search ended", str(workspace.status))
 
 
 def _two(checked: list[str], searched: list[str], meaning: str, status: str) -> Html:

@@ -90,10 +90,10 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
     try:
         record = load_record(place)
-        found = None if record.kind in FROM_RECORD and not point else load(run)
+        contents = None if record.kind in FROM_RECORD and not point else load(run)
         whole = load(place) if point else None
-        certificate = _certificate_of(found, run) if isinstance(found, Result) else None
-        made = _page_of(found, record, name, point, whole, certificate)
+        certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
+        made = _page_of(contents, record, name, point, whole, certificate)
         text = _text(made, record, None if point else folder, name)
     except ValueError as error:
         words = one_line(str(error))
@@ -104,13 +104,13 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     return write_whole(file, text.encode())
 
 
-def _certificate_of(found: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
+def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCertificate | None:
     """Return what `ninedof certify` proved of a run, if it did."""
     file = certificate_file(run)
     if not file.is_file():
         return None
     certificate = load_certificate(run)
-    if not found.is_certified_by(certificate):
+    if not contents.is_certified_by(certificate):
         raise ValueError(
             f"{file}: got a certificate of another machine or one that was changed, expected that of the run: `ninedof "
             f"certify {os.fspath(run)}` writes it anew"
@@ -119,7 +119,7 @@ def _certificate_of(found: Result, run: str | os.PathLike[str]) -> MachineCertif
 
 
 def _page_of(
-    found: Any,
+    contents: Any,
     record: Record,
     name: str,
     point: str = "",
@@ -127,14 +127,14 @@ def _page_of(
     certificate: MachineCertificate | None = None,
 ) -> Page:
     """Return the page of what a record holds, or of one point of the whole."""
-    if isinstance(found, Front):
-        return of_front(found, record)
-    if isinstance(found, WorkspaceMap):
-        return of_workspace(found, record)
-    if not isinstance(found, Result):
+    if isinstance(contents, Front):
+        return of_front(contents, record)
+    if isinstance(contents, WorkspaceMap):
+        return of_workspace(contents, record)
+    if not isinstance(contents, Result):
         return of_recorded(record, name)
     again = origin.of_front(whole, record, point) if isinstance(whole, Front) else None
-    made = of_result(found, record, f"RUN#{point}" if point else "RUN", again, certificate)
+    made = of_result(contents, record, f"RUN#{point}" if point else "RUN", again, certificate)
     if record.kind != "comparison" or point:
         return made
     published = html_of(comparison_table(record.results["designs"]))

@@ -61,19 +61,19 @@ def machine(
     }
 
 
-def worst_poses(found: Sheet) -> list[tuple[str, int]]:
+def worst_poses(sheet: Sheet) -> list[tuple[str, int]]:
     """Return the neutral pose and the worst poses of a sheet, each with all that is worst there."""
     said: dict[int, list[str]] = {0: []}
-    said.setdefault(found.condition_number.pose, []).append("worst condition number")
-    said.setdefault(found.clearance.pose, []).append(f"least clearance, {' and '.join(found.clearance.legs)}")
-    lengths = leg_lengths(found.geometry, found.configurations)
-    if len(found.configurations) > 1:
-        most = max(range(9), key=lambda k: found.legs[k].stroke_ratio)
+    said.setdefault(sheet.condition_number.pose, []).append("worst condition number")
+    said.setdefault(sheet.clearance.pose, []).append(f"least clearance, {' and '.join(sheet.clearance.legs)}")
+    lengths = leg_lengths(sheet.geometry, sheet.configurations)
+    if len(sheet.configurations) > 1:
+        most = max(range(9), key=lambda k: sheet.legs[k].stroke_ratio)
         for words, pick in (("shortest", np.argmin), ("longest", np.argmax)):
-            said.setdefault(int(pick(lengths[:, most])), []).append(f"{found.legs[most].name} {words}")
-    for name, det in found.determinants.items():
+            said.setdefault(int(pick(lengths[:, most])), []).append(f"{sheet.legs[most].name} {words}")
+    for name, det in sheet.determinants.items():
         said.setdefault(det.pose, []).append(f"least |det {name[-1].upper()}|")
-    neutral = ["neutral pose", *(said.pop(0) if len(found.configurations) > 1 else [])]
+    neutral = ["neutral pose", *(said.pop(0) if len(sheet.configurations) > 1 else [])]
     return [(", ".join(neutral), 0), *((", ".join(words), k) for k, words in said.items())]
 
 

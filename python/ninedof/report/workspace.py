@@ -20,44 +20,48 @@ from ninedof.workspace.question_words import criterion_words, rule_words
 from ninedof.workspace.tables import workspace_table
 
 
-def of_workspace(found: WorkspaceMap, record: Any) -> Page:
+def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
     asked, shown = record.asked, None
     sections = {
-        "answer": html_of(workspace_table(found)),
-        "proof": proof.of_workspace(found, asked),
+        "answer": html_of(workspace_table(workspace)),
+        "proof": proof.of_workspace(workspace, asked),
         "again": origin.of_question(asked, record),
     }
     if "criteria" in asked:
-        sections["question"] = _question(found, asked)
+        sections["question"] = _question(workspace, asked)
     if {"geometry", "home"} <= set(asked):
-        shown = _scene(found, asked)
+        shown = _scene(workspace, asked)
         hint = "The body is the set of positions of the platform's origin; lines: the box looked at."
         sections["machine"] = paragraphs([hint if shown["machines"][0]["body"] else ""])
-    cubed = "rad³" if found.of_angles else found.unit + "³" * bool(found.unit)
+    cubed = "rad³" if workspace.of_angles else workspace.unit + "³" * bool(workspace.unit)
     figures = [
-        ("status", found.status),
-        ("volume", amount(f"{found.volume:.6g} ± {found.error:.1g}", cubed)),
-        ("worst condition number", f"{found.worst_condition_number:.4f}"),
+        ("status", workspace.status),
+        ("volume", amount(f"{workspace.volume:.6g} ± {workspace.error:.1g}", cubed)),
+        ("worst condition number", f"{workspace.worst_condition_number:.4f}"),
     ]
-    headline = f"Workspace: {found.archetype.replace('_', ' ')}"
-    return Page("workspace", headline, figures, sections, shown, found.status in ("converged", "limited"))
+    headline = f"Workspace: {workspace.archetype.replace('_', ' ')}"
+    return Page("workspace", headline, figures, sections, shown, workspace.status in ("converged", "limited"))
 
 
-def _scene(found: WorkspaceMap, asked: Any) -> dict[str, Any]:
+def _scene(workspace: WorkspaceMap, asked: Any) -> dict[str, Any]:
     g = Geometry(**{key: np.array(value) for key, value in asked["geometry"].items()})
     home = Configuration(**{key: np.array(value) for key, value in asked["home"].items()})
-    box = [] if found.of_angles else box_lines(found.low, found.high)
+    box = [] if workspace.of_angles else box_lines(workspace.low, workspace.high)
     length = float(asked.get("characteristic_length", 1.0))
-    return scene.scene([scene.machine("robot", g, home, length, (("home", 0),), box, body_of(found))], found.unit)
+    return scene.scene(
+        [scene.machine("robot", g, home, length, (("home", 0),), box, body_of(workspace))], workspace.unit
+    )
 
 
-def _question(found: WorkspaceMap, asked: Any) -> Html:
-    turn, unit = (math.degrees, "deg") if found.of_angles else (float, found.unit)
-    low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (found.low, found.high))
-    where = f"{'the box' if not found.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
+def _question(workspace: WorkspaceMap, asked: Any) -> Html:
+    turn, unit = (math.degrees, "deg") if workspace.of_angles else (float, workspace.unit)
+    low, high = (", ".join(f"{turn(x):.6g}" for x in ends) for ends in (workspace.low, workspace.high))
+    where = f"{'the box' if not workspace.of_angles else 'coordinates'} from ({low}) to {amount(f'({high})', unit)}"
     said = f"Which poses keep all limits below? Looked at: {where}."
     if "internal_point" in asked:
-        said += f" O is {rule_words(asked, found.unit)}."
-    limits = (words for name, value in asked["criteria"].items() for words in criterion_words(name, value, found.unit))
+        said += f" O is {rule_words(asked, workspace.unit)}."
+    limits = (
+        words for name, value in asked["criteria"].items() for words in criterion_words(name, value, workspace.unit)
+    )
     return joined(paragraphs([said]), bullets(limits))

@@ -1,4 +1,4 @@
-"""The tables and sentences of an engineering sheet; `found` is a Sheet."""
+"""The tables and sentences of an engineering sheet; `sheet` is a Sheet."""
 
 from __future__ import annotations
 
@@ -26,166 +26,166 @@ MECHANISMS = {
 ROUNDING = 1e-11  # of the largest number of a column
 
 
-def sheet_parts(found: Any) -> Iterator[Part]:
+def sheet_parts(sheet: Any) -> Iterator[Part]:
     """Yield the tables and sentences of a sheet."""
-    yield _joints(found)
-    yield from summary_parts(found)
-    if found.motion.twist is not None:
-        yield _twist(found)
-    if len(found.loads):
-        yield _forces(found)
-    yield worst_table(found)
-    if found.limits:
-        yield limits_table(found)
+    yield _joints(sheet)
+    yield from summary_parts(sheet)
+    if sheet.motion.twist is not None:
+        yield _twist(sheet)
+    if len(sheet.loads):
+        yield _forces(sheet)
+    yield worst_table(sheet)
+    if sheet.limits:
+        yield limits_table(sheet)
 
 
-def summary_parts(found: Any) -> Iterator[Part]:
+def summary_parts(sheet: Any) -> Iterator[Part]:
     """Yield lengths, speeds and cones of the legs, and what is meant by them."""
-    yield from region_words(found)
-    yield lengths_table(found), _motions(found)
-    yield from _motion_words(found)
+    yield from region_words(sheet)
+    yield lengths_table(sheet), _motions(sheet)
+    yield from _motion_words(sheet)
 
 
-def poses_table(found: Any) -> Table:
+def poses_table(sheet: Any) -> Table:
     """Return the condition numbers and the legs over the poses, in short."""
-    worst = found.condition_number
+    worst = sheet.condition_number
     rows: list[Any] = [
         Line("worst condition number", [worst.value], ".6f"),
-        Line("at", [_pose(found, worst.pose)]),
-        Line("mean condition number", [found.mean_condition_number], ".6f"),
+        Line("at", [_pose(sheet, worst.pose)]),
+        Line("mean condition number", [sheet.mean_condition_number], ".6f"),
         (),
     ]
-    for legs in (found.legs[k : k + 3] for k in (0, 3, 6)):
+    for legs in (sheet.legs[k : k + 3] for k in (0, 3, 6)):
         among = [leg.longest for leg in legs]
         ranges = "  ".join(f"{short(leg.shortest, among, 5)} to {short(leg.longest, among, 5)}" for leg in legs)
-        rows.append(Line(f"legs {' '.join(leg.name for leg in legs)}", [ranges], unit=found.unit))
-    rows.append(Line("largest stroke ratio", [max(leg.stroke_ratio for leg in found.legs)], ".4f"))
-    if found.idle:
-        rows.append(Line("never move", [", ".join(found.idle)]))
-    return Table(f"{over(found).capitalize()}, the neutral pose included", [Column(), Column("", "", RIGHT)], rows)
+        rows.append(Line(f"legs {' '.join(leg.name for leg in legs)}", [ranges], unit=sheet.unit))
+    rows.append(Line("largest stroke ratio", [max(leg.stroke_ratio for leg in sheet.legs)], ".4f"))
+    if sheet.idle:
+        rows.append(Line("never move", [", ".join(sheet.idle)]))
+    return Table(f"{over(sheet).capitalize()}, the neutral pose included", [Column(), Column("", "", RIGHT)], rows)
 
 
-def limits_table(found: Any) -> Table:
+def limits_table(sheet: Any) -> Table:
     """Return the limits of the study beside the values and margins."""
-    where = "at its poses" if found.region is None else "over its region"
+    where = "at its poses" if sheet.region is None else "over its region"
     columns = [Column("limit"), Column(), *(Column(name, "", RIGHT) for name in ("allowed", "here", "margin"))]
     rows = [
         (
             row.name,
             row.side,
-            *(limit_amount(row, value, short, found.unit) for value in (row.limit, row.value)),
+            *(limit_amount(row, value, short, sheet.unit) for value in (row.limit, row.value)),
             margin_words(row.margin, row.unit),
         )
-        for row in found.limits
+        for row in sheet.limits
     ]
     return Table(f"Limits of the study, {where}", columns, rows)
 
 
-def worst_table(found: Any) -> Table:
+def worst_table(sheet: Any) -> Table:
     """Return the worst values with their poses, which the notes describe."""
-    title = "At the neutral pose" if len(found.configurations) == 1 else f"Worst {over(found)}"
+    title = "At the neutral pose" if len(sheet.configurations) == 1 else f"Worst {over(sheet)}"
     columns = [Column(), Column("value", "", RIGHT), Column("pose", "", RIGHT), Column()]
-    rows = list(_worst_rows(found))
+    rows = list(_worst_rows(sheet))
     used = sorted({row[2] for row in rows if row and row[2]})
     shown = [(*row[:2], "" if row[2] is None else row[2] or "neutral", row[3]) if row else () for row in rows]
-    return Table(title, columns, shown, [f"pose {k}: {_pose(found, k)}" for k in used])
+    return Table(title, columns, shown, [f"pose {k}: {_pose(sheet, k)}" for k in used])
 
 
-def _worst_rows(found: Any) -> Iterator[tuple[Any, ...]]:
+def _worst_rows(sheet: Any) -> Iterator[tuple[Any, ...]]:
     """Yield label, value, pose and remark; pose None where none belongs to it."""
-    unit, worst = found.unit, found.condition_number
+    unit, worst = sheet.unit, sheet.condition_number
     yield "condition number", f"{worst.value:.6f}", worst.pose, ""
-    look = found.region
+    look = sheet.region
     error = "" if look is None else f"± {look.mean_error:.1g}, even over the region"
-    yield "mean condition number", f"{found.mean_condition_number:.6f}", None, error
+    yield "mean condition number", f"{sheet.mean_condition_number:.6f}", None, error
     yield ()
-    clear = found.clearance
+    clear = sheet.clearance
     yield "leg clearance", amount(short(clear.value), unit), clear.pose, " and ".join(clear.legs)
-    for name, det in sorted(found.determinants.items(), key=lambda item: item[1].value):
+    for name, det in sorted(sheet.determinants.items(), key=lambda item: item[1].value):
         words = MECHANISMS[name] + ", CROSSED between poses" * det.changes_sign
         yield f"|det {name[-1].upper()}|", f"{det.value:.6f}", det.pose, words
     yield ()
-    for name, near in found.singularities.items():
+    for name, near in sheet.singularities.items():
         turn = name == "turn"
         far = f"{math.degrees(near.distance):.2f}°" if turn else amount(short(near.distance), unit)
         way = f"{'about' if turn else 'toward'} {vector_words(np.round(near.direction, 3))}"
         remark = f"det {near.mechanism.upper()} = 0 {way}" if near.mechanism else "none"
         yield f"nearest singularity: {WAYS[name]}", far, near.pose, remark
     yield ()
-    if (errors := found.accuracy) is not None:
+    if (errors := sheet.accuracy) is not None:
         yield "position error", amount(f"{errors.position.value:.4g}", unit), errors.position.pose, ""
         yield "rotation error", f"{math.degrees(errors.rotation.value):.4g}°", errors.rotation.pose, ""
         yield "error of O", amount(f"{errors.internal_point.value:.4g}", unit), errors.internal_point.pose, ""
         yield ()
-    if found.stiffness is not None:
-        shifting, turning = found.stiffness
+    if sheet.stiffness is not None:
+        shifting, turning = sheet.stiffness
         yield "least stiffness", amount(f"{shifting.value:.4g}", per("force", unit)), shifting.pose, ""
         text = amount(f"{turning.value:.4g}", times("force", unit))
         yield "least turning stiffness, per rad", text, turning.pose, ""
 
 
-def _joints(found: Any) -> Table:
-    columns = [Column("joint"), *(Column(name, found.unit, SHORT) for name in ("x", "y", "z", "neutral x", "y", "z"))]
+def _joints(sheet: Any) -> Table:
+    columns = [Column("joint"), *(Column(name, sheet.unit, SHORT) for name in ("x", "y", "z", "neutral x", "y", "z"))]
     rows = [
-        (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *placed))) for name, own, placed in found.joints()
+        (name.replace("_", " "), *(round(float(x), 9) for x in (*own, *placed))) for name, own, placed in sheet.joints()
     ]
     title = "Joints in the frame of base or platform, and in base axes at the neutral pose"
     return Table(title, columns, list(grouped(rows)))
 
 
-def lengths_table(found: Any) -> Table:
+def lengths_table(sheet: Any) -> Table:
     """Return the lengths of the legs."""
-    permitted = bool(found.leg_ranges)
+    permitted = bool(sheet.leg_ranges)
     names = ["shortest", "longest", "neutral", "stroke", *(("at least", "at most") if permitted else ())]
-    columns = [Column("leg"), *(Column(name, found.unit, SHORT) for name in names), Column("ratio", "", ".4f")]
+    columns = [Column("leg"), *(Column(name, sheet.unit, SHORT) for name in names), Column("ratio", "", ".4f")]
     rows = [
         (leg.name, leg.shortest, leg.longest, leg.neutral, leg.stroke, *(leg.permitted or ()), leg.stroke_ratio)
-        for leg in found.legs
+        for leg in sheet.legs
     ]
     what = "lengths needed, and permitted (at least, at most)" if permitted else "lengths"
-    return Table(f"Legs {over(found)}: {what}", columns, list(grouped(rows)))
+    return Table(f"Legs {over(sheet)}: {what}", columns, list(grouped(rows)))
 
 
-def _motions(found: Any) -> Table:
-    columns = [*_speeds(found, ".5g"), Column("base cone", "", DEGREES), Column("platform cone", "", DEGREES)]
-    rows = [(leg.name, leg.speed, leg.acceleration, leg.base_cone, leg.platform_cone) for leg in found.legs]
-    return Table(f"Legs {over(found)}: speeds and cones", columns, list(grouped(rows)))
+def _motions(sheet: Any) -> Table:
+    columns = [*_speeds(sheet, ".5g"), Column("base cone", "", DEGREES), Column("platform cone", "", DEGREES)]
+    rows = [(leg.name, leg.speed, leg.acceleration, leg.base_cone, leg.platform_cone) for leg in sheet.legs]
+    return Table(f"Legs {over(sheet)}: speeds and cones", columns, list(grouped(rows)))
 
 
-def _speeds(found: Any, form: str = RIGHT) -> list[Column]:
-    units = ("speed", per(found.unit, "s")), ("acceleration", per(found.unit, "s²"))
+def _speeds(sheet: Any, form: str = RIGHT) -> list[Column]:
+    units = ("speed", per(sheet.unit, "s")), ("acceleration", per(sheet.unit, "s²"))
     return [Column("leg"), *(Column(name, unit, form) for name, unit in units)]
 
 
-def _ranges(found: Any, ranges: Sequence[Sequence[Any]]) -> list[Any]:
+def _ranges(sheet: Any, ranges: Sequence[Sequence[Any]]) -> list[Any]:
     """Return a row for each leg with the ranges of each column."""
     tiny = [ROUNDING * max(abs(end) for ends in column for end in ends) for column in ranges]
     rows = (
         (leg.name, *(spread(column[k][0], column[k][1], least) for column, least in zip(ranges, tiny, strict=True)))
-        for k, leg in enumerate(found.legs)
+        for k, leg in enumerate(sheet.legs)
     )
     return list(grouped(rows))
 
 
-def _twist(found: Any) -> Table:
+def _twist(sheet: Any) -> Table:
     """Return the rates and accelerations for the given twist."""
-    rows = _ranges(found, [[leg.twist_speed for leg in found.legs], [leg.twist_acceleration for leg in found.legs]])
-    given = (("", found.motion.twist), ("rate: ", found.motion.twist_rate))
+    rows = _ranges(sheet, [[leg.twist_speed for leg in sheet.legs], [leg.twist_acceleration for leg in sheet.legs]])
+    given = (("", sheet.motion.twist), ("rate: ", sheet.motion.twist_rate))
     notes = [f"{words}angular {vector_words(x[:3])}, linear {vector_words(x[3:])}" for words, x in given if x]
-    return Table(f"Legs {over(found)}: least to largest for the twist", _speeds(found), rows, notes)
+    return Table(f"Legs {over(sheet)}: least to largest for the twist", _speeds(sheet), rows, notes)
 
 
-def _forces(found: Any) -> Table:
+def _forces(sheet: Any) -> Table:
     """Return the forces in the legs for each load."""
-    columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(found.loads) + 1))]
-    rows = _ranges(found, [list(column) for column in zip(*(leg.forces for leg in found.legs), strict=True)])
-    notes = [load_words(k, load, found.unit) for k, load in enumerate(found.loads, start=1)]
-    if (weight := found.weight) is not None:
+    columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(sheet.loads) + 1))]
+    rows = _ranges(sheet, [list(column) for column in zip(*(leg.forces for leg in sheet.legs), strict=True)])
+    notes = [load_words(k, load, sheet.unit) for k, load in enumerate(sheet.loads, start=1)]
+    if (weight := sheet.weight) is not None:
         notes.append(
             f"each with the weight of a mass of {weight.mass:g}, centre {vector_words(weight.centre)} in the platform, "
             f"gravity {vector_words(weight.gravity)}"
         )
-    return Table(f"Leg forces, least to largest {over(found)}, pushing positive", columns, rows, notes)
+    return Table(f"Leg forces, least to largest {over(sheet)}, pushing positive", columns, rows, notes)
 
 
 def load_words(number: int, load: Any, unit: str) -> str:
@@ -194,43 +194,43 @@ def load_words(number: int, load: Any, unit: str) -> str:
     return f"load {number}: moment {moment}, force {vector_words(load[3:])}"
 
 
-def region_words(found: Any) -> Iterator[str]:
+def region_words(sheet: Any) -> Iterator[str]:
     """Yield a sentence on how the region was looked over, if there is one."""
-    if (look := found.region) is not None:
+    if (look := sheet.region) is not None:
         how = "a sample and descents from the worst of it"
-        how += "" if found.leg_ranges is None else " for the lengths of the legs"
+        how += "" if sheet.leg_ranges is None else " for the lengths of the legs"
         yield f"Region: {look.region}. Poses looked at: {look.looked_at}, {how}."
-    if found.leg_ranges is not None:
+    if sheet.leg_ranges is not None:
         yield "O is placed anew at every pose, where the worst of the index and the limits is least."
-        if found.leg_ranges:
+        if sheet.leg_ranges:
             yield (
                 "Placing O keeps each leg between its permitted lengths. Shortest and longest are those that the "
                 "region was found to need."
             )
 
 
-def over(found: Any) -> str:
+def over(sheet: Any) -> str:
     """Return which poses a sheet is over."""
-    if found.region is not None:
+    if sheet.region is not None:
         return "over the region"
-    count = len(found.configurations)
+    count = len(sheet.configurations)
     return f"over {count} poses" if count > 1 else "at the neutral pose"
 
 
-def _motion_words(found: Any) -> Iterator[str]:
+def _motion_words(sheet: Any) -> Iterator[str]:
     """Yield how speeds, accelerations and cones of a sheet are meant, and which legs never move."""
-    linear, angular = found.motion.linear_speed, math.degrees(found.motion.angular_speed)
+    linear, angular = sheet.motion.linear_speed, math.degrees(sheet.motion.angular_speed)
     most = "no more than that" if linear * angular else "the largest"
-    internal = found.motion.internal
+    internal = sheet.motion.internal
     o = "O moves for the least leg rates" if internal == "least" else f"O {WORDS[internal]}"
     yield (
-        f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(found.unit, 's'))}, "
-        f"turning {angular:g}° per {'second' if found.unit else 'time unit'}, {o}. "
+        f"Speed: the largest in any direction for a platform speed of {amount(f'{linear:g}', per(sheet.unit, 's'))}, "
+        f"turning {angular:g}° per {'second' if sheet.unit else 'time unit'}, {o}. "
         f"Acceleration: {most} while both are constant. Cones: from the direction at the neutral pose."
     )
-    if found.idle:
-        yield f"{', '.join(found.idle)} never move {over(found)}."
+    if sheet.idle:
+        yield f"{', '.join(sheet.idle)} never move {over(sheet)}."
 
 
-def _pose(found: Any, k: int) -> str:
-    return pose_words(found.configurations[k], found.configurations.rotation[0], found.unit)
+def _pose(sheet: Any, k: int) -> str:
+    return pose_words(sheet.configurations[k], sheet.configurations.rotation[0], sheet.unit)

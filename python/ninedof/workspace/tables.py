@@ -1,4 +1,4 @@
-"""The table and sentences of a workspace; `found` is a WorkspaceMap."""
+"""The table and sentences of a workspace; `workspace` is a WorkspaceMap."""
 
 from __future__ import annotations
 
@@ -19,40 +19,40 @@ STATUSES = {
 }
 
 
-def workspace_table(found: Any) -> Table:
+def workspace_table(workspace: Any) -> Table:
     """Return volume, largest ball and box, indices, and what ends the workspace."""
-    angles, unit = found.of_angles, "deg" if found.of_angles else found.unit
-    cubed = "rad³, of 8 π² in all" if angles else found.unit + "³" * bool(found.unit)
+    angles, unit = workspace.of_angles, "deg" if workspace.of_angles else workspace.unit
+    cubed = "rad³, of 8 π² in all" if angles else workspace.unit + "³" * bool(workspace.unit)
 
     def place(values: Any) -> list[str]:
         return ["  ".join(f"{math.degrees(x) if angles else x:.4g}" for x in values)]
 
     rows: list[Any] = [
-        Line("volume", [found.volume], ".6g", cubed),
-        Line("  error, estimated", [found.error], ".2g"),
-        Line(f"  share of the {'region' if angles else 'box'}", [f"{100.0 * found.share:.3g} %"]),
+        Line("volume", [workspace.volume], ".6g", cubed),
+        Line("  error, estimated", [workspace.error], ".2g"),
+        Line(f"  share of the {'region' if angles else 'box'}", [f"{100.0 * workspace.share:.3g} %"]),
     ]
-    if found.unseen > 0.0:
-        rows.append(Line("  of it, for parts that may be unseen", [found.unseen], ".2g"))
-    if len(found.pieces) > 1:
-        rows.append(Line("  pieces", [len(found.pieces)]))
-    if found.ball_radius > 0.0:
+    if workspace.unseen > 0.0:
+        rows.append(Line("  of it, for parts that may be unseen", [workspace.unseen], ".2g"))
+    if len(workspace.pieces) > 1:
+        rows.append(Line("  pieces", [len(workspace.pieces)]))
+    if workspace.ball_radius > 0.0:
         rows += [
-            Line("largest ball: radius", place([found.ball_radius]), unit=unit),
-            Line("  centre", place(found.ball_centre), unit=unit),
-            Line("largest box: sides", place(found.box_high - found.box_low), unit=unit),
-            Line("  centre", place(0.5 * (found.box_low + found.box_high)), unit=unit),
+            Line("largest ball: radius", place([workspace.ball_radius]), unit=unit),
+            Line("  centre", place(workspace.ball_centre), unit=unit),
+            Line("largest box: sides", place(workspace.box_high - workspace.box_low), unit=unit),
+            Line("  centre", place(0.5 * (workspace.box_low + workspace.box_high)), unit=unit),
         ]
     rows += [
         (),
-        Line("global conditioning index", [found.conditioning_index], ".5f"),
-        Line("condition number: median", [found.percentiles[50]], ".4f"),
-        Line("condition number: 95 %", [found.percentiles[95]], ".4f"),
-        Line("condition number: worst", [found.worst_condition_number], ".4f"),
-        *_index_lines(found),
+        Line("global conditioning index", [workspace.conditioning_index], ".5f"),
+        Line("condition number: median", [workspace.percentiles[50]], ".4f"),
+        Line("condition number: 95 %", [workspace.percentiles[95]], ".4f"),
+        Line("condition number: worst", [workspace.worst_condition_number], ".4f"),
+        *_index_lines(workspace),
         (),
     ]
-    shares = list(found.limits().items())
+    shares = list(workspace.limits().items())
     for name, share in shares[:SHOWN]:
         words = "ends of the torsion" if name == "box" and angles else name.replace("_", " ")
         rows.append(Line(f"boundary by {words}", [f"{100.0 * share:.1f} %"]))
@@ -61,11 +61,11 @@ def workspace_table(found: Any) -> Table:
     return Table("Workspace", [Column(), Column("", "", RIGHT)], rows)
 
 
-def _index_lines(found: Any) -> Iterator[Line]:
+def _index_lines(workspace: Any) -> Iterator[Line]:
     """Yield mean, least and greatest of each index that was asked for."""
-    for name, over in found.indices.items():
+    for name, over in workspace.indices.items():
         index = INDICES[name]
-        unit = found.unit if index.unit == "length" else ""
+        unit = workspace.unit if index.unit == "length" else ""
         what = f"mean, least, greatest{' modulus' if index.signed else ''}"
         parts: Any = [(index.words, over.mean, over.least, over.greatest)]
         if index.components:
@@ -74,19 +74,19 @@ def _index_lines(found: Any) -> Iterator[Line]:
             yield Line(f"{label}: {what}", ["  ".join(f"{value:.5g}" for value in values)], unit=unit)
 
 
-def workspace_words(found: Any) -> Iterator[tuple[str, str]]:
+def workspace_words(workspace: Any) -> Iterator[tuple[str, str]]:
     """Yield remarks on the table, one sentence each: a status to be stressed, and the rest."""
-    if found.status in STATUSES:
-        yield found.status, f": {STATUSES[found.status]}"
-    if not found.home_allowed:
-        yield "", f"the home pose is not allowed: {found.home_limit}"
-    if found.box_limits:
-        where, what = ("boundary of the region", "region") if found.of_angles else ("faces of the box", "box")
+    if workspace.status in STATUSES:
+        yield workspace.status, f": {STATUSES[workspace.status]}"
+    if not workspace.home_allowed:
+        yield "", f"the home pose is not allowed: {workspace.home_limit}"
+    if workspace.box_limits:
+        where, what = ("boundary of the region", "region") if workspace.of_angles else ("faces of the box", "box")
         yield "", f"the workspace reaches the {where}: it is larger in a larger {what}"
 
 
-def share_words(region: Region, found: RegionShare, unit: str = "") -> str:
+def share_words(region: Region, workspace: RegionShare, unit: str = "") -> str:
     """Return a sentence on how much of a region keeps the limits."""
-    words = f"region of the study, {region.worded(unit)}: {100.0 * found.share:.4g} % of it within these limits"
-    passed = f"; passed: {', '.join(name.replace('_', ' ') for name in found.passed)}" if found.passed else ""
-    return f"{words}, {found.looked_at} poses looked at{passed}"
+    words = f"region of the study, {region.worded(unit)}: {100.0 * workspace.share:.4g} % of it within these limits"
+    passed = f"; passed: {', '.join(name.replace('_', ' ') for name in workspace.passed)}" if workspace.passed else ""
+    return f"{words}, {workspace.looked_at} poses looked at{passed}"

@@ -29,7 +29,7 @@ GROUPS = ("turn about", "p along", "O along")  # in the order of the components
 
 
 @dataclass(frozen=True, kw_only=True)
-class Accuracy(PosesOptions):
+class AccuracyOptions(PosesOptions):
     """The options."""
 
     leg_error: Annotated[float, typer.Option(help="Tolerance of the leg lengths.")] = 0.0
@@ -39,20 +39,21 @@ class Accuracy(PosesOptions):
     ] = None
 
 
-def accuracy(asked: Accuracy) -> Answer:
+def accuracy(options: AccuracyOptions) -> Answer:
     """Print the errors of platform and O for tolerances of legs and joints, worst case and standard deviation."""
-    errors = {"leg_error": asked.leg_error, "joint_error": asked.joint_error}
+    errors = {"leg_error": options.leg_error, "joint_error": options.joint_error}
     for name, value in errors.items():
         finite(f"--{name.replace('_', '-')}", value, 0.0)
     if not any(errors.values()):
         raise ValueError("accuracy: got neither --leg-error nor --joint-error, expected a tolerance")
-    if asked.samples is not None:
-        whole("--samples", asked.samples, 1, MOST_SAMPLES)
-        if asked.all_poses:
+    if options.samples is not None:
+        whole("--samples", options.samples, 1, MOST_SAMPLES)
+        if options.all_poses:
             raise ValueError("--samples: got it with --all-poses, expected one pose")
-    at = Looked.at(asked)
+    at = Looked.at(options)
     g, unit = at.chosen.geometry, at.chosen.unit
-    bounds = error_bounds(g, at.c, *errors.values())
+    tolerances = (options.leg_error, options.joint_error)
+    bounds = error_bounds(g, at.c, *tolerances)
     rows = list(_rows(bounds, unit))
     columns = [Column(), Column("largest", "", RIGHT), Column("standard deviation", "", RIGHT), Column("pose", "", "d")]
     if len(at.c) == 1:
@@ -64,8 +65,10 @@ def accuracy(asked: Accuracy) -> Answer:
         "internal_point": bounds.internal_point,
         "covariance": bounds.covariance,
     }
-    if asked.samples is not None:
-        data["samples"] = _quantiles(error_samples(g, at.c[0], asked.leg_error, asked.joint_error, asked.samples), unit)
+    if options.samples is not None:
+        data["samples"] = _quantiles(
+            error_samples(g, at.c[0], options.leg_error, options.joint_error, options.samples), unit
+        )
         parts += data["samples"]["words"]
     return at.answer(parts, data, (row[3] for row in rows if len(row) > 3))
 

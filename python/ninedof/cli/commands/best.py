@@ -11,9 +11,9 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import with_length
+from ninedof.cli.options import Lc, LegLimits
 from ninedof.cli.posed import Looked, PosesOptions, length_at_home
 from ninedof.cli.screen import DONE, NO_RESULT
 from ninedof.conditioning.conditioning import condition_number
@@ -39,39 +39,39 @@ SHOWN = 12  # poses, the worst ones
 
 
 @dataclass(frozen=True, kw_only=True)
-class Best(PosesOptions):
+class BestOptions(PosesOptions):
     """The options."""
 
     criterion: Annotated[str, typer.Option(help=f"One of {', '.join(CRITERIA)}.")] = "condition_number"
-    legs: options.LegLimits = None
-    lc: options.Lc = None
+    legs: LegLimits = None
+    lc: Lc = None
 
 
-def best(asked: Best) -> Answer:
+def best(options: BestOptions) -> Answer:
     """Print the best place of O at a pose, reached from where it is without passing a singularity."""
-    at = Looked.at(asked)
-    at = replace(at, chosen=with_length(at.chosen, asked.lc))
+    at = Looked.at(options)
+    at = replace(at, chosen=with_length(at.chosen, options.lc))
     chosen, c = at.chosen, at.c
-    limits: Any = chosen.leg_limits() if asked.legs is None else asked.legs
+    limits: Any = chosen.leg_limits() if options.legs is None else options.legs
     length = length_at_home(chosen)
-    how = {"criterion": asked.criterion, "limits": limits, "characteristic_length": length}
-    found = best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
-    now = _now(at, asked.criterion, length)
-    words, small = WORDS[asked.criterion], asked.criterion == "condition_number"
+    how = {"criterion": options.criterion, "limits": limits, "characteristic_length": length}
+    result = best_internal_point(chosen.geometry, c.position, c.rotation, **how, start=c.internal_point)
+    now = _now(at, options.criterion, length)
+    words, small = WORDS[options.criterion], options.criterion == "condition_number"
     if len(c) == 1:
-        parts: list[Any] = list(_words(at, found, now, words))
+        parts: list[Any] = list(_words(at, result, now, words))
     else:
-        parts = [_table(at, found, now, words, small), *_over_poses(found, now, words, small)]
+        parts = [_table(at, result, now, words, small), *_over_poses(result, now, words, small)]
     data = {
-        "criterion": asked.criterion,
+        "criterion": options.criterion,
         "limits": limits,
-        "internal_point": found.configuration.internal_point,
-        "value": found.value,
+        "internal_point": result.configuration.internal_point,
+        "value": result.value,
         "now": now,
-        "status": found.status,
-        "active": found.active,
+        "status": result.status,
+        "active": result.active,
     }
-    return at.answer(parts, data, status=DONE if np.isfinite(found.value).any() else NO_RESULT)
+    return at.answer(parts, data, status=DONE if np.isfinite(result.value).any() else NO_RESULT)
 
 
 def _now(at: Looked, criterion: str, length: float) -> Floats | None:
@@ -83,31 +83,31 @@ def _now(at: Looked, criterion: str, length: float) -> Floats | None:
     return None
 
 
-def _over_poses(found: InternalPoint, now: Floats | None, words: str, small: bool) -> Iterator[str]:
+def _over_poses(result: InternalPoint, now: Floats | None, words: str, small: bool) -> Iterator[str]:
     """Yield the worst over all poses, and how the searches ended."""
-    if len(found.value) > SHOWN:
-        yield f"the {SHOWN} worst of {len(found.value)} poses"
+    if len(result.value) > SHOWN:
+        yield f"the {SHOWN} worst of {len(result.value)} poses"
     pick = np.max if small or now is None else np.min
     ended = [f"worst {words} now {pick(now):.6g}"] if now is not None else []
-    if not np.isnan(found.value).any():
-        ended.append(f"with the best O {pick(found.value):.6g}")
-    statuses = Counter(str(status) for status in found.status)
+    if not np.isnan(result.value).any():
+        ended.append(f"with the best O {pick(result.value):.6g}")
+    statuses = Counter(str(status) for status in result.status)
     yield "; ".join([*ended, ", ".join(f"{count} {status}" for status, count in statuses.items())])
 
 
-def _words(at: Looked, found: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
+def _words(at: Looked, result: InternalPoint, now: Floats | None, words: str) -> Iterator[str]:
     """Yield O and the criterion at one pose, as they are and at the best."""
     if now is not None:
         yield f"O now {_point(at.c.internal_point[0], at.chosen.unit)}: {words} {now[0]:.6g}"
-    if not np.isnan(found.value[0]):
-        place = _point(found.configuration.internal_point[0], at.chosen.unit)
-        yield f"best O {place}: {words} {found.value[0]:.6g}"
-    yield f"{found.status[0]}; limits reached: {', '.join(found.active[0]) or 'nothing'}"
+    if not np.isnan(result.value[0]):
+        place = _point(result.configuration.internal_point[0], at.chosen.unit)
+        yield f"best O {place}: {words} {result.value[0]:.6g}"
+    yield f"{result.status[0]}; limits reached: {', '.join(result.active[0]) or 'nothing'}"
 
 
-def _table(at: Looked, found: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
+def _table(at: Looked, result: InternalPoint, now: Floats | None, words: str, small: bool) -> Table:
     """Return O and the criterion, as it is and at the best, for the poses that are worst now."""
-    c, points = at.c, found.configuration.internal_point
+    c, points = at.c, result.configuration.internal_point
     order = np.arange(len(c)) if now is None else np.argsort(-now if small else now, kind="stable")
     decimals = decimals_of(c.position, points)
     p, o = (f"{with_unit(name, at.chosen.unit)}\nx" for name in ("p", "best O"))
@@ -119,10 +119,10 @@ def _table(at: Looked, found: InternalPoint, now: Floats | None, words: str, sma
         )
         values = (
             None if x is None or math.isnan(x) else f"{x:.4g}"
-            for x in (None if now is None else now[k], found.value[k])
+            for x in (None if now is None else now[k], result.value[k])
         )
-        status = str(found.status[k])
-        why = ", ".join([*([] if status == "found" else [status]), *found.active[k]])
+        status = str(result.status[k])
+        why = ", ".join([*([] if status == "found" else [status]), *result.active[k]])
         rows.append((str(k), *place, *values, *centre, why))
     columns = [Column("pose", "", RIGHT), *heads, Column("why")]
     if not any(row[-1] for row in rows):

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import kept
+from ninedof.cli.job_report import write_job
 from ninedof.cli.options import Options, Threads
 from ninedof.cli.remembered import given, remember, resumed
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
@@ -39,7 +39,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Certify(Options):
+class CertifyOptions(Options):
     """The options."""
 
     run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
@@ -51,15 +51,15 @@ class Certify(Options):
     threads: Threads = None
 
 
-def certify(asked: Certify) -> None:
+def certify(options: CertifyOptions) -> None:
     """Prove that a machine keeps its limits at every pose of its region, not only at those looked at."""
-    screen = Screen(asked.json)
-    finite("--time", asked.time, 0.0)
-    if asked.condition is not None:
-        finite("--condition", asked.condition, 1.0)
-    run = given(asked.run)
-    found = load(run)
-    if not isinstance(found, Result):
+    screen = Screen(options.json)
+    finite("--time", options.time, 0.0)
+    if options.condition is not None:
+        finite("--condition", options.condition, 1.0)
+    run = given(options.run)
+    result = load(run)
+    if not isinstance(result, Result):
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
@@ -73,14 +73,14 @@ def certify(asked: Certify) -> None:
 
     try:
         with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
-            earlier = _earlier(file) if asked.resume else None  # nobody writes it now
+            earlier = _earlier(file) if options.resume else None  # nobody writes it now
             remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
-            certificate = found.certify(
-                condition_number=asked.condition,
-                gap=asked.gap,
-                time_limit=asked.time,
-                tolerance=asked.tolerance,
-                threads=asked.threads or 0,
+            certificate = result.certify(
+                condition_number=options.condition,
+                gap=options.gap,
+                time_limit=options.time,
+                tolerance=options.tolerance,
+                threads=options.threads or 0,
                 resume=earlier,
                 progress=bar,
                 keep=keep,
@@ -97,7 +97,7 @@ def certify(asked: Certify) -> None:
 
     data = certificate.to_dict() | {"left": []}
     answer = Answer([certificate_table(certificate), *certificate.sentences()], data)
-    kept(screen, answer, write)
+    write_job(screen, answer, write)
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     screen.data(data | {"file": str(file)})
     if certificate.interrupted:

@@ -22,22 +22,22 @@ EXAMPLES = f"""[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Check(Options):
+class CheckOptions(Options):
     """The options."""
 
     certificate: Annotated[Path, typer.Argument(help=f"A certificate, or a run folder that has {FILE}.")]
 
 
-def check(asked: Check) -> Answer:
+def check(options: CheckOptions) -> Answer:
     """Check a certificate: that no design of its study has a condition number below the bound it states."""
-    path = asked.certificate / FILE if asked.certificate.is_dir() else asked.certificate
-    if not path.exists() and path != asked.certificate:
-        raise ValueError(f"{asked.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
-    with Screen(asked.json).points("reading the certificate") as bar:
-        found = check_certificate(path, progress=bar)
-    parts: list[Any] = [f"  {line}" if k else f"study of the certificate: {line}" for k, line in enumerate(found.study)]
-    parts.append(bold("Proved" if found.proved else "Refused", f": {found.words}"))
-    if found.proved:
-        parts.append(f"{found.boxes} boxes of designs read, {found.recut} cut further by the checker")
-    data = {"proved": found.proved, "words": found.words, "boxes": found.boxes, "study": found.study}
-    return Answer(parts, data, DONE if found.proved else REFUSED)
+    path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
+    if not path.exists() and path != options.certificate:
+        raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
+    with Screen(options.json).points("reading the certificate") as bar:
+        result = check_certificate(path, progress=bar)
+    parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)]
+    parts.append(bold("Proved" if result.proved else "Refused", f": {result.words}"))
+    if result.proved:
+        parts.append(f"{result.boxes} boxes of designs read, {result.recut} cut further by the checker")
+    data = {"proved": result.proved, "words": result.words, "boxes": result.boxes, "study": result.study}
+    return Answer(parts, data, DONE if result.proved else REFUSED)

@@ -9,9 +9,20 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, chosen_design, with_length
+from ninedof.cli.options import (
+    DESIGN,
+    BaseSide1,
+    BaseSide2,
+    Height,
+    InternalHeight,
+    Lc,
+    Options,
+    PlatformSide1,
+    PlatformSide2,
+    TwistDeg,
+)
 from ninedof.design.indices import computed
 from ninedof.runs.design_file import indices
 from ninedof.sheet.sheet import sheet
@@ -32,24 +43,24 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Evaluate(options.Options):
+class EvaluateOptions(Options):
     """The options."""
 
-    design: Annotated[str | None, typer.Argument(help=f"{options.DESIGN[0].upper()}{options.DESIGN[1:]}.")] = None
-    a1: options.BaseSide1 = None
-    a2: options.BaseSide2 = None
-    b1: options.PlatformSide1 = None
-    b2: options.PlatformSide2 = None
-    zp: options.Height = None
-    zs: options.InternalHeight = None
-    theta_z_deg: options.TwistDeg = None
-    lc: options.Lc = None
+    design: Annotated[str | None, typer.Argument(help=f"{DESIGN[0].upper()}{DESIGN[1:]}.")] = None
+    a1: BaseSide1 = None
+    a2: BaseSide2 = None
+    b1: PlatformSide1 = None
+    b2: PlatformSide2 = None
+    zp: Height = None
+    zs: InternalHeight = None
+    theta_z_deg: TwistDeg = None
+    lc: Lc = None
 
 
-def evaluate(asked: Evaluate) -> Answer:
+def evaluate(options: EvaluateOptions) -> Answer:
     """Print the indices of one design and configuration; of a run also its study's poses and limits in short."""
-    sides = {name: getattr(asked, name) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
-    chosen = with_length(chosen_design(asked.design, sides, asked.theta_z_deg), asked.lc)
+    sides = {name: getattr(options, name) for name in ("a1", "a2", "b1", "b2", "zp", "zs")}
+    chosen = with_length(chosen_design(options.design, sides, options.theta_z_deg), options.lc)
     values = unit_entry(chosen.unit) | indices(chosen.design)
     parts: list[Any] = [_table(values, chosen)]
     if values["singular"]:

@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
+from ninedof.cli.options import Design, Options
 from ninedof.export.export import export as write
 from ninedof.export.export import options_of
 from ninedof.export.formats import FORMATS
@@ -32,10 +32,10 @@ WORDS = "; ".join(f"{name}: {row.words}" for name, row in FORMATS.items())
 
 
 @dataclass(frozen=True, kw_only=True)
-class Export(options.Options):
+class ExportOptions(Options):
     """The options."""
 
-    design: options.Design
+    design: Design
     to: Annotated[str | None, typer.Option(help=f"{WORDS}. Follows from the suffix of --out if that is given.")] = None
     out: Annotated[
         Path | None, typer.Option(help="The file; in this folder, with the name of the design, by default.")
@@ -50,27 +50,27 @@ class Export(options.Options):
     ] = None
 
 
-def export(asked: Export) -> Answer:
+def export(options: ExportOptions) -> Answer:
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
-    out = asked.out
-    name = _by_suffix(out) if asked.to is None else choice("--to", asked.to, FORMATS)
+    out = options.out
+    name = _by_suffix(out) if options.to is None else choice("--to", options.to, FORMATS)
     row = FORMATS[name]
     if out is not None and out.suffix.lower() in {one.suffix for one in FORMATS.values()} - {row.suffix}:
         raise ValueError(f"--out: got {out} with --to {name}, expected a file that ends in {row.suffix}")
-    chosen = named_design(asked.design)
-    file = out or Path(_stem(asked.design) + row.suffix)
-    if file.resolve() == Path(asked.design).resolve():
+    chosen = named_design(options.design)
+    file = out or Path(_stem(options.design) + row.suffix)
+    if file.resolve() == Path(options.design).resolve():
         raise ValueError(f"--out: got {file}, the design itself, expected another file")
     if not file.absolute().parent.is_dir():
         raise ValueError(f"--out: got {file}, expected a file in a folder that exists")
-    more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(asked, key)) is not None}
+    more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(options, key)) is not None}
     taken = options_of(name)
     for key in more.keys() - taken:
         what = ", ".join(map(_typed, taken)) or "no option"
         raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {name}, which takes {what}")
     for suffix, mark in ((file.suffix, row.mark), *row.beside):
         own_or_new("--out", file.with_suffix(suffix), mark)
-    unit = chosen.unit if asked.unit is None else unit_argument(asked.unit)
+    unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     try:
         written = write(chosen.result or chosen.design, name, file, unit=unit, **more)
     except MissingExtra as error:

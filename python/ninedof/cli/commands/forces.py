@@ -30,7 +30,7 @@ BALANCED = 1e-9  # of the load
 
 
 @dataclass(frozen=True, kw_only=True)
-class Forces(PosesOptions):
+class ForcesOptions(PosesOptions):
     """The options."""
 
     load: Annotated[
@@ -39,18 +39,18 @@ class Forces(PosesOptions):
     ]
 
 
-def forces(asked: Forces) -> Answer:
+def forces(options: ForcesOptions) -> Answer:
     """Print the forces in the legs that balance loads on the platform, positive where a leg pushes."""
-    loads = np.array([load_option(text) for text in asked.load])
-    at = Looked.at(asked)
+    loads = np.array([load_option(text) for text in options.load])
+    at = Looked.at(options)
     balances = [leg_forces(at.chosen.geometry, at.c, moment=row[:3], force=row[3:]) for row in loads]
-    found, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
+    result, unbalanced = (np.stack([getattr(each, name) for each in balances]) for name in ("forces", "unbalanced"))
     columns = [Column("leg"), *(Column(f"load {k}", "", RIGHT) for k in range(1, len(loads) + 1))]
-    least, most, tiny = found.min(axis=1), found.max(axis=1), 1e-12 * np.abs(loads).max(axis=1)
+    least, most, tiny = result.min(axis=1), result.max(axis=1), 1e-12 * np.abs(loads).max(axis=1)
     rows = [(leg, *map(spread, least[:, k], most[:, k], tiny)) for k, leg in enumerate(LEGS)]
     parts: list[Any] = [load_words(k, row, at.chosen.unit) for k, row in enumerate(loads, start=1)]
     parts.append(Table("Forces, + pushes", columns, list(grouped(rows))))
     left = np.abs(unbalanced).max(axis=(1, 2)) > BALANCED * np.abs(loads).max(axis=1)
     for k in np.flatnonzero(left).tolist():
         parts.append(bold("singular", f": at some pose no leg forces balance all of load {k + 1}"))
-    return at.answer(parts, {"loads": loads, "legs": LEGS, "forces": found, "unbalanced": unbalanced})
+    return at.answer(parts, {"loads": loads, "legs": LEGS, "forces": result, "unbalanced": unbalanced})

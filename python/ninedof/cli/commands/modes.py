@@ -33,7 +33,7 @@ SAME = 1e-6  # of Q, and of p and O over the longest leg
 
 
 @dataclass(frozen=True, kw_only=True)
-class Modes(PoseOptions):
+class ModesOptions(PoseOptions):
     """The options."""
 
     lengths: Annotated[
@@ -41,54 +41,54 @@ class Modes(PoseOptions):
     ] = None
 
 
-def modes(asked: Modes) -> Answer:
+def modes(options: ModesOptions) -> Answer:
     """Print every configuration with the leg lengths of a pose: the assembly modes."""
-    if asked.lengths is not None and asked.named():
+    if options.lengths is not None and options.named():
         raise ValueError("--lengths: got a pose beside it, expected one of the two")
-    at = Looked.at(asked)
+    at = Looked.at(options)
     g, unit = at.chosen.geometry, at.chosen.unit
     lengths = leg_lengths(g, at.c)[0]
-    if asked.lengths is not None:
-        lengths = np.array(several("--lengths", asked.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
-    found = forward_position(g, lengths)
-    kappa = condition_number(g, found, length_at_home(at.chosen)) if found.count else np.zeros(0)
-    this = _this(found, float(lengths.max()), at.c) if asked.lengths is None else -1
-    certain = "" if found.certain else ", the count is not sure"
-    parts: list[Any] = [f"{found.count} assembly modes: {found.status}{certain}"]
-    parts += [found.reason] if found.reason else []
-    parts += [_table(found, kappa, this, at.chosen.configuration.rotation, unit)] if found.count else []
+    if options.lengths is not None:
+        lengths = np.array(several("--lengths", options.lengths, "l1 l2 l3 q1 q2 q3 r1 r2 r3"))
+    result = forward_position(g, lengths)
+    kappa = condition_number(g, result, length_at_home(at.chosen)) if result.count else np.zeros(0)
+    this = _this(result, float(lengths.max()), at.c) if options.lengths is None else -1
+    certain = "" if result.certain else ", the count is not sure"
+    parts: list[Any] = [f"{result.count} assembly modes: {result.status}{certain}"]
+    parts += [result.reason] if result.reason else []
+    parts += [_table(result, kappa, this, at.chosen.configuration.rotation, unit)] if result.count else []
     parts += ["* the given pose"] if this >= 0 else []
     data = {
         "lengths": lengths,
-        "status": found.status,
-        "reason": found.reason,
-        "count": found.count,
-        "certain": found.certain,
+        "status": result.status,
+        "reason": result.reason,
+        "count": result.count,
+        "certain": result.certain,
         "given_pose": this + 1 if this >= 0 else None,
-        "modes": poses_data(found),
+        "modes": poses_data(result),
         "condition_number": kappa,
     }
-    if asked.lengths is None:
+    if options.lengths is None:
         parts = list(at.answer(parts, {}).parts)
-    return Answer(parts, unit_entry(unit) | data, DONE if found.count else NO_RESULT)
+    return Answer(parts, unit_entry(unit) | data, DONE if result.count else NO_RESULT)
 
 
-def _this(found: AssemblyModes, size: float, c: Configuration) -> int:
+def _this(result: AssemblyModes, size: float, c: Configuration) -> int:
     """Return the number of the mode that is the given pose, -1 without one."""
-    moved = (found.position - c.position[0]) / size, (found.internal_point - c.internal_point[0]) / size
-    apart = (*moved, (found.rotation - c.rotation[0]).reshape(-1, 9))
+    moved = (result.position - c.position[0]) / size, (result.internal_point - c.internal_point[0]) / size
+    apart = (*moved, (result.rotation - c.rotation[0]).reshape(-1, 9))
     near = np.flatnonzero(np.abs(np.concatenate(apart, axis=1)).max(axis=1, initial=0.0) <= SAME)
     return int(near[0]) if len(near) == 1 else -1
 
 
-def _table(found: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
+def _table(result: AssemblyModes, kappa: Floats, this: int, neutral: Floats, unit: str) -> Table:
     """Return a row for each mode: p, the rotation vector from the neutral orientation, O, the condition number."""
     p, o = (f"{with_unit(name, unit)}\nx" for name in ("p", "O"))
     heads = (p, "\ny", "\nz", "turn °\nx", "\ny", "\nz", o, "\ny", "\nz", "cond.\nno.")
-    decimals, turns = decimals_of(found.position, found.internal_point), turn_deg(found, neutral)
+    decimals, turns = decimals_of(result.position, result.internal_point), turn_deg(result, neutral)
     rows = []
-    for k in range(len(found)):
-        at, centre = ([fixed(x, decimals) for x in row] for row in (found.position[k], found.internal_point[k]))
+    for k in range(len(result)):
+        at, centre = ([fixed(x, decimals) for x in row] for row in (result.position[k], result.internal_point[k]))
         turn = [fixed(x, 1) for x in turns[k]]
         rows.append((f"{k + 1}{'*' if k == this else ''}", *at, *turn, *centre, f"{kappa[k]:.4g}"))
     return Table("", [Column("", "", RIGHT), *(Column(head, "", RIGHT) for head in heads)], rows)

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import folder_words, kept
+from ninedof.cli.job_report import folder_words, write_job
 from ninedof.cli.long_run import CHUNKS, run_folder
 from ninedof.cli.options import JobOptions, Resume, Starts, StudyFile, Threads
 from ninedof.cli.remembered import given
@@ -49,7 +49,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Optimize(JobOptions):
+class OptimizeOptions(JobOptions):
     """The options."""
 
     study: StudyFile = None
@@ -72,39 +72,39 @@ class Optimize(JobOptions):
     ] = False
 
 
-def optimize(asked: Optimize) -> None:
+def optimize(options: OptimizeOptions) -> None:
     """Find the best design of a study: by default, the design with the least condition number."""
-    screen = Screen(asked.json)
-    thread_argument(asked.threads)
-    reads = Input.of(None if asked.study is None else str(asked.study))
-    file = None if asked.study is None else Path(given(str(asked.study)))
-    study = (Study.paper() if file is None else Study.load(file)).with_solver(asked.starts, asked.seed)
-    if asked.convergence and not asked.figures:
+    screen = Screen(options.json)
+    thread_argument(options.threads)
+    reads = Input.of(None if options.study is None else str(options.study))
+    file = None if options.study is None else Path(given(str(options.study)))
+    study = (Study.paper() if file is None else Study.load(file)).with_solver(options.starts, options.seed)
+    if options.convergence and not options.figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
-    if asked.time is not None and not finite("--time", asked.time) > 0.0:
-        raise ValueError(f"--time: got {asked.time:g}, expected seconds, more than 0")
-    if asked.certify:
+    if options.time is not None and not finite("--time", options.time) > 0.0:
+        raise ValueError(f"--time: got {options.time:g}, expected seconds, more than 0")
+    if options.certify:
         left_out_of(study)  # raises where no proof is known, before the work
-    with run_folder(asked.out, asked.resume, reads) as directory:
-        limit = math.inf if asked.time is None else asked.time
-        how: dict[str, Any] = {"threads": asked.threads, "certify": asked.certify, "time_limit": limit}
+    with run_folder(options.out, options.resume, reads) as directory:
+        limit = math.inf if options.time is None else options.time
+        how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}
         run = _solve(study, file, how | {"out": directory / CHUNKS}, screen)
     if isinstance(run, Comparison):
         result, answer = run.result, Answer(_comparison_parts(run), describe_comparison(run))
     else:
         result, answer = run, Answer(_result_parts(run), {"optimization": run.to_dict()})
     data = {**unit_entry(study.unit), **answer.data}
-    drawn = asked.figures and not result.interrupted
-    draw = figures_of(run, screen.say, asked.convergence) if drawn else None
+    drawn = options.figures and not result.interrupted
+    draw = figures_of(run, screen.say, options.convergence) if drawn else None
     write = partial(write_run, run, directory)
-    record = kept(screen, Answer(answer.parts, data), write, draw, drawn and asked.report)
-    if asked.check and result.best is not None and not result.interrupted:
+    record = write_job(screen, Answer(answer.parts, data), write, draw, drawn and options.report)
+    if options.check and result.best is not None and not result.interrupted:
         verdict = examine(result)
         screen.print(verdict.report())
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
     screen.data({**data, "record": str(record)})
-    raise typer.Exit(exit_status(result, timed=asked.time is not None))
+    raise typer.Exit(exit_status(result, timed=options.time is not None))
 
 
 def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | Result:

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from ninedof.cli.answer import Answer
-from ninedof.cli.job_report import folder_words, kept
+from ninedof.cli.job_report import folder_words, write_job
 from ninedof.cli.options import Options, Report, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.tables import verdicts_table
@@ -28,7 +28,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper(Options):
+class PaperOptions(Options):
     """The options."""
 
     figures: Annotated[bool, typer.Option("--figures", help="Draw the seven figures of the paper too.")] = False
@@ -37,20 +37,20 @@ class Paper(Options):
     report: Report = True
 
 
-def paper(asked: Paper) -> None:
+def paper(options: PaperOptions) -> None:
     """Print every number of the paper beside ours, and a verdict on each; with --figures, draw its figures anew."""
-    screen = Screen(asked.json)
-    thread_argument(asked.threads)
-    if asked.out is not None and not asked.figures:
-        raise ValueError(f"--out: got {asked.out} without --figures, expected both")
-    directory = new_directory(asked.out) if asked.figures else None
-    rows = [asdict(v) for v in verdicts(asked.threads)]
+    screen = Screen(options.json)
+    thread_argument(options.threads)
+    if options.out is not None and not options.figures:
+        raise ValueError(f"--out: got {options.out} without --figures, expected both")
+    directory = new_directory(options.out) if options.figures else None
+    rows = [asdict(v) for v in verdicts(options.threads)]
     table = verdicts_table(rows)
     if directory is None:
         screen.print(table)
     else:
         write = partial(write_drawn, Record("paper", {}, {"verdicts": rows}), directory)
-        kept(screen, Answer([table], rows), write, partial(_draw, screen), asked.report)
+        write_job(screen, Answer([table], rows), write, partial(_draw, screen), options.report)
         screen.print(folder_words(directory))
     screen.data(rows)
 

@@ -12,7 +12,7 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
-from ninedof.cli.job_report import folder_words, kept
+from ninedof.cli.job_report import folder_words, write_job
 from ninedof.cli.long_run import CHUNKS, run_folder
 from ninedof.cli.options import JobOptions, Resume, Starts, Threads
 from ninedof.cli.remembered import given
@@ -44,7 +44,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pareto(JobOptions):
+class ParetoOptions(JobOptions):
     """The options."""
 
     study: Annotated[
@@ -70,36 +70,36 @@ class Pareto(JobOptions):
     threads: Threads = None
 
 
-def pareto(asked: Pareto) -> None:
+def pareto(options: ParetoOptions) -> None:
     """Compute the least condition number for each value of a limit."""
-    screen = Screen(asked.json)
-    thread_argument(asked.threads)
-    for limit in asked.value or ():
+    screen = Screen(options.json)
+    thread_argument(options.threads)
+    for limit in options.value or ():
         if not 0.0 < limit < math.inf:
             raise ValueError(f"--value: got {limit:g}, expected a finite number above 0")
-    reads = Input.of(None if asked.study is None else str(asked.study))
-    file = None if asked.study is None else Path(given(str(asked.study)))
+    reads = Input.of(None if options.study is None else str(options.study))
+    file = None if options.study is None else Path(given(str(options.study)))
     study, run = _study_of(file)
-    study = study.with_solver(asked.starts)
-    against = asked.against
+    study = study.with_solver(options.starts)
+    against = options.against
     if against is None:
         against = "radius_ratio" if run is None else _dearest(run)
     against = with_degrees(against)  # at the terminal angles are degrees
     name = "the paper's problem" if file is None else file.name
     if study.length_note:
         screen.print(study.length_note)
-    with run_folder(asked.out, asked.resume, reads) as directory, screen.limits(f"{name}, {against}") as bar:
-        how: dict[str, Any] = {"threads": asked.threads, "progress": bar.show, "out": directory / CHUNKS}
-        front = trace_front(replace(study), against, asked.value or None, asked.points, **how)
+    with run_folder(options.out, options.resume, reads) as directory, screen.limits(f"{name}, {against}") as bar:
+        how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory / CHUNKS}
+        front = trace_front(replace(study), against, options.value or None, options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
     if front.interrupted:
         count = "1 limit is" if len(front) == 1 else f"{len(front)} limits are"
         parts.append(bold("interrupted", f": {count} solved so far and kept in {directory}"))
     data = {"front": front.to_dict()}
-    drawn = asked.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
+    drawn = options.figures and not front.interrupted and any(math.isfinite(limit) for limit in front.limits)
     draw = partial(_draw, front, screen) if drawn else None
-    report = asked.figures and asked.report and not front.interrupted
-    record = kept(screen, Answer(parts, data), partial(write_run, front, directory), draw, report)
+    report = options.figures and options.report and not front.interrupted
+    record = write_job(screen, Answer(parts, data), partial(write_run, front, directory), draw, report)
     screen.print(folder_words(directory))
     screen.data(data | {"record": str(record)})
     if front.interrupted:

@@ -10,11 +10,10 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import folder_words, kept
-from ninedof.cli.options import JobOptions, Three, Two
+from ninedof.cli.job_report import folder_words, write_job
+from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, LegLimits, Three, Two
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
@@ -46,7 +45,7 @@ EXAMPLES = """[bold]Examples[/bold]
 class PathOptions(JobOptions):
     """The options."""
 
-    design: options.DesignOrPublished = None
+    design: DesignOrPublished = None
     file: Annotated[
         Path | None,
         typer.Argument(
@@ -72,7 +71,7 @@ class PathOptions(JobOptions):
             "region of the run's study, else carried."
         ),
     ] = None
-    legs: options.LegLimits = None
+    legs: LegLimits = None
     force: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Force on the platform at its origin.")] = None
     moment: Annotated[Three | None, typer.Option(metavar="X Y Z", help="Moment on the platform.")] = None
     mass: Annotated[float | None, typer.Option(help="Mass of the platform: its weight is added to the load.")] = None
@@ -82,29 +81,29 @@ class PathOptions(JobOptions):
     gravity: Annotated[
         Three | None, typer.Option(metavar="X Y Z", help="Force per mass, base axes; 0 0 -9.81 by default.")
     ] = None
-    lc: options.Lc = None
+    lc: Lc = None
 
     @property
     def shapes(self) -> dict[str, Any]:
-        """The shapes that are asked for."""
+        """The shapes of the options."""
         return {name: x for name in ("circle", "line", "spiral") if (x := getattr(self, name)) is not None}
 
 
-def path(asked: PathOptions) -> None:
+def path(options: PathOptions) -> None:
     """Compute leg lengths, rates and accelerations along a path, and the limits that break.
 
     A run brings every limit of its study.
     """
-    screen = Screen(asked.json)
-    if asked.file is None and asked.design is not None and asked.design.endswith(".csv"):
-        asked = replace(asked, file=Path(asked.design), design=None)
-    chosen = with_length(named_design(asked.design), asked.lc)
+    screen = Screen(options.json)
+    if options.file is None and options.design is not None and options.design.endswith(".csv"):
+        options = replace(options, file=Path(options.design), design=None)
+    chosen = with_length(named_design(options.design), options.lc)
     g, home, study = chosen.geometry, chosen.configuration, chosen.study
-    trajectory = _trajectory(chosen, asked)
-    limits: Any = chosen.leg_limits() if asked.legs is None else asked.legs
-    how = {"internal_point": _rule(asked.internal_point, study), "limits": limits}
-    load: dict[str, Any] = {"force": asked.force, "moment": asked.moment}
-    weight = Weight.checked(asked.mass, asked.centre, asked.gravity)
+    trajectory = _trajectory(chosen, options)
+    limits: Any = chosen.leg_limits() if options.legs is None else options.legs
+    how = {"internal_point": _rule(options.internal_point, study), "limits": limits}
+    load: dict[str, Any] = {"force": options.force, "moment": options.moment}
+    weight = Weight.checked(options.mass, options.centre, options.gravity)
     question = {
         "geometry": triples(g),
         "home": arrays_of(home),
@@ -113,41 +112,41 @@ def path(asked: PathOptions) -> None:
         **load,
         **({} if weight is None else {"weight": weight._asdict()}),
     }
-    if asked.file:
-        question["file"] = str(asked.file)
+    if options.file:
+        question["file"] = str(options.file)
     else:
-        question |= asked.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
+        question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
     load |= _with_weight(load, weight, trajectory)
-    with run_directory(asked.out) as directory:
+    with run_directory(options.out) as directory:
         length = chosen.characteristic_length
-        found = follow(g, trajectory, home, **how, **load, characteristic_length=length, unit=chosen.unit)
-    of_study = path_limits(study, found, home) if study else None
-    motion = plain(found, of_study)
+        result = follow(g, trajectory, home, **how, **load, characteristic_length=length, unit=chosen.unit)
+    of_study = path_limits(study, result, home) if study else None
+    motion = plain(result, of_study)
     parts: list[Any] = [legs_table(motion), *([limits_table(motion)] if motion.get("limits") else [])]
-    parts += [bold(*words) for words in motion_words(found, motion)]
+    parts += [bold(*words) for words in motion_words(result, motion)]
 
     def write(draw: Any) -> Path:
-        return write_motion(found, directory, draw, question, of_study)
+        return write_motion(result, directory, draw, question, of_study)
 
-    drawing = partial(_draw, found, screen, of_study) if asked.figures else None
-    record = kept(screen, Answer(parts, {"motion": motion}), write, drawing, asked.figures and asked.report)
+    drawing = partial(_draw, result, screen, of_study) if options.figures else None
+    record = write_job(screen, Answer(parts, {"motion": motion}), write, drawing, options.figures and options.report)
     screen.print(folder_words(directory))
     screen.data({"motion": motion, "record": str(record)})
-    raise typer.Exit(DONE if found.tracked and not motion["breaks"] else NO_RESULT)
+    raise typer.Exit(DONE if result.tracked and not motion["breaks"] else NO_RESULT)
 
 
-def _trajectory(chosen: Chosen, asked: PathOptions) -> Trajectory:
-    """Return the one trajectory that was asked for."""
-    home, shapes = chosen.configuration, asked.shapes
-    times = {name: value for name in ("duration", "points") if (value := getattr(asked, name)) is not None}
-    names = [*(["a file"] if asked.file else []), *(f"--{name}" for name in shapes)]
+def _trajectory(chosen: Chosen, options: PathOptions) -> Trajectory:
+    """Return the one trajectory of the options."""
+    home, shapes = chosen.configuration, options.shapes
+    times = {name: value for name in ("duration", "points") if (value := getattr(options, name)) is not None}
+    names = [*(["a file"] if options.file else []), *(f"--{name}" for name in shapes)]
     if len(names) != 1:
         got = " and ".join(names) or "none"
         raise ValueError(f"path: got {got}, expected one of a CSV file, --circle, --line and --spiral")
-    if asked.file is not None:
+    if options.file is not None:
         for name, value in times.items():
             raise ValueError(f"--{name}: got {value}, expected none with a file: it has its own times")
-        return Trajectory.load(asked.file, home, chosen.unit)
+        return Trajectory.load(options.file, home, chosen.unit)
     ((name, value),) = shapes.items()
     made: Trajectory = getattr(Trajectory, name)(home, *(value if name == "spiral" else (value,)), **times)
     return made
@@ -175,13 +174,13 @@ def _rule(text: str | None, study: Study | None) -> str | float:
         raise ValueError(f"--internal-point: got {text!r}, expected {', '.join(RULES)} or a fraction") from None
 
 
-def _draw(found: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:
+def _draw(result: Followed, screen: Screen, of_study: PathLimits | None, directory: Path) -> list[Path]:
     """Draw lengths, condition number and the margins of a study's limits; return the files."""
     screen.say("drawing the motion")
     from ninedof import plot
 
     margins = None
     if of_study:
-        margin = found.leg_margins.min(axis=1)  # infinite without limits
+        margin = result.leg_margins.min(axis=1)  # infinite without limits
         margins = ({"leg lengths": margin} if np.isfinite(margin).all() else {}) | of_study.margins
-    return plot.save(plot.motion(found, margins), directory, "motion")
+    return plot.save(plot.motion(result, margins), directory, "motion")

@@ -25,7 +25,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Report(Options):
+class ReportOptions(Options):
     """The options."""
 
     run: Annotated[str, typer.Argument(help="A run folder, or RUN#7: point 7 of a front, counted from 1.")]
@@ -34,12 +34,12 @@ class Report(Options):
     ] = None
 
 
-def report(asked: Report) -> Answer:
+def report(options: ReportOptions) -> Answer:
     """Write a run as one page of HTML: question, answer, the machine to turn by hand, sheet, figures, proof."""
-    if asked.out is not None:
-        if not asked.out.absolute().parent.is_dir():
-            raise ValueError(f"--out: got {asked.out}, expected a file in a folder that exists")
-        own_or_new("--out", asked.out, MARK)
-    file = write_report(asked.run, asked.out)
+    if options.out is not None:
+        if not options.out.absolute().parent.is_dir():
+            raise ValueError(f"--out: got {options.out}, expected a file in a folder that exists")
+        own_or_new("--out", options.out, MARK)
+    file = write_report(options.run, options.out)
     size = file.stat().st_size / 1e6
     return Answer([f"report {file}, {size:.2f} MB: open it in a browser"], {"report": str(file)})

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from ninedof.cli import options
 from ninedof.cli.chosen_design import named_design
+from ninedof.cli.options import Design, Options
 from ninedof.cli.posed import load_option, several
 from ninedof.cli.screen import Screen
 from ninedof.sheet.sheet import sheet as sheet_of
@@ -34,10 +34,10 @@ VECTORS = {"twist": "wx wy wz vx vy vz", "twist_rate": "ax ay az ax ay az", "cen
 
 
 @dataclass(frozen=True, kw_only=True)
-class SheetOptions(options.Options):
+class SheetOptions(Options):
     """The options."""
 
-    design: options.Design
+    design: Design
     speed: Annotated[float, typer.Option(help="Platform speed for the leg speeds, length/time.")] = 1.0
     turn_deg: Annotated[float, typer.Option(help="Angular speed beside it, degrees/time.")] = 0.0
     internal: Annotated[
@@ -65,32 +65,32 @@ class SheetOptions(options.Options):
     csv: Annotated[Path | None, typer.Option(help="Write the table of the legs to this file.")] = None
 
 
-def sheet(asked: SheetOptions) -> None:
+def sheet(options: SheetOptions) -> None:
     """Print the engineering sheet: joints, legs, clearance, singularities and limits over the poses."""
-    screen = Screen(asked.json)
-    if asked.csv is not None:
-        if not asked.csv.absolute().parent.is_dir():
-            raise ValueError(f"--csv: got {asked.csv}, expected a file in a folder that exists")
-        own_or_new("--csv", asked.csv, MARK)
-    chosen = named_design(asked.design)
+    screen = Screen(options.json)
+    if options.csv is not None:
+        if not options.csv.absolute().parent.is_dir():
+            raise ValueError(f"--csv: got {options.csv}, expected a file in a folder that exists")
+        own_or_new("--csv", options.csv, MARK)
+    chosen = named_design(options.design)
     vectors: dict[str, Any] = {
         name: several(f"--{name.replace('_', '-')}", text, expected)
         for name, expected in VECTORS.items()
-        if (text := getattr(asked, name)) is not None
+        if (text := getattr(options, name)) is not None
     }
-    found = sheet_of(
+    result = sheet_of(
         chosen.result or chosen.design,
-        linear_speed=asked.speed,
-        angular_speed=math.radians(finite("--turn-deg", asked.turn_deg, 0.0)),
-        internal=asked.internal,
-        loads=[load_option(text) for text in asked.load] if asked.load else None,
-        mass=asked.mass,
-        leg_errors=asked.leg_error,
-        joint_errors=asked.joint_error,
-        leg_stiffness=asked.leg_stiffness,
+        linear_speed=options.speed,
+        angular_speed=math.radians(finite("--turn-deg", options.turn_deg, 0.0)),
+        internal=options.internal,
+        loads=[load_option(text) for text in options.load] if options.load else None,
+        mass=options.mass,
+        leg_errors=options.leg_error,
+        joint_errors=options.joint_error,
+        leg_stiffness=options.leg_stiffness,
         **vectors,
     )
-    screen.print(*sheet_parts(found))
-    screen.data(found.to_dict())
-    if asked.csv is not None:  # last: a full disk does not lose the rest
-        write_whole(asked.csv, found.to_csv().encode())
+    screen.print(*sheet_parts(result))
+    screen.data(result.to_dict())
+    if options.csv is not None:  # last: a full disk does not lose the rest
+        write_whole(options.csv, result.to_csv().encode())

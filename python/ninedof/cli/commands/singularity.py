@@ -50,37 +50,37 @@ class SingularityOptions(PosesOptions):
     most: Annotated[float, typer.Option(help="End of it, in multiples of the motion.")] = 1.0
 
 
-def singularity(asked: SingularityOptions) -> Answer:
+def singularity(options: SingularityOptions) -> Answer:
     """Print the distance to the nearest singularity, with its kind and pose: along each coordinate, or one motion.
 
     Along a coordinate the others stay, O too while the platform moves. Turns are looked at up to half a turn, p and O
     up to twice the longest leg.
     """
     words = "wx wy wz px py pz sx sy sz"
-    motion = None if asked.direction is None else np.array(several("--direction", asked.direction, words))
+    motion = None if options.direction is None else np.array(several("--direction", options.direction, words))
     if motion is not None and not motion.any():
-        raise ValueError(f"--direction: got {asked.direction!r}, expected a motion that is not zero")
-    at = Looked.at(asked)
+        raise ValueError(f"--direction: got {options.direction!r}, expected a motion that is not zero")
+    at = Looked.at(options)
     here = singularity_of(at.chosen.geometry, at.c)
     parts: list[Any] = []
     for name, values in here.margins._asdict().items():
         k = int(np.argmin(np.abs(values)))
         parts.append(f"|det {name[-1].upper()}| = {abs(values[k]):.6f}{at.where(k)} (0: {MECHANISMS[name]})")
-    more, data = _coordinates(at) if motion is None else _along(at, motion, asked.most)
+    more, data = _coordinates(at) if motion is None else _along(at, motion, options.most)
     return at.answer([*parts, *more], {"margins": here.margins._asdict(), "mechanism": here.mechanism} | data)
 
 
 def _along(at: Looked, motion: Floats, most: float) -> tuple[list[Any], dict[str, Any]]:
     """Return the first singularity on one motion, in words and as data."""
-    found = distance_to_singularity(at.chosen.geometry, at.c, motion, most)
-    k = int(np.argmin(found.distance))
-    if math.isfinite(found.distance[k]):
-        there = pose_words(at.c[k].moved(found.distance[k] * motion), at.chosen.configuration.rotation, at.chosen.unit)
-        kind = MECHANISMS[f"det_{found.mechanism[k]}"]
-        words = [f"first singularity at {found.distance[k]:.6g} of the motion: {kind}", f"there {there}"]
+    result = distance_to_singularity(at.chosen.geometry, at.c, motion, most)
+    k = int(np.argmin(result.distance))
+    if math.isfinite(result.distance[k]):
+        there = pose_words(at.c[k].moved(result.distance[k] * motion), at.chosen.configuration.rotation, at.chosen.unit)
+        kind = MECHANISMS[f"det_{result.mechanism[k]}"]
+        words = [f"first singularity at {result.distance[k]:.6g} of the motion: {kind}", f"there {there}"]
     else:
-        words = [f"no singularity up to {most:g} of the motion" + ("" if found.resolved.all() else ", not proved")]
-    data = {"direction": motion, "distance": found.distance, "at": found.mechanism, "resolved": found.resolved}
+        words = [f"no singularity up to {most:g} of the motion" + ("" if result.resolved.all() else ", not proved")]
+    data = {"direction": motion, "distance": result.distance, "at": result.mechanism, "resolved": result.resolved}
     return words, data
 
 
@@ -93,9 +93,9 @@ def _coordinates(at: Looked) -> tuple[list[Any], dict[str, Any]]:
         far = math.pi if degree else reach
         motions = np.zeros((6, 9))
         motions[:, PARTS[part] : PARTS[part] + 3] = far * np.concatenate([-np.eye(3), np.eye(3)])
-        found = distance_to_singularity(g, c[:, None], motions)
-        pose, axes = np.argmin(found.distance, axis=0), np.arange(6)
-        least, kinds = factor * far * found.distance[pose, axes], found.mechanism[pose, axes]
+        result = distance_to_singularity(g, c[:, None], motions)
+        pose, axes = np.argmin(result.distance, axis=0), np.arange(6)
+        least, kinds = factor * far * result.distance[pose, axes], result.mechanism[pose, axes]
 
         def text(x: float, digits: int, degree: str = degree) -> str:
             shown = f"{x:.{digits}g}"

@@ -37,23 +37,23 @@ class StiffnessOptions(PosesOptions):
     leg_stiffness: Annotated[float, typer.Option(help="Stiffness of each leg, force/length.")]
 
 
-def stiffness(asked: StiffnessOptions) -> Answer:
+def stiffness(options: StiffnessOptions) -> Answer:
     """Print the stiffness matrix of the platform, legs locked and O free to settle, and the least stiffness."""
-    finite("--leg-stiffness", asked.leg_stiffness, 0.0)
-    at = Looked.at(asked)
+    finite("--leg-stiffness", options.leg_stiffness, 0.0)
+    at = Looked.at(options)
     unit = at.chosen.unit
-    found = stiffness_of(at.chosen.geometry, at.c, asked.leg_stiffness)
-    least = sheet(at.chosen.geometry, at.c, leg_stiffness=asked.leg_stiffness).stiffness
+    result = stiffness_of(at.chosen.geometry, at.c, options.leg_stiffness)
+    least = sheet(at.chosen.geometry, at.c, leg_stiffness=options.leg_stiffness).stiffness
     assert least is not None, "a stiffness was given"
     values = [f"{one.value:.5g}{f' (pose {one.pose})' if len(at.c) > 1 else ''}" for one in least]
     along, about = per("force", unit) or "force per displacement", times("force", unit) or "moment"
-    parts: list[Any] = [_matrix(found[0])] if len(at.c) == 1 else []
+    parts: list[Any] = [_matrix(result[0])] if len(at.c) == 1 else []
     parts += [
         f"least stiffness: {values[0]} in {along}, the platform free to turn",
         f"least turning stiffness: {values[1]} in {about} per radian, the platform free to shift",
     ]
     ends = {name: one._asdict() for name, one in least._asdict().items()}
-    data = {"leg_stiffness": asked.leg_stiffness, "stiffness": found, "least": ends}
+    data = {"leg_stiffness": options.leg_stiffness, "stiffness": result, "least": ends}
     return at.answer(parts, data, [one.pose for one in least])
 
 

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ninedof.cli import options
+from ninedof.cli.options import DesignOrPublished
 from ninedof.support.extras import MissingExtra
 from ninedof.viewer import view as view_of
 
@@ -25,7 +25,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
 
 def view(
-    design: options.DesignOrPublished = None,
+    design: DesignOrPublished = None,
     path: Annotated[Path | None, typer.Option(help="Poses to play: a CSV file as of `ninedof path`.")] = None,
     host: Annotated[
         str, typer.Option(help="Address to listen at; 0.0.0.0 is reached from the whole network, without a password.")

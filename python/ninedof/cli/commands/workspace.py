@@ -12,12 +12,12 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
-from ninedof.cli.job_report import folder_words, kept
+from ninedof.cli.job_report import folder_words, write_job
 from ninedof.cli.long_run import CHUNKS, Finished, run_folder
 from ninedof.cli.remembered import given as given_file
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.cli.workspace_figures import draw
-from ninedof.cli.workspace_question import Question, Workspace, question_of
+from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.design.region_stack import places_o
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
@@ -47,7 +47,7 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof workspace --archetype orientation --angle-deg 60 --legs 1.5 6.5 --json | jq .workspace.volume"""
 
 
-def workspace(options: Workspace) -> None:
+def workspace(options: WorkspaceOptions) -> None:
     """Compute the workspace of a robot: its volume, its boundary and what limits it.
 
     A run brings the limits of its study that a single pose can meet; each option replaces its own. O keeps its place
@@ -68,14 +68,14 @@ def workspace(options: Workspace) -> None:
             with screen.poses(options.archetype.replace("_", " ")) as bar:
                 return find_workspace(chosen.geometry, **question.asked, **how, progress=bar.show)
 
-        found = results.result(0, WorkspaceMap, search)
+        result = results.result(0, WorkspaceMap, search)
 
     def write(drawing: Any) -> Path:
-        return write_run(found, directory, drawing, record)
+        return write_run(result, directory, drawing, record)
 
     # At once: an interruption of what follows does not lose the map.
-    kept(screen, Answer(_parts(found, question, chosen), {"workspace": found.to_dict()}), lambda _: write(None))
-    if (proof := question.proof) is not None and not found.interrupted:
+    write_job(screen, Answer(_parts(result, question, chosen), {"workspace": result.to_dict()}), lambda _: write(None))
+    if (proof := question.proof) is not None and not result.interrupted:
 
         def prove() -> CertifiedWorkspace:
             asked = {name: value for name, value in question.asked.items() if name not in OF_THE_MAP}
@@ -83,26 +83,26 @@ def workspace(options: Workspace) -> None:
                 return certified_workspace(chosen.geometry, **asked, **proof, **how, progress=bar)
 
         proved = results.result(1, CertifiedWorkspace, prove)
-        if found.method != "sample":
-            proved = proved.with_estimate(found.volume, found.error)
-        found = replace(found, certified=proved)
-        kept(screen, Answer(proved.sentences(), {"workspace": found.to_dict()}), lambda _: write(None))
-    data: dict[str, Any] = {"workspace": found.to_dict()}
-    if region is not None and places_o(region) and not found.interrupted:
+        if result.method != "sample":
+            proved = proved.with_estimate(result.volume, result.error)
+        result = replace(result, certified=proved)
+        write_job(screen, Answer(proved.sentences(), {"workspace": result.to_dict()}), lambda _: write(None))
+    data: dict[str, Any] = {"workspace": result.to_dict()}
+    if region is not None and places_o(region) and not result.interrupted:
         asked = question.asked
         share = region_share(region, chosen.geometry, home, asked["criteria"], asked["characteristic_length"])
         screen.print(share_words(region, share, chosen.unit))
         data["region"] = share._asdict()
-    stopped = found.interrupted or (found.certified is not None and found.certified.interrupted)
-    drawn = options.figures and found.volume > 0.0 and not stopped and found.method != "sample"
-    drawing = partial(draw, found, screen, home, None if found.of_angles else region) if drawn else None
-    path = kept(screen, Answer([], data), write, drawing, options.figures and options.report and not stopped)
+    stopped = result.interrupted or (result.certified is not None and result.certified.interrupted)
+    drawn = options.figures and result.volume > 0.0 and not stopped and result.method != "sample"
+    drawing = partial(draw, result, screen, home, None if result.of_angles else region) if drawn else None
+    path = write_job(screen, Answer([], data), write, drawing, options.figures and options.report and not stopped)
     screen.print(folder_words(directory))
     screen.data(data | {"record": str(path)})
-    raise typer.Exit(INTERRUPTED if stopped else DONE if found.volume > 0.0 else NO_RESULT)
+    raise typer.Exit(INTERRUPTED if stopped else DONE if result.volume > 0.0 else NO_RESULT)
 
 
-def _parts(found: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
+def _parts(result: WorkspaceMap, question: Question, chosen: Chosen) -> Iterator[Any]:
     yield from asked_lines(question.asked, chosen.configuration, question.own, question.left, chosen.unit)
-    yield workspace_table(found)
-    yield from (bold(*words) for words in workspace_words(found))
+    yield workspace_table(result)
+    yield from (bold(*words) for words in workspace_words(result))
