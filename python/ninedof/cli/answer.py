@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterable
-from dataclasses import MISSING, fields
+from dataclasses import fields, is_dataclass
+from inspect import Parameter, Signature, get_annotations
 from typing import Any, NamedTuple, get_type_hints
 
 import typer
 
-from ninedof.cli.options import Options
 from ninedof.cli.screen import DONE, Screen
 
 
@@ -30,32 +29,28 @@ class Answer(NamedTuple):
         raise typer.Exit(self.status)
 
 
-def expanded(call: Callable[..., object]) -> Callable[..., object]:
-    """Return a command whose parameters are the fields of the one struct that `call` takes, its own ones first."""
-    kind: Any = next(iter(get_type_hints(call).values()), None)
-    if not isinstance(kind, type) or not issubclass(kind, Options):
+def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
+    """Return a command of a call that takes a struct of options; options that it shares with others come last."""
+    kind: Any = next(iter(get_type_hints(call).values()))
+    if not isinstance(kind, type) or not is_dataclass(kind):
         return call
-    hints = get_type_hints(kind, include_extras=True)
-    order = [name for part in kind.__mro__ for name in inspect.get_annotations(part)]
-    known = sorted(fields(kind), key=lambda field: order.index(field.name))
+    marks = get_type_hints(kind, include_extras=True)
+    defaults = {field.name: field.default for field in fields(kind)}
+    names = dict.fromkeys(name for part in kind.__mro__ for name in get_annotations(part))
 
-    def command(**values: Any) -> object:
-        asked = kind(**values)
-        answer = call(asked)
-        if isinstance(answer, Answer):
-            answer.show(asked.json)
-        return answer
+    def parsed(**values: Any) -> None:
+        options: Any = kind(**values)
+        answer = call(options)
+        if answer is not None:
+            answer.show(options.json)
 
-    command.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+    parsed.__name__, parsed.__doc__ = call.__name__, call.__doc__
+    parsed.__signature__ = Signature(  # type: ignore[attr-defined]
         [
-            inspect.Parameter(
-                field.name,
-                inspect.Parameter.KEYWORD_ONLY,
-                default=inspect.Parameter.empty if field.default is MISSING else field.default,
-                annotation=hints[field.name],
-            )
-            for field in known
+            Parameter(name, Parameter.KEYWORD_ONLY, default=defaults[name], annotation=marks[name])
+            for name in names
+            if name in defaults
         ]
     )
-    command.__doc__, command.__name__, command.__annotations__ = call.__doc__, call.__name__, {}
-    return command
+    parsed.__annotations__ = {}
+    return parsed

@@ -12,7 +12,7 @@ from typing import Annotated
 import typer
 
 from ninedof.cli import commands
-from ninedof.cli.answer import expanded
+from ninedof.cli.answer import command
 from ninedof.cli.ending import ended
 from ninedof.cli.interruption import interruptible
 from ninedof.cli.remembered import remembering
@@ -38,7 +38,7 @@ def _register() -> None:
     names = [module.name for module in iter_modules(commands.__path__)]
     modules = {name: import_module(f"{commands.__name__}.{name}") for name in names}
     for name in sorted(names, key=lambda name: int(modules[name].PLACE)):
-        app.command(epilog=modules[name].EXAMPLES)(expanded(getattr(modules[name], name)))
+        app.command(epilog=modules[name].EXAMPLES)(command(getattr(modules[name], name)))
 
 
 def _version(value: bool) -> None:

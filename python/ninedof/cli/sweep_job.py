@@ -7,29 +7,28 @@ from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import typer
-from rich.table import Table
 
-from ninedof.cli import options
-from ninedof.cli.job_report import report_words, told, with_report
+from ninedof.cli.answer import Answer
+from ninedof.cli.job_report import folder_words, write_job
 from ninedof.cli.long_run import CHUNKS, run_folder
+from ninedof.cli.options import JobOptions, Resume, Scheduler
 from ninedof.cli.screen import INTERRUPTED, Screen, bold
-from ninedof.design.indices import INDICES, size_of
+from ninedof.design.indices import size_of
 from ninedof.runs.command_file import Input
 from ninedof.runs.folder import FILE as RECORD
 from ninedof.runs.folder import write_run
-from ninedof.support.angles import degrees_of, plain_name
 from ninedof.support.arguments import LONGEST
 from ninedof.support.blocks import blocks
-from ninedof.support.units import amount
 from ninedof.sweep import SweepResult
 from ninedof.sweep.chunks import STATE
 from ninedof.sweep.cluster import dask_executor, is_of_cluster
+from ninedof.tables import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,16 +37,12 @@ AGAIN = "; the same command with --out {} --resume continues the run"
 MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
 
-@dataclass(frozen=True)
-class Job:
+@dataclass(frozen=True, kw_only=True)
+class Job(JobOptions):
     """The options that a sweep and an atlas share."""
 
-    out: options.Out = None
-    resume: options.Resume = False
-    scheduler: options.Scheduler = None
-    figures: options.Figures = True
-    report: options.Report = True
-    json: options.Json = False
+    resume: Resume = False
+    scheduler: Scheduler = None
 
     @cached_property
     def screen(self) -> Screen:
@@ -79,34 +74,28 @@ class Job:
         result: SweepResult,
         folder: Path,
         data: Any,
-        words: Callable[[], object],
+        table: Table,
         draw: Callable[[], Iterable[tuple[str, Figure]]],
     ) -> None:
-        """Write the result and its record, say the words, then write figures, each with its name, and the report."""
-        names: list[str] = []
-        stem = next(iter(data))
+        """Write the result and its record, print the table, then write figures, each with its name, and the report."""
 
         def drawn(place: Path) -> list[Path]:
-            self.screen.say(f"drawing the {stem}")
+            self.screen.say(f"drawing the {next(iter(data))}")
             from ninedof import plot
 
-            files: list[Path] = []
-            for name, figure in draw():
-                names.append(name)
-                files += plot.save(figure, place, name)
-            return files
+            return [file for name, figure in draw() for file in plot.save(figure, place, name)]
 
+        write = partial(write_run, result, folder, results=data)
         try:
-            with told(self.screen, words, data) as once:
-                drawing = with_report(drawn if self.figures else None, self.report and self.figures, self.screen, once)
-                record = write_run(result, folder, drawing, results=data)
+            record = write_job(
+                self.screen, Answer([table], data), write, drawn if self.figures else None, self.report and self.figures
+            )
         except OSError as error:
             if not (folder / RECORD).is_file():
                 kept = _kept(folder, AGAIN)
                 error.add_note(f"{kept[0].upper()}{kept[1:]}.")
             raise
-        made = f", figure{'s' * (len(names) > 1)} {', '.join(names)} (PNG, SVG, PDF)" if names else ""
-        self.screen.print(f"run folder {folder}: {record.name}, {stem}.npz{made}{report_words(folder)}")
+        self.screen.print(folder_words(folder))
         self.screen.data({**data, "record": str(record)})
 
 
@@ -140,39 +129,6 @@ def describe(result: SweepResult, name: str) -> dict[str, Any]:
         place = np.unravel_index(number, values.shape)
         out[word] = {"value": float(values[place]), "at": result.at(name, place)}
     return out
-
-
-def summary_table(summary: Mapping[str, Mapping[str, Any]], title: str, units: Mapping[str, str]) -> Table:
-    """Return the table of the least and the greatest value of each index, with their coordinates; angles in degrees."""
-    table = Table(title=title, title_justify="left", title_style="bold")
-    counts = [word for word in ("infinite", "missing") if any(row[word] for row in summary.values())]
-    for head in ("index", "", "value", "at", *counts):
-        table.add_column(head, justify="right" if head in ("value", *counts) else "left", overflow="fold")
-    for name, row in summary.items():
-        what = " modulus" if name in INDICES and INDICES[name].signed else ""
-        least, greatest = (_end(row.get(word), name, units) for word in ("least", "greatest"))
-        table.add_row(name.replace("_", " "), f"least{what}", *least, *(str(row[word]) for word in counts))
-        table.add_row("", f"greatest{what}", *greatest, end_section=True)
-    return table
-
-
-def _end(end: Mapping[str, Any] | None, name: str, units: Mapping[str, str]) -> tuple[str, str]:
-    if end is None:
-        return "-", "-"
-    at = end["at"]
-    moved = "rad" if str(at.get("coordinate", "")).startswith("theta") else "l_c"  # of Fig. 6
-    units = {dim: moved if unit == "l_c or rad" else unit for dim, unit in units.items()}
-    where = (
-        f"{plain_name(dim)} = {_number(value, units.get(dim, ''), 5)}" if isinstance(value, float) else f"{dim} {value}"
-        for dim, value in at.items()
-    )
-    return _number(end["value"], units.get(name, ""), 6), "\n".join(where)
-
-
-def _number(value: float, unit: str, digits: int) -> str:
-    if unit == "rad":
-        value, unit = degrees_of(value), "deg"
-    return amount(f"{value:.{digits}g}", "" if unit in ("1", "length") else unit)
 
 
 def json_data(result: SweepResult, summary: Mapping[str, Any]) -> dict[str, Any]:

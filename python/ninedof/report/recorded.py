@@ -11,11 +11,9 @@ from ninedof.redundancy.rules import where_o
 from ninedof.report import origin
 from ninedof.report.page import Page
 from ninedof.support.margins import is_violated
-from ninedof.tables import RIGHT, SHORT, Column, Table
+from ninedof.sweep.tables import atlas_table, summary_table
 from ninedof.tables.html import Html, facts, html_of, joined, paragraphs
-from ninedof.tables.numbers import short
 
-SHOWN = 24  # lines of a table
 PAPER = "paper"
 FROM_RECORD = (PAPER, "sweep", "atlas")  # kinds whose arrays, which may be large, no page shows
 
@@ -30,9 +28,13 @@ def of_recorded(record: Any, name: str) -> Page:
         said, answer, top = _motion(motion, record.asked.get("unit", ""))
         good = top[0][1] == 0 and motion["tracked"]
     elif (sweep := results.get("sweep")) is not None:
-        said, answer, top = _sweep({index: ends for index, ends in sweep["indices"].items() if ends.get("least")})
+        ends = {name: row for name, row in sweep["indices"].items() if row.get("least")}
+        axes = dict.fromkeys(axis for row in ends.values() for axis in row["least"]["at"])
+        said, top = f"How does {_listed(ends)} vary over {_listed(axes)}?", [("indices", len(ends))]
+        answer = html_of(summary_table(sweep["indices"], "Least and greatest", sweep["units"]))
     elif (atlas := results.get("atlas")) is not None:
-        said, answer, top = _atlas(atlas)
+        said = f"Which condition numbers have {atlas['designs']} designs drawn at random?"
+        answer, top = html_of(atlas_table(atlas["best"])), [("designs", atlas["designs"])]
     elif record.kind == PAPER:
         rows = results["verdicts"]
         headline = "The paper's numbers beside ours"
@@ -65,29 +67,6 @@ def _motion(motion: dict[str, Any], unit: str) -> tuple[str, Html, list[Any]]:
     )
     top = [("limits broken", broken), ("worst condition number", f"{kappa['worst']:.4f}")]
     return said, joined(facts(rows), *map(html_of, tables)), top
-
-
-def _sweep(ends: dict[str, Any]) -> tuple[str, Html, list[Any]]:
-    columns = [Column("index"), Column("least", "", RIGHT), Column("at"), Column("greatest", "", RIGHT), Column("at")]
-    axes = dict.fromkeys(axis for row in ends.values() for axis in row["least"]["at"])
-    rows = []
-    for index, row in ends.items():
-        cells = [index]
-        for end in (row["least"], row["greatest"]):
-            at = (f"{axis} = {x if isinstance(x, str) else format(x, '.6g')}" for axis, x in end["at"].items())
-            cells += [short(float(end["value"])), ", ".join(at)]
-        rows.append(cells)
-    said = f"How does {_listed(ends)} vary over {_listed(axes)}?"
-    return said, html_of(Table("Least and greatest", columns, rows)), [("indices", len(ends))]
-
-
-def _atlas(atlas: dict[str, Any]) -> tuple[str, Html, list[Any]]:
-    best = atlas["best"][:: max(1, len(atlas["best"]) // SHOWN)]
-    columns = [Column("up to"), Column("condition number", "", SHORT)]
-    rows = [(f"{b['radius_ratio']:.4g}", b["condition_number"]) for b in best]
-    answer = Table("The best design met up to a ratio of base to platform radius", columns, rows)
-    said = f"Which condition numbers have {atlas['designs']} designs drawn at random?"
-    return said, html_of(answer), [("designs", atlas["designs"])]
 
 
 def _listed(names: Any) -> str:

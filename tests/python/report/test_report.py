@@ -16,8 +16,9 @@ from body_volume import body_volume
 
 import ninedof as nd
 from ninedof import _core
+from ninedof.cli.answer import Answer
 from ninedof.cli.app import main
-from ninedof.cli.job_report import with_report
+from ninedof.cli.job_report import write_job
 from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
 from ninedof.pareto.limited import without_degrees
@@ -309,7 +310,7 @@ def test_the_page_of_an_interrupted_run_does_not_outlive_it(tmp_path, monkeypatc
 
     monkeypatch.setattr("ninedof.cli.job_report.report", broken)
     (tmp_path / "report.html").write_text("interrupted")
-    assert with_report(None, fails, Screen(False))(tmp_path) == []
+    write_job(Screen(False), Answer([], {}), lambda draw: draw(tmp_path), None, fails)
     assert not (tmp_path / "report.html").exists()
 
 

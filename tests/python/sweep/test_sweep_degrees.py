@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.cli.sweep_job import describe, json_data, summary_table
+from ninedof.cli.sweep_job import describe, json_data
+from ninedof.sweep.tables import summary_table
 
 G = nd.Geometry.hexagonal(a1=0.0, a2=5.8124, b1=2.9062, b2=0.0)
 HOME = nd.Configuration.neutral(zp=3.9828, zs=2.4435)
@@ -86,7 +87,7 @@ def test_the_length_unit_stands_in_units_and_attributes(tmp_path):
 def test_the_summary_is_in_degrees_and_json_says_the_units():
     found = nd.sweep(G, HOME, {"theta_z": [-0.5, 0.1]}, "leg_lengths", unit="mm")
     summary = {"leg_lengths": describe(found, "leg_lengths")}
-    cells = [cell for column in summary_table(summary, "", found.units).columns for cell in column.cells]
+    cells = [str(cell) for row in summary_table(summary, "", found.units).rows for cell in row]
     assert any("theta_z = -28.648 deg" in cell for cell in cells)
     assert any(cell.endswith(" mm") for cell in cells)
     assert json_data(found, summary)["sweep"]["units"] == {"theta_z": "rad", "leg_lengths": "mm"}

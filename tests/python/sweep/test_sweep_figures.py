@@ -289,7 +289,7 @@ def test_the_atlas_command(here, capsys, monkeypatch):
     monkeypatch.setattr(plot, "atlas", lambda result, optimum: marked.append(optimum) or draw(result, optimum))
     status, out, _ = run(capsys, "atlas --designs 50000 --out run")
     assert status == 0
-    assert "best of all designs" in out
+    assert "Best of all designs" in out
     names = {p.name for p in (here / "run").iterdir()}
     assert names == {
         "chunks",

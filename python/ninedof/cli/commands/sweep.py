@@ -14,8 +14,7 @@ import typer
 from ninedof.cli import options
 from ninedof.cli.chosen_design import chosen_design, named_design, with_length
 from ninedof.cli.remembered import given
-from ninedof.cli.request import request
-from ninedof.cli.sweep_job import Job, describe, json_data, summary_table
+from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
 from ninedof.paper.sweeps import sweep_figure
@@ -27,6 +26,7 @@ from ninedof.sweep import SweepResult, sweep_designs
 from ninedof.sweep import sweep as sweep_poses
 from ninedof.sweep.axis import Values
 from ninedof.sweep.poses import COORDINATES, ROTATION
+from ninedof.sweep.tables import summary_table
 
 FIGURES = ("figure-6", "figure-7")
 SIDES = ("a1", "a2", "b1", "b2", "zp", "zs")
@@ -46,7 +46,7 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof sweep runs/20260101-120000 --over platform_internal_angle_deg=-60:60:121 --index leg_ratio"""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sweep(Job):
     """The options."""
 
@@ -95,7 +95,6 @@ class Sweep(Job):
         return {name: getattr(self, name) for name in SIDES}
 
 
-@request(Sweep)
 def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     thread_argument(job.threads)
@@ -119,7 +118,7 @@ def sweep(job: Sweep) -> None:
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
     data = json_data(result, summary)
-    job.write(result, folder, data, lambda: job.screen.print(table), lambda: _figures(result, what))
+    job.write(result, folder, data, table, lambda: _figures(result, what))
 
 
 def _over_poses(what: str | None, job: Sweep, grid: Mapping[str, Values]) -> Callable[..., SweepResult]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import warnings
 import webbrowser
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -24,16 +25,21 @@ EXAMPLES = """[bold]Examples[/bold]
   ninedof view                                        the published design"""
 
 
-def view(
-    design: DesignOrPublished = None,
-    path: Annotated[Path | None, typer.Option(help="Poses to play: a CSV file as of `ninedof path`.")] = None,
+@dataclass(frozen=True, kw_only=True)
+class ViewOptions:
+    """The options."""
+
+    design: DesignOrPublished = None
+    path: Annotated[Path | None, typer.Option(help="Poses to play: a CSV file as of `ninedof path`.")] = None
     host: Annotated[
         str, typer.Option(help="Address to listen at; 0.0.0.0 is reached from the whole network, without a password.")
-    ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(help="Port; 0 takes any free one.")] = 8080,
-    dark: Annotated[bool, typer.Option("--dark", help="Dark colours.")] = False,
-    browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
-) -> None:
+    ] = "127.0.0.1"
+    port: Annotated[int, typer.Option(help="Port; 0 takes any free one.")] = 8080
+    dark: Annotated[bool, typer.Option("--dark", help="Dark colours.")] = False
+    browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False
+
+
+def view(options: ViewOptions) -> None:
     """Show a design in the browser, to move by hand: platform, O, variables; numbers and limits follow.
 
     Needs the extra `viewer`. Ctrl-C ends it.
@@ -41,7 +47,7 @@ def view(
     try:
         with warnings.catch_warnings(record=True) as warned:
             warnings.simplefilter("always")
-            viewer = view_of(design, host=host, port=port, path=path, dark=dark)
+            viewer = view_of(options.design, host=options.host, port=options.port, path=options.path, dark=options.dark)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
     with viewer:
@@ -49,7 +55,7 @@ def view(
             print(f"ninedof: {one.message}", file=sys.stderr)
         try:
             print(f"{viewer.url}  (Ctrl-C ends the viewer)", flush=True)
-            if browser:
+            if options.browser:
                 webbrowser.open(viewer.url)
             viewer.wait()
         except KeyboardInterrupt:
