@@ -58,10 +58,8 @@ def test_a_path(here):
 
 def test_a_sweep(here):
     _, results, page = made(here, "sweep", "design.toml", "--over", "x_p=-50:50:11", "--lc", "100")
-    found = results["sweep"]["indices"]["condition_number"]
-    assert f"condition number least {found['least']['value']:.6g} x_p = {found['least']['at']['x_p']:.5g}" in shown(
-        page
-    )
+    least = results["sweep"]["indices"]["condition_number"]["least"]
+    assert f"condition number least {least['value']:.6g} x_p = {least['at']['x_p']:.5g}" in shown(page)
     assert "How does condition number vary over x_p?" in shown(page)
 
 
