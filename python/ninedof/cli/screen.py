@@ -6,8 +6,8 @@ No string is markup here, whoever wrote it, and characters that would move the c
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
@@ -92,51 +92,16 @@ class Screen:
         """Print the current step, such as drawing."""
         self.progress_console.print(f"  {doing}", style="dim")
 
-    def progress(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of runs with the best objective so far."""
-        columns = (BarColumn(bar_width=14), MofNCompleteColumn(), "{task.fields[value]}", TimeElapsedColumn())
-        return self._bar(title, columns, best_words, at_once=True)
-
-    def limits(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of solved limits with the last objective and the remaining time, as far as the work is known."""
-        columns = (
-            BarColumn(bar_width=12),
-            MofNCompleteColumn(),
-            "{task.fields[value]}",
-            TimeRemainingColumn(),
-            "to go",
-        )
-        return self._bar(title, columns, lambda last: "no design" if last is None else f"{last:.6f}", at_once=True)
-
-    def points(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of points with the remaining time."""
-        percent = "{task.percentage:>3.0f} %"
-        columns = (BarColumn(bar_width=24), percent, TimeRemainingColumn(), "to go", TimeElapsedColumn())
-        return self._bar(title, columns, lambda _: "")
-
-    def poses(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of poses with the volume so far and the remaining time, estimated from the levels so far."""
-        count = "{task.completed:,.0f} poses{task.fields[value]}"
-        columns = (BarColumn(bar_width=12), count, TimeRemainingColumn(), "to go")
-        return self._bar(title, columns, lambda volume: "" if volume is None else f", volume {volume:.4g}")
-
-    def boxes(self, title: str) -> AbstractContextManager[Bar]:
-        """Show a bar of boxes of poses, of which nobody knows how many there will be."""
-        columns = (_Boxes(), TimeElapsedColumn())
-        return self._bar(title, columns, lambda _: "")
-
     @contextmanager
-    def _bar(
-        self,
-        title: str,
-        columns: tuple[ProgressColumn | str, ...],
-        words: Callable[[float | None], str],
-        at_once: bool = False,
-    ) -> Iterator[Bar]:
-        """Show a bar from the first report on, or at once. Bad input raises before the first report: no bar then."""
+    def bar(self, kind: str, title: str) -> Iterator[Bar]:
+        """Show a progress bar, one of BARS, at once or from the first report on.
+
+        Bad input raises before the first report: a bar that waits for it is then not shown.
+        """
+        columns, words, at_once = BARS[kind]
         # What the work is at may take several lines; the rest is short.
         first = TextColumn("{task.description}", markup=False, table_column=Column(overflow="fold"))
-        parts = (first, *(TextColumn(one, markup=False) if isinstance(one, str) else one for one in columns))
+        parts = (first, *(TextColumn(one, markup=False) if isinstance(one, str) else one() for one in columns))
         shown = Progress(*parts, console=self.progress_console)
         if at_once:
             shown.start()
@@ -153,6 +118,11 @@ class Screen:
                 shown.stop()
 
 
+def best_words(best: float | None) -> str:
+    """Return the best objective so far in words."""
+    return f"best {best:.6f}" if best is not None and math.isfinite(best) else "no design yet"
+
+
 class _Boxes(ProgressColumn):
     """How many boxes of poses were looked at; nothing before the first."""
 
@@ -160,9 +130,27 @@ class _Boxes(ProgressColumn):
         return Text(f"{task.completed:,.0f} boxes of poses" if task.completed else "")
 
 
-def best_words(best: float | None) -> str:
-    """Return the best objective so far in words."""
-    return f"best {best:.6f}" if best is not None and math.isfinite(best) else "no design yet"
+def _narrow() -> BarColumn:
+    return BarColumn(bar_width=12)
+
+
+VALUE, TO_GO = "{task.fields[value]}", (TimeRemainingColumn, "to go")
+# What a bar shows behind its title, the words for the value of a report, and whether it is shown at once.
+BARS: dict[str, tuple[Sequence[Callable[[], ProgressColumn] | str], Callable[[float | None], str], bool]] = {
+    "starts": ((_narrow, MofNCompleteColumn, VALUE, TimeElapsedColumn), best_words, True),
+    "limits": (
+        (_narrow, MofNCompleteColumn, VALUE, *TO_GO),
+        lambda last: "no design" if last is None else f"{last:.6f}",
+        True,
+    ),
+    "points": ((_narrow, "{task.percentage:>3.0f} %", *TO_GO, TimeElapsedColumn), lambda _: "", False),
+    "poses": (
+        (_narrow, "{task.completed:,.0f} poses" + VALUE, *TO_GO),
+        lambda volume: "" if volume is None else f", volume {volume:.4g}",
+        False,
+    ),
+    "boxes": ((_Boxes, TimeElapsedColumn), lambda _: "", False),
+}
 
 
 class Bar:

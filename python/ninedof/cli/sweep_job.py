@@ -56,7 +56,7 @@ class Job(JobOptions):
         with run_folder(self.out, self.resume, reads) as folder:
             try:
                 cluster = nullcontext() if self.scheduler is None else dask_executor(self.scheduler)
-                with cluster as executor, self.screen.points(title) as bar:
+                with cluster as executor, self.screen.bar("points", title) as bar:
                     return call(executor=executor, out=folder / CHUNKS, progress=bar.show), folder
             except KeyboardInterrupt:
                 self.screen.print(bold("interrupted", f": {_kept(folder)}"))

@@ -120,7 +120,7 @@ def test_all_that_consoles_print_is_text(capsys, monkeypatch):
     screen = Screen(False)
     screen.print(EVIL)
     screen.print(bold(EVIL, EVIL))
-    with screen.points(EVIL) as bar:
+    with screen.bar("points", EVIL) as bar:
         bar.show(1, 1, None)
         bar.phase(EVIL)
     said = capsys.readouterr()

@@ -313,7 +313,7 @@ def test_the_bar_shows_the_time_to_go(capsys):
 
     screen, now = Screen(False), [0.0]
     screen.progress_console.get_time = lambda: now[0]
-    with screen.points("over x_p") as bar:
+    with screen.bar("points", "over x_p") as bar:
         for now[0], done in ((0.0, 0), (10.0, 10), (20.0, 20)):
             bar.show(done, 100, None)
     shown = capsys.readouterr().err

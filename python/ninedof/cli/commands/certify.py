@@ -72,7 +72,7 @@ def certify(options: CertifyOptions) -> None:
             states.append(save_certificate(so_far, begun))
 
     try:
-        with used_directory(file.parent, "run"), screen.boxes("certify") as bar:
+        with used_directory(file.parent, "run"), screen.bar("boxes", "certify") as bar:
             earlier = _earlier(file) if options.resume else None  # nobody writes it now
             remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
             certificate = result.certify(

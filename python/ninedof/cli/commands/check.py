@@ -33,7 +33,7 @@ def check(options: CheckOptions) -> Answer:
     path = options.certificate / FILE if options.certificate.is_dir() else options.certificate
     if not path.exists() and path != options.certificate:
         raise ValueError(f"{options.certificate}: got no {FILE}, expected a run folder of `ninedof optimize --certify`")
-    with Screen(options.json).points("reading the certificate") as bar:
+    with Screen(options.json).bar("points", "reading the certificate") as bar:
         result = check_certificate(path, progress=bar)
     parts: list[Any] = ["study of the certificate:", *(f"  {line}" for line in result.study)]
     parts.append(bold("Proved" if result.proved else "Refused", f": {result.words}"))

@@ -109,7 +109,7 @@ def optimize(options: OptimizeOptions) -> None:
 
 def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen) -> Comparison | Result:
     if file is None:
-        with screen.progress("the paper's problem") as bar:
+        with screen.bar("starts", "the paper's problem") as bar:
             return compare(study.starts, study.seed, progress=bar, **how)
     if study.length_note:
         screen.print(study.length_note)
@@ -117,7 +117,7 @@ def _solve(study: Study, file: Path | None, how: dict[str, Any], screen: Screen)
         low, high = (study.shown(variable, end) for end in study.variables[variable])  # type: ignore[union-attr]
         ends = amount(f"[{low:g}, {high:g}]", study.unit_of(variable))
         screen.print(f"{variable} is not given: {ends} assumed")
-    with screen.progress(file.name) as bar:
+    with screen.bar("starts", file.name) as bar:
         return solve(replace(study), progress=bar, **how)  # without the notes, which were printed
 
 

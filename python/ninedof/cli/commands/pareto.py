@@ -88,7 +88,7 @@ def pareto(options: ParetoOptions) -> None:
     name = "the paper's problem" if file is None else file.name
     if study.length_note:
         screen.print(study.length_note)
-    with run_folder(options.out, options.resume, reads) as directory, screen.limits(f"{name}, {against}") as bar:
+    with run_folder(options.out, options.resume, reads) as directory, screen.bar("limits", f"{name}, {against}") as bar:
         how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory / CHUNKS}
         front = trace_front(replace(study), against, options.value or None, options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []

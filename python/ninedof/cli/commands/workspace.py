@@ -65,7 +65,7 @@ def workspace(options: WorkspaceOptions) -> None:
         results = Finished(directory / CHUNKS, {**record, "proof": question.proof})
 
         def search() -> WorkspaceMap:
-            with screen.poses(options.archetype.replace("_", " ")) as bar:
+            with screen.bar("poses", options.archetype.replace("_", " ")) as bar:
                 return find_workspace(chosen.geometry, **question.asked, **how, progress=bar.show)
 
         result = results.result(0, WorkspaceMap, search)
@@ -79,7 +79,7 @@ def workspace(options: WorkspaceOptions) -> None:
 
         def prove() -> CertifiedWorkspace:
             asked = {name: value for name, value in question.asked.items() if name not in OF_THE_MAP}
-            with screen.boxes("proving") as bar:
+            with screen.bar("boxes", "proving") as bar:
                 return certified_workspace(chosen.geometry, **asked, **proof, **how, progress=bar)
 
         proved = results.result(1, CertifiedWorkspace, prove)
