@@ -10,16 +10,16 @@ from ninedof.paper.comparison import Comparison
 from ninedof.tables import RIGHT, Column, Line, Table
 
 TITLES = {
-    "published, read so that it gives 3.9110": "published reproduced",
-    "best with the same base and height": "same base and height",
-    "best with the base at most twice the platform": "base at most 2 x platform",
+    "published, read so that it gives 3.9110": "published\nreproduced",
+    "best with the same base and height": "same base\nand height",
+    "best with the base at most twice the platform": "base at most\n2 x platform",
 }
 
 
 def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
     """Return the published optimum beside ours, one design per column."""
     shown = [row for row in designs if row["title"] in TITLES]
-    heads = ["published as printed", *(TITLES[row["title"]] for row in shown)]
+    heads = ["published\nas printed", *(TITLES[row["title"]] for row in shown)]
 
     def line(label: str, printed: str, texts: Iterable[str]) -> Line:
         return Line(label, [printed, *texts])
@@ -42,7 +42,7 @@ def comparison_table(designs: Iterable[Mapping[str, Any]]) -> Table:
         (),
         line("condition number", f"{published.KAPPA:.4f}", (f"{row['condition_number']:.6f}" for row in shown)),
         line("below 3.9110 by", "-", ("-" if abs(gain) < 0.005 else f"{gain:.2f} %" for gain in gains)),
-        line("limits reached", "-", (", ".join(_active(row)) or "nothing" for row in shown)),
+        line("limits reached", "-", ("\n".join(_active(row)) or "nothing" for row in shown)),
     ]
     title = "The published optimum beside ours, lengths in units of l_c"
     return Table(title, [Column(), *(Column(head, "", RIGHT) for head in heads)], rows)

@@ -41,7 +41,7 @@ def _end(end: Mapping[str, Any] | None, name: str, units: Mapping[str, str]) -> 
         f"{plain_name(dim)} = {_number(value, units.get(dim, ''), 5)}" if isinstance(value, float) else f"{dim} {value}"
         for dim, value in at.items()
     )
-    return _number(end["value"], units.get(name, ""), 6), ", ".join(where)
+    return _number(end["value"], units.get(name, ""), 6), "\n".join(where)
 
 
 def _number(value: float, unit: str, digits: int) -> str:

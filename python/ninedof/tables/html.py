@@ -52,8 +52,8 @@ def table_html(table: Table) -> Html:
 
 
 def _cells(row: list[str], kinds: list[str]) -> Iterable[Html]:
-    """Yield the cells of a row: the first one names it. Names of limits and variables are words here."""
-    first, *others = (NAMES.sub(" ", text) for text in row)
+    """Yield the cells of a row: the first one names it. Names of limits and variables are words here, lines a list."""
+    first, *others = (NAMES.sub(" ", text.replace("\n", ", ")) for text in row)
     yield tag("th", first, scope="row", class_=kinds[0])
     yield from (tag("td", text, class_=kind) for text, kind in zip(others, kinds[1:], strict=True))
 
