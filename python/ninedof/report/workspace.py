@@ -24,7 +24,7 @@ def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
     asked, shown = record.asked, None
     sections = {
-        "answer": html_of(workspace_table(workspace)),
+        "answer": html_of(workspace_table(workspace, most=100)),
         "proof": proof.of_workspace(workspace, asked),
         "again": origin.of_question(asked, record),
     }

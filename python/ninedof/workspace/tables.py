@@ -19,8 +19,8 @@ STATUSES = {
 }
 
 
-def workspace_table(workspace: Any) -> Table:
-    """Return volume, largest ball and box, indices, and what ends the workspace."""
+def workspace_table(workspace: Any, most: int = SHOWN) -> Table:
+    """Return volume, largest ball and box, indices, and the limits that end the workspace, at most so many."""
     angles, unit = workspace.of_angles, "deg" if workspace.of_angles else workspace.unit
     cubed = "rad³, of 8 π² in all" if angles else workspace.unit + "³" * bool(workspace.unit)
 
@@ -39,9 +39,9 @@ def workspace_table(workspace: Any) -> Table:
     if workspace.ball_radius > 0.0:
         rows += [
             Line("largest ball: radius", place([workspace.ball_radius]), unit=unit),
-            Line("  centre", place(workspace.ball_centre), unit=unit),
+            Line("largest ball: centre", place(workspace.ball_centre), unit=unit),
             Line("largest box: sides", place(workspace.box_high - workspace.box_low), unit=unit),
-            Line("  centre", place(0.5 * (workspace.box_low + workspace.box_high)), unit=unit),
+            Line("largest box: centre", place(0.5 * (workspace.box_low + workspace.box_high)), unit=unit),
         ]
     rows += [
         (),
@@ -53,10 +53,10 @@ def workspace_table(workspace: Any) -> Table:
         (),
     ]
     shares = list(workspace.limits().items())
-    for name, share in shares[:SHOWN]:
+    for name, share in shares[:most]:
         words = "ends of the torsion" if name == "box" and angles else name.replace("_", " ")
         rows.append(Line(f"boundary by {words}", [f"{100.0 * share:.1f} %"]))
-    if (rest := sum(share for _, share in shares[SHOWN:])) > 0.0:
+    if (rest := sum(share for _, share in shares[most:])) > 0.0:
         rows.append(Line("boundary by others", [f"{100.0 * rest:.1f} %"]))
     return Table("Workspace", [Column(), Column("", "", RIGHT)], rows)
 
