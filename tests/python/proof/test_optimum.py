@@ -187,7 +187,7 @@ def test_a_small_certificate_is_checked(tmp_path, capsys):
         main(["check", str(path)])
     assert ended.value.code == 0
     said = capsys.readouterr().out
-    assert "study of the certificate: hexagonal designs with 0 < zs < zp" in said
+    assert "study of the certificate:\n  hexagonal designs with 0 < zs < zp" in said
     assert "  a1 from 0 to 60\n" in said
     assert "  radius_ratio from 0 to 2\n" in said
     head, body = path.read_bytes().split(b"\n", 2)[:2], path.read_bytes().split(b"\n", 2)[2]
