@@ -1,11 +1,7 @@
 #include "ninedof/workspace/surface.hpp"
 
-#include <pybind11/stl.h>
-
 #include "support/columns.hpp"
-#include "support/interruptible.hpp"
 #include "support/module.hpp"
-#include "support/raster.hpp"
 
 namespace ninedof::python {
 namespace {
@@ -30,18 +26,9 @@ QuadSurface surface_from(const py::object& surface) {
 }  // namespace
 
 void bind_workspace_surface(py::module_& m) {
-  m.def("surface_net", [](const Axes& axes, const Array& values, double level, double outside) {
-    const auto raster = raster_from(axes, values);
-    return points_and_faces(
-        interruptible(py::none(), [&](const Control&) { return surface_net(raster, level, outside); }));
-  });
   m.def("surface_normals",
         [](const py::object& surface) { return array_from(surface_normals(surface_from(surface))); });
   m.def("enclosed_volume", [](const py::object& surface) { return enclosed_volume(surface_from(surface)); });
-  m.def("smoothed_points", [](const py::object& surface, int rounds) {
-    const auto given = surface_from(surface);
-    return array_from(interruptible(py::none(), [&](const Control&) { return smoothed_points(given, rounds); }));
-  });
 }
 
 }  // namespace ninedof::python

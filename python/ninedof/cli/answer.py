@@ -45,7 +45,7 @@ def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
             answer.show(options.json)
 
     parsed.__name__, parsed.__doc__ = call.__name__, call.__doc__
-    parsed.__signature__ = Signature(  # type: ignore[attr-defined]
+    parsed.__signature__ = Signature(  # type: ignore[attr-defined]  # what typer reads
         [
             Parameter(name, Parameter.KEYWORD_ONLY, default=defaults[name], annotation=marks[name])
             for name in names

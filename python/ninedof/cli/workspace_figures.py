@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -63,7 +63,8 @@ def _draw_certified(
         place = float(np.clip(at, proved.low[fixed], proved.high[fixed]))
         section = _section(workspace, home, region, middle, fixed, place)
         plane = proved.section(workspace.coordinates[fixed], place)
-        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=section.plane))  # type: ignore[arg-type]
+        estimate: Any = section.plane  # of the map: _section draws no other
+        panels.append(plot.Section(plane, region=section.region, home=section.home, estimate=estimate))
     return plot.save(plot.certified_workspace(panels, workspace.unit), directory, "certified_workspace")
 
 

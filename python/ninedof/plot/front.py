@@ -86,9 +86,11 @@ def front(front: Front, sketches: int = 4, figure: Figure | None = None) -> Figu
 
 def _designs(front: Front, most: int) -> dict[int, Candidate]:
     """Return a few designs by the number of their limit, from the tightest to the loosest."""
-    good = {k: result.best for k, result in enumerate(front.results) if not math.isnan(front.objectives[k])}
+    good = {
+        k: result.best for k, result in enumerate(front.results) if result.best and not math.isnan(front.objectives[k])
+    }
     picked = np.linspace(0, len(good) - 1, min(most, len(good))).round().astype(int)
-    return {k: good[k] for k in np.array(list(good), dtype=int)[picked].tolist()}  # type: ignore[misc]
+    return {k: good[k] for k in np.array(list(good), dtype=int)[picked].tolist()}
 
 
 def _objective(axes: Any, rows: Sequence[Row], objective: str) -> None:

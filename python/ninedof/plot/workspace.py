@@ -176,7 +176,8 @@ def _layout() -> ConstrainedLayoutEngine:
 
 def _bands(percentiles: Floats, sections: Sequence[Section]) -> tuple[Floats, float | None]:
     """Return the round values between the bands of colour, and the largest value if it is beyond them."""
-    drawn = np.concatenate([section.plane.condition_number.ravel() for section in sections])  # type: ignore[union-attr]
+    planes: list[Any] = [section.plane for section in sections]  # of a map
+    drawn = np.concatenate([plane.condition_number.ravel() for plane in planes])
     of_volume = percentiles[np.isfinite(percentiles)]
     known = of_volume if of_volume.size else drawn[np.isfinite(drawn)]  # the raster goes on beyond the boundary
     if not known.size:
@@ -278,8 +279,8 @@ def _marks(axes: Any, section: Section, turn: Any, unit: str, region: str) -> No
 
 
 def _keys_of_limits(sections: Sequence[Section], kinds: Sequence[str]) -> list[Any]:
-    planes = [section.plane for section in sections]
-    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}  # type: ignore[union-attr]
+    planes: list[Any] = [section.plane for section in sections]  # of a map
+    there = {kinds[n] for s in planes for n in np.unique(s.limit[s.state == 1]).tolist() if n >= 0}
     shown = [(words, colour, dashes) for kind, (words, colour, dashes) in KINDS.items() if kind in there]
     return [style.key(colour, ls=dashes, lw=BOUNDARY, label=words) for words, colour, dashes in shown]
 

@@ -12,8 +12,6 @@ from ninedof.support.arrays import Floats
 from ninedof.support.short import short_repr
 from ninedof.workspace.field import WorkspaceField
 
-BEYOND = -1e9  # of values around a grid: so far below zero that the surface ends at the grid
-
 
 @short_repr
 class WorkspaceSurface(NamedTuple):
@@ -38,14 +36,3 @@ class WorkspaceSurface(NamedTuple):
 def surface_of(field: WorkspaceField) -> WorkspaceSurface:
     """Return the surface of a field, at the level of its allowed share that keeps the volume."""
     return WorkspaceSurface(*_core.workspace_surface(field))
-
-
-def closed_surface(values: Floats, low: Floats, high: Floats) -> WorkspaceSurface:
-    """Return the surface about the points of a grid from low to high where values are positive; it ends at the grid."""
-    axes = [np.linspace(a, b, n) for a, b, n in zip(low, high, values.shape, strict=True)]
-    return WorkspaceSurface(*_core.surface_net(axes, values, 0.0, BEYOND))
-
-
-def smoothed(surface: WorkspaceSurface, rounds: int = 3) -> Floats:
-    """Return the points, each moved half way to the mean of its neighbours some times: for the eye, not for volumes."""
-    return _core.smoothed_points(surface, rounds)

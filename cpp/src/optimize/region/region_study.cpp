@@ -65,8 +65,8 @@ class RegionStudy {
     return !out_.result.candidates.empty() && !out_.result.interrupted && out_.result.status != Status::unbounded;
   }
 
-  /// Follows every optimum of the poses alone that may still become the best. The poses that hold the best design so far
-  /// are imposed on the next: a start that leads to the same design is known by its first round.
+  /// Follows every optimum of the poses alone that may still become the best. The poses that hold the best design so
+  /// far are imposed on the next: a start that leads to the same design is known by its first round.
   void follow_all() {
     best_ = {};
     Imposed from = first_;

@@ -11,7 +11,7 @@ namespace ninedof {
 namespace {
 
 // A multi-start search begins with strong smoothing, which merges many starts. From a start near a minimum the first
-// smoothing is only as strong as the distance to it requires: the result stays near the start, and few steps are needed.
+// smoothing is only as strong as the distance to it requires: the result stays near the start, after few steps.
 constexpr std::array close{1e-4, 1e-6, 1e-8};
 constexpr std::array near{3e-3, 1e-4, 1e-6, 1e-8};
 constexpr std::array fine{3e-2, 3e-3, 1e-4, 1e-6, 1e-8};
