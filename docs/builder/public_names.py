@@ -25,7 +25,7 @@ ROOMS = {
     "sweep": "Sweeps",
     "atlas": "Many designs at once",
     "paper": "The paper",
-    "runs": "Files and run folders",
+    "records": "Files and run folders",
     "export": "Exports",
     "report": "The report",
     "viewer": "The viewer",

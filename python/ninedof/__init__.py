@@ -62,14 +62,14 @@ from ninedof.proof.bounds import (
 )
 from ninedof.proof.machine_record import LimitProof, MachineCertificate
 from ninedof.proof.optimum import OptimumProof, check_certificate, prove_optimum
+from ninedof.records.certificate import load_certificate
+from ninedof.records.design_file import Design
+from ninedof.records.load import load, save
 from ninedof.redundancy.redundancy import InternalPoint, InternalPointStatus, best_internal_path, best_internal_point
 from ninedof.redundancy.redundancy_map import InternalPointMap, MapAudit, best_internal_map
 from ninedof.report.report import report
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.runs.design_file import Design
-from ninedof.runs.machine_file import load_certificate
-from ninedof.runs.objects import load, save
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.singularity.nearest_singularity import NearestSingularity, nearest_singularity

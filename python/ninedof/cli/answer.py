@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, fields
 from inspect import Parameter, Signature, get_annotations
 from typing import Any, NamedTuple, get_type_hints
 
@@ -32,8 +32,6 @@ class Answer(NamedTuple):
 def command(call: Callable[..., Answer | None]) -> Callable[..., object]:
     """Return a command of a call that takes a struct of options; options that it shares with others come last."""
     kind: Any = next(iter(get_type_hints(call).values()))
-    if not isinstance(kind, type) or not is_dataclass(kind):
-        return call
     marks = get_type_hints(kind, include_extras=True)
     defaults = {one.name: Parameter.empty if one.default is MISSING else one.default for one in fields(kind)}
     names = dict.fromkeys(name for part in kind.__mro__ for name in get_annotations(part))

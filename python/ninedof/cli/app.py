@@ -15,7 +15,6 @@ from ninedof.cli import commands
 from ninedof.cli.answer import command
 from ninedof.cli.ending import ended
 from ninedof.cli.interruption import interruptible
-from ninedof.cli.remembered import remembering
 from ninedof.support.command import running
 
 PROGRAM = "ninedof"
@@ -63,11 +62,11 @@ _register()
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end with its exit status; an error is one line on standard error."""
-    given = list(sys.argv[1:] if arguments is None else arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
     if not os.environ.get("COLUMNS", "1").strip("0"):
         del os.environ["COLUMNS"]  # nothing can be written on no columns: as wide as the terminal
-    own_option = bool(given) and given[0] in ("-h", "--help", "--version")
-    if not given or given[0].endswith(".toml") or (given[0].startswith("-") and not own_option):
-        given.insert(0, "optimize")
-    with interruptible(), running(PROGRAM, given), remembering(given):  # its last words while the folder is ours
-        raise SystemExit(ended(lambda: app(given, prog_name=PROGRAM, standalone_mode=False), given))
+    own_option = bool(words) and words[0] in ("-h", "--help", "--version")
+    if not words or words[0].endswith(".toml") or (words[0].startswith("-") and not own_option):
+        words.insert(0, "optimize")
+    with interruptible(), running(PROGRAM, words):
+        raise SystemExit(ended(lambda: app(words, prog_name=PROGRAM, standalone_mode=False), words))

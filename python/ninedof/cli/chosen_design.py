@@ -14,10 +14,10 @@ from ninedof.design.study import Study
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
 from ninedof.pareto import Front
+from ninedof.records.design_file import Design, hexagonal_design
+from ninedof.records.load import load
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.runs.design_file import Design, hexagonal_design
-from ninedof.runs.objects import load
 from ninedof.support.arrays import Floats
 
 

@@ -1,7 +1,4 @@
-"""How a command ends that an error ends: one line on standard error, and the exit status that says whose matter it is.
-
-`screen` has the table of statuses.
-"""
+"""Maps errors of a command to exit statuses, which `screen` lists, and one line on standard error."""
 
 from __future__ import annotations
 
@@ -10,42 +7,54 @@ import sys
 from collections.abc import Callable, Sequence
 from types import TracebackType
 
-from typer import BadParameter
+from typer import Abort, BadParameter
 
-from ninedof.cli.screen import BAD_INPUT, DONE, FAILED, INTERRUPTED, NO_RESULT, REFUSED, status_of
-from ninedof.cli.streams import steady
+from ninedof.cli.screen import BAD_INPUT, FAILED, INTERRUPTED, REFUSED, status_of
+from ninedof.support.command import how_to_go_on
 from ninedof.support.extras import MissingExtra
-from ninedof.support.printable import one_line
+from ninedof.support.printable import escaped, one_line
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ClickException = BadParameter.__mro__[2]  # what typer raises for options that it cannot read
 
 
-def ended(work: Callable[[], object], given: Sequence[str]) -> int:
+def ended(work: Callable[[], object], arguments: Sequence[str]) -> int:
     """Do some work; return the exit status, after one line on standard error where an error ended it.
 
-    Consoles never end it: the line and status 1 for standard output that could not be written come after the work. A
-    reader that goes away is no error.
+    Where Ctrl-C or the time ended the work, the line to type to go on follows.
     """
-    with steady() as output:
-        try:
-            status = status_of(work())
-        except SystemExit as error:
-            status = status_of(error.code)
-        except KeyboardInterrupt:
-            status = _said("interrupted", INTERRUPTED)
-        except Exception as error:  # whatever it is: the table of statuses has a row for it
-            if sys.flags.dev_mode:
-                raise
-            status = _said(_words(error, given), _status(error))
-        output.flush()
-        if output.failure is not None and status in (DONE, NO_RESULT):
-            status = _said(f"standard output: cannot be written ({output.failure.strerror})", REFUSED)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # characters that the encoding of a console does not have
+    try:
+        status = status_of(work())
+    except SystemExit as error:
+        status = status_of(error.code)
+    except (KeyboardInterrupt, Abort):  # the command line makes one of the other
+        status = INTERRUPTED
+    except Exception as error:  # whatever it is: the table of statuses has a row for it
+        if sys.flags.dev_mode:
+            raise
+        status = _failed(_words(error, arguments), _status(error))
+    if words := how_to_go_on(interrupted=status == INTERRUPTED):
+        print(escaped(f"ninedof: {words}"), file=sys.stderr)
+    return _flushed(status)
+
+
+def _flushed(status: int) -> int:
+    """Flush standard output; a reader that went away is no error. Python would fail to write it again as it ends."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(error, BrokenPipeError):
+            return _failed(f"standard output: cannot be written ({error.strerror})", REFUSED)
     return status
 
 
-def _said(words: str, status: int) -> int:
-    sys.stderr.write(f"ninedof: {one_line(words)}\n")
+def _failed(words: str, status: int) -> int:
+    print(f"ninedof: {one_line(words)}", file=sys.stderr)
     return status
 
 
@@ -55,7 +64,7 @@ def _status(error: Exception) -> int:
     return REFUSED if isinstance(error, OSError) else FAILED
 
 
-def _words(error: Exception, given: Sequence[str]) -> str:
+def _words(error: Exception, arguments: Sequence[str]) -> str:
     """Return what to say: of an error that is not the user's, what kind it is."""
     if isinstance(error, ClickException):
         context = getattr(error, "ctx", None)
@@ -64,10 +73,14 @@ def _words(error: Exception, given: Sequence[str]) -> str:
     notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
     if isinstance(error, OSError):
         files = [os.fsdecode(file) for file in (error.filename, error.filename2) if isinstance(file, str | bytes)]
-        words = f"{' and '.join(files)}: {error.strerror}" if files and error.strerror else str(error) or repr(error)
+        words = (
+            f"{' and '.join(files)}: {error.strerror}"
+            if files and error.strerror
+            else error.strerror or str(error) or repr(error)
+        )
         return words + notes
     if _status(error) == BAD_INPUT:
-        return as_typed(str(error), given)
+        return as_typed(str(error), arguments)
     if isinstance(error, MemoryError):
         return f"out of memory{f' ({error})' if str(error) else ''}{notes}"
     if isinstance(error, RecursionError):
@@ -84,9 +97,9 @@ def _is_ours(error: Exception) -> bool:
     return at is not None and os.path.abspath(at.tb_frame.f_code.co_filename).startswith(PACKAGE + os.sep)
 
 
-def as_typed(message: str, given: Sequence[str]) -> str:
+def as_typed(message: str, arguments: Sequence[str]) -> str:
     """Return a message on an argument that begins with its name, "leg_mass: got 0", with the option as it was typed."""
     name, _, rest = message.partition(": ")
     option = f"--{name.replace('_', '-')}"
-    typed = any(word == option or word.startswith(f"{option}=") for word in given)
+    typed = any(word == option or word.startswith(f"{option}=") for word in arguments)
     return f"{option}: {rest}" if typed else message

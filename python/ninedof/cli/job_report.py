@@ -7,10 +7,10 @@ from pathlib import Path
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.screen import Screen
+from ninedof.records.record import FILE as RECORD
 from ninedof.report.report import FILE, report
-from ninedof.runs.command_file import FILE as COMMAND
-from ninedof.runs.folder import FILE as RECORD
 from ninedof.support.printable import one_line
+from ninedof.support.store import QUESTION
 
 Draw = Callable[[Path], Sequence[Path]]
 FIGURES = (".png", ".svg", ".pdf")
@@ -61,6 +61,6 @@ def folder_words(folder: Path) -> str:
     """Return what a run folder has in it."""
     names = sorted(path.name for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
     stems = [Path(name).stem for name in names if name.endswith(FIGURES[0])]
-    others = [name for name in names if not name.endswith(FIGURES) and name not in (RECORD, FILE, COMMAND)]
+    others = [name for name in names if not name.endswith(FIGURES) and name not in (RECORD, FILE, QUESTION)]
     figures = [f"figure{'s' * (len(stems) > 1)} {', '.join(stems)} (PNG, SVG, PDF)"] if stems else []
     return f"run folder {folder}: {', '.join([RECORD, *others, *figures, *([FILE] if FILE in names else [])])}"

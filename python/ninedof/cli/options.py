@@ -27,11 +27,13 @@ Lc = Annotated[
     typer.Option(help="Characteristic length: a number, optimal, natural, mean_leg or platform_radius; the design's."),
 ]
 StudyFile = Annotated[Path | None, typer.Argument(help="A study file (TOML). The paper's study if none is given.")]
-Out = Annotated[Path | None, typer.Option(help="Run folder to create; runs/<time> by default.")]
+Out = Annotated[
+    Path | None,
+    typer.Option(help="Run folder; runs/<time> by default. The same command goes on with an unfinished run there."),
+]
 Starts = Annotated[int | None, typer.Option(help="Starts, in place of the study's.")]
 Figures = Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")]
 Report = Annotated[bool, typer.Option("--report/--no-report", help="Write the report, with the figures.")]
-Resume = Annotated[bool, typer.Option("--resume", help="Continue the interrupted run in --out.")]
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a Dask scheduler, as tcp://host:8786; its workers compute the chunks.")
 ]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from rich.console import Console
@@ -60,6 +60,10 @@ class _Plain(Console):
     def __init__(self, stderr: bool = False) -> None:
         super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False)
 
+    def on_broken_pipe(self) -> None:
+        """Print no more where the reader went away; the run goes on."""
+        self.quiet = True
+
     def render_str(self, text: str, **options: Any) -> Text:
         return super().render_str(escaped(text), **options)
 
@@ -86,7 +90,8 @@ class Screen:
     def data(self, value: Any) -> None:
         """Print the result as JSON with --json."""
         if self.json:
-            print(encode(value))
+            with suppress(BrokenPipeError):
+                print(encode(value))
 
     def say(self, doing: str) -> None:
         """Print the current step, such as drawing."""

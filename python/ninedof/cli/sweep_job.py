@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from asyncio import CancelledError
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import nullcontext
@@ -12,28 +11,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import CHUNKS, run_folder
-from ninedof.cli.options import JobOptions, Resume, Scheduler
-from ninedof.cli.screen import INTERRUPTED, Screen, bold
+from ninedof.cli.long_run import run_folder
+from ninedof.cli.options import JobOptions, Scheduler
+from ninedof.cli.screen import Screen
 from ninedof.design.indices import size_of
-from ninedof.runs.command_file import Input
-from ninedof.runs.folder import FILE as RECORD
-from ninedof.runs.folder import write_run
+from ninedof.records.record import write_run
 from ninedof.support.arguments import LONGEST
 from ninedof.support.blocks import blocks
 from ninedof.sweep import SweepResult
-from ninedof.sweep.chunks import STATE
 from ninedof.sweep.cluster import dask_executor, is_of_cluster
 from ninedof.tables import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-AGAIN = "; the same command with --out {} --resume continues the run"
 MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 
 
@@ -41,7 +35,6 @@ MOST_PRINTED = 10_000  # numbers in JSON; larger results are in the file only
 class Job(JobOptions):
     """The options that a sweep and an atlas share."""
 
-    resume: Resume = False
     scheduler: Scheduler = None
 
     @cached_property
@@ -49,25 +42,22 @@ class Job(JobOptions):
         """Where it prints."""
         return Screen(self.json)
 
-    def compute(
-        self, call: Callable[..., SweepResult], title: str, reads: Input | None = None
-    ) -> tuple[SweepResult, Path]:
+    def compute(self, call: Callable[..., SweepResult], title: str) -> tuple[SweepResult, Path]:
         """Compute with a progress bar; return the result and the run folder, which keeps finished chunks."""
-        with run_folder(self.out, self.resume, reads) as folder:
+        with run_folder(self.out) as folder:
             try:
                 cluster = nullcontext() if self.scheduler is None else dask_executor(self.scheduler)
                 with cluster as executor, self.screen.bar("points", title) as bar:
-                    return call(executor=executor, out=folder / CHUNKS, progress=bar.show), folder
+                    return call(executor=executor, out=folder, progress=bar.show), folder
             except KeyboardInterrupt:
-                self.screen.print(bold("interrupted", f": {_kept(folder)}"))
                 self.screen.data({"interrupted": True, "run": str(folder)})
+                raise
             except (Exception, CancelledError) as error:
                 if self.scheduler is None or not is_of_cluster(error):
                     raise
                 reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-                kept = _kept(folder, AGAIN)
-                raise RuntimeError(f"--scheduler: lost {self.scheduler} ({reason[:LONGEST]}); {kept}") from None
-        raise typer.Exit(INTERRUPTED)
+                notes = "".join(f". {note}" for note in getattr(error, "__notes__", ()))
+                raise RuntimeError(f"--scheduler: lost {self.scheduler} ({reason[:LONGEST]}){notes}") from None
 
     def write(
         self,
@@ -85,25 +75,10 @@ class Job(JobOptions):
 
             return [file for name, figure in draw() for file in plot.save(figure, place, name)]
 
-        write = partial(write_run, result, folder, results=data)
-        try:
-            record = write_job(
-                self.screen, Answer([table], data), write, drawn if self.figures else None, self.report and self.figures
-            )
-        except OSError as error:
-            if not (folder / RECORD).is_file():
-                kept = _kept(folder, AGAIN)
-                error.add_note(f"{kept[0].upper()}{kept[1:]}.")
-            raise
+        write, report = partial(write_run, result, folder, results=data), self.report and self.figures
+        record = write_job(self.screen, Answer([table], data), write, drawn if self.figures else None, report)
         self.screen.print(folder_words(folder))
         self.screen.data({**data, "record": str(record)})
-
-
-def _kept(folder: Path, more: str = "") -> str:
-    """Return what is kept of a run that has no record."""
-    if not (folder / CHUNKS / STATE).is_file():
-        return "nothing is kept of what was computed"
-    return f"finished chunks are kept in {folder}{more.format(shlex.quote(str(folder)))}"
 
 
 def describe(result: SweepResult, name: str) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from ninedof.cli.chosen_design import Chosen
-from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Resume, Threads, Three, Two
+from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, Threads, Three, Two
 from ninedof.cli.posed import length_at_home
 from ninedof.design.indices import computed
 from ninedof.design.leg_limits import SPREADS
@@ -111,7 +111,6 @@ class WorkspaceOptions(JobOptions):
     ] = False
     gap: Annotated[float | None, typer.Option(help="Of the bounds, relative to the upper one; 0.05 by default.")] = None
     time: Annotated[float | None, typer.Option(help="Seconds for the proof; 60 by default.")] = None
-    resume: Resume = False
     threads: Threads = None
 
 

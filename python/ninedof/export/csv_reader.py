@@ -18,7 +18,7 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import cleaned, did_you_mean, shown
 from ninedof.support.arrays import Floats
-from ninedof.support.reading import TOML, read_text
+from ninedof.support.files import read_text
 from ninedof.support.units import unit_argument
 
 
@@ -69,7 +69,7 @@ def read(path: str | os.PathLike[str]) -> Read:
 
 def _lines(file: str) -> list[Row]:
     try:
-        reader = csv.reader(read_text(file, TOML).split("\n"))
+        reader = csv.reader(read_text(file).split("\n"))
         rows = [Row(f"{file}, line {reader.line_num}", [cleaned(entry.strip()) for entry in row]) for row in reader]
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None

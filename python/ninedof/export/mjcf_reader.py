@@ -21,13 +21,12 @@ from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import TRIPLES, Geometry
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
-from ninedof.support.reading import TOML, read_file
 from ninedof.support.units import unit_argument
 
 
 def read(path: Path) -> Read:
     """Return the design; ValueError if the file is not such a file or lacks a part."""
-    data = read_file(path, TOML)
+    data = path.read_bytes()
     try:
         _without_entities(data)
         root = ElementTree.fromstring(data)  # noqa: S314 what defusedxml refuses is refused the line before

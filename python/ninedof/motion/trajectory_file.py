@@ -13,7 +13,7 @@ import numpy as np
 from ninedof.motion.rotations import from_euler, from_quaternions, from_vectors
 from ninedof.support.arguments import cleaned, path_argument, shown
 from ninedof.support.arrays import Floats
-from ninedof.support.reading import TABLE, read_text
+from ninedof.support.files import read_text
 
 PLACE = ("t", "x", "y", "z")
 QUATERNION = ("qw", "qx", "qy", "qz")
@@ -43,7 +43,7 @@ def read_trajectory(path: str | os.PathLike[str], unit: str) -> Columns:
     """Read a file; raise ValueError naming file, line and column, and where it names another unit of lengths."""
     file = str(path_argument("path", path))
     try:
-        reader = csv.reader(read_text(path, TABLE).split("\n"))
+        reader = csv.reader(read_text(path).split("\n"))
         rows = [(reader.line_num, row) for row in reader if any(row) and not row[0].lstrip().startswith("#")]
     except OSError as error:
         raise ValueError(f"{file}: cannot be read ({error.strerror or error})") from None

@@ -13,7 +13,6 @@ from time import perf_counter
 from typing import Any
 
 from ninedof import _core
-from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.pieces import Pieces
 from ninedof.optimize.region_report import RegionReport
@@ -24,6 +23,7 @@ from ninedof.support.arguments import choice, flag, instance, number, path_argum
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, phase, progress_argument
 from ninedof.support.short import short_repr
+from ninedof.support.store import Store
 
 LONGEST = 600.0  # seconds of a proof
 

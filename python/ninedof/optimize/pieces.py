@@ -8,20 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
-from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status, result_from
 from ninedof.proof.optimum import OptimumProof
 from ninedof.support.files import Arrays
 from ninedof.support.json import decode, encode
+from ninedof.support.store import Store
 
-KEPT, CERTIFICATE = "result", "certificate"  # names of a piece in the store: the bytes of its JSON, and of a proof
+WORDS, CERTIFICATE = "words", "certificate"  # names of a piece: its JSON, and the bytes of a certificate
 
 
 class Pieces:
@@ -33,42 +31,32 @@ class Pieces:
 
     def result(self, study: Study, compute: Callable[[], Result], time_limit: float = math.inf) -> Result:
         """Return the result of a study; one that was interrupted, or that the time limit ended, is no piece."""
-        if (found := self._read()) is not None:
-            return result_from(study, _data(found))
+        if (piece := self._read()) is not None:
+            return result_from(study, decode(str(piece[WORDS])))
         result = compute()
         if result.interrupted or (result.status == Status.STOPPED and result.seconds >= time_limit):
             self._store = None  # nothing follows from it that is worth keeping
-        else:
-            self._keep({KEPT: _bytes(result.to_dict())})
+        self._keep({WORDS: np.array(encode(result.to_dict(), indent=None))})
         return result
 
     def proof(self, compute: Callable[[], OptimumProof]) -> OptimumProof:
         """Return a proof with its certificate."""
-        if (found := self._read()) is not None:
-            return replace(OptimumProof.from_dict(_data(found)), certificate=found[CERTIFICATE].tobytes())
+        if (piece := self._read()) is not None:
+            proof = OptimumProof.from_dict(decode(str(piece[WORDS])))
+            return replace(proof, certificate=piece[CERTIFICATE].tobytes())
         proof = compute()
         if not proof.interrupted:
-            data = {KEPT: _bytes(proof.to_dict()), CERTIFICATE: np.frombuffer(proof.certificate, dtype=np.uint8)}
-            self._keep(data)
+            words = np.array(encode(proof.to_dict(), indent=None))
+            self._keep({WORDS: words, CERTIFICATE: np.frombuffer(proof.certificate, dtype=np.uint8)})
         return proof
 
     def _read(self) -> Arrays | None:
-        """Return the next piece, if it was kept: those behind one that is missing are not looked at."""
-        found = None if self._store is None else self._store.read(self._next)
-        if found is not None:
-            self._next += 1
-        return found
+        """Return the next piece, if it was kept: those behind one that is missing are not read."""
+        piece = None if self._store is None else self._store.read(self._next)
+        self._next += piece is not None
+        return piece
 
     def _keep(self, arrays: Arrays) -> None:
         if self._store is not None:
-            with suppress(OSError):  # a full disk: the result is worth more than its piece
-                self._store.write(self._next, arrays)
+            self._store.keep(self._next, arrays)
             self._next += 1
-
-
-def _bytes(value: Any) -> np.ndarray[Any, np.dtype[np.uint8]]:
-    return np.frombuffer(encode(value, indent=None).encode(), dtype=np.uint8)
-
-
-def _data(found: Arrays) -> Any:
-    return decode(found[KEPT].tobytes().decode())

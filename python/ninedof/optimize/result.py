@@ -17,9 +17,8 @@ from ninedof.optimize.agreement import agreement_words
 from ninedof.optimize.prices import price_words, reached_words
 from ninedof.optimize.region_report import RegionReport
 from ninedof.optimize.tables import candidates_table
-from ninedof.proof.machine import certify
+from ninedof.proof.machine import certify, machine_digest
 from ninedof.proof.machine_record import MachineCertificate
-from ninedof.proof.machine_seal import belongs, machine_digest
 from ninedof.proof.optimum import OptimumProof
 from ninedof.proof.placed import rule_of
 from ninedof.redundancy.redundancy import best_internal_point
@@ -274,7 +273,7 @@ class Result:
     def is_certified_by(self, certificate: MachineCertificate) -> bool:
         """Whether a certificate is one of this design at these poses, as `certify` returned it."""
         instance("certificate", certificate, MachineCertificate)
-        return self.best is not None and belongs(certificate, machine_digest(self.study, *self._machine()))
+        return self.best is not None and certificate.machine == machine_digest(self.study, *self._machine())
 
     def _machine(self) -> tuple[Geometry, Configuration, float]:
         best = self.best

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
-from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status, result_from
@@ -18,9 +16,10 @@ from ninedof.pareto.limited import limited, unit_of
 from ninedof.support.angles import degrees_of
 from ninedof.support.json import decode, encode
 from ninedof.support.progress import Progress
+from ninedof.support.store import Store
 from ninedof.support.units import amount
 
-KEPT = "result"  # name of a result in the store: the bytes of its JSON
+WORDS = "words"  # name of a result in the store: its JSON
 
 
 class Interrupted(Exception):  # ends the computation, not an error
@@ -83,14 +82,12 @@ class Sweep:
         number = self._optimized
         self._optimized += 1
         if self._store is not None and (kept := self._store.read(number)) is not None:
-            return result_from(study, decode(kept[KEPT].tobytes().decode())), False
+            return result_from(study, decode(str(kept[WORDS]))), False
         result = optimize(study, threads=self._threads, warm=warm or None)
         if result.interrupted:
             raise Interrupted
         if self._store is not None:
-            data = encode(result.to_dict(), indent=None).encode()
-            with suppress(OSError):  # a full disk: the result is worth more than its piece
-                self._store.write(number, {KEPT: np.frombuffer(data, dtype=np.uint8)})
+            self._store.keep(number, {WORDS: np.array(encode(result.to_dict(), indent=None))})
         return result, True
 
     def both_ways(self, limits: Sequence[float]) -> None:

@@ -12,7 +12,6 @@ from time import perf_counter
 
 import numpy as np
 
-from ninedof.chunks.store import Store
 from ninedof.design.study import Study
 from ninedof.optimize.result import Status
 from ninedof.pareto.front import Front, objective_of
@@ -23,6 +22,7 @@ from ninedof.support.angles import degrees_of
 from ninedof.support.arguments import finite, items, path_argument, shown, whole
 from ninedof.support.arrays import thread_argument
 from ninedof.support.progress import Progress, progress_argument
+from ninedof.support.store import Store
 
 MOST_POINTS = 1000
 FIRST = 0.6  # share of the points that is evenly spaced; the others go where the front is steep

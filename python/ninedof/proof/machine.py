@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from hashlib import sha256
 from time import perf_counter
 from typing import Any
+
+import numpy as np
 
 from ninedof import _core
 from ninedof.design.limits import label
@@ -13,7 +16,6 @@ from ninedof.design.region_stack import places_o
 from ninedof.design.study import Study
 from ninedof.proof.machine_limits import met_at, proved_limits
 from ninedof.proof.machine_record import PROVED, UNDECIDED, VIOLATED, LimitProof, MachineCertificate
-from ninedof.proof.machine_seal import belongs, machine_digest, sealed
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
@@ -64,7 +66,7 @@ def certify(
         Where O is in the region; needed where the study places it anew at every pose, unless `resume` has it. A
         function without arguments is called for it once all else is known to fit.
     resume : MachineCertificate, optional
-        An earlier one of the same design, as it was written, whose boxes left are to be gone on with.
+        An earlier one of the same design, whose boxes left are to be gone on with.
     progress : callable, optional
         Called with boxes done, 0, and the worst condition number met; one with a method `phase` is told what begins.
     keep : callable, optional
@@ -98,11 +100,8 @@ def certify(
             f"resume: got a certificate over {resume.where}, expected one over {_where(study, only_neutral)}"
         )
     digest = machine_digest(study, geometry, configurations, characteristic_length)
-    if resume is not None and not belongs(resume, digest):
-        raise ValueError(
-            "resume: got a certificate of another machine or one that was changed, expected one of this machine as it "
-            "was written"
-        )
+    if resume is not None and resume.machine != digest:
+        raise ValueError("resume: got a certificate of another machine, expected one of this machine")
     begin = perf_counter()
     followed = _rule(region, configurations[0], rule, resume)
     end = perf_counter() + seconds  # finding a rule does not count for the time limit
@@ -138,7 +137,7 @@ def certify(
 
     def made(state: _core.ConditionState, interrupted: bool) -> MachineCertificate:
         of_condition = [_condition_proof(*bound, state, only_neutral, tolerance) for bound in wanted.items()]
-        certificate = MachineCertificate(
+        return MachineCertificate(
             where=_where(study, only_neutral),
             unit=study.unit,
             limits=(*limits, *of_condition, *at_neutral),
@@ -153,12 +152,24 @@ def certify(
             seconds=perf_counter() - begin,
             interrupted=interrupted,
             rule=followed,
+            machine=digest,
         )
-        return sealed(certificate, digest)
 
     kept = None if keep is None else lambda state: keep(made(state, True))
     state = _core.search_condition(machine, settings(list(wanted.values())), _state_of(resume), kept, progress)
     return made(state, state.interrupted)
+
+
+def machine_digest(
+    study: Study, geometry: Geometry, configurations: Configuration, characteristic_length: float
+) -> str:
+    """Return a digest of every number on which a proof of the condition number depends."""
+    region = study.objective.region
+    digest = sha256(repr((float(characteristic_length), region and region.for_core())).encode())
+    joints = (geometry.base_external, geometry.base_internal, geometry.platform_external, geometry.platform_internal)
+    for array in (*joints, configurations.position, configurations.rotation, configurations.internal_point):
+        digest.update(repr(np.asarray(array, float).tolist()).encode())
+    return digest.hexdigest()
 
 
 def _state_of(earlier: MachineCertificate | None) -> _core.ConditionState:

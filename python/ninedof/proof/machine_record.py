@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 from ninedof import _core
 from ninedof.proof.point_rule import PointRule
 from ninedof.robot.leg_names import LEGS
-from ninedof.support.arguments import flag, known_keys, number, table, text, whole
+from ninedof.support.arguments import flag, number, table, text, whole
 from ninedof.support.fields import entries_of
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 
-FORMAT = "ninedof-machine-certificate-1"
+FORMAT = "ninedof-machine-certificate-2"
 PROVED, VIOLATED, UNDECIDED = "proved", "violated", "undecided"
 
 
@@ -39,15 +39,15 @@ class Met:
         if self.listed is not None:
             return f"pose {self.listed} of the study" if self.listed else "the neutral pose"
         shift = ", ".join(f"{x:.5g}" for x in self.shift)
-        said = [f"p shifted by {amount(f'({shift})', unit)}"]
+        words = [f"p shifted by {amount(f'({shift})', unit)}"]
         vectors = [
             "(" + ", ".join(f"{math.degrees(x) + 0.0:.4g}" for x in turn) + ")°"
             for turn in (self.tilt, (0.0, 0.0, self.yaw))
             if any(turn)
         ]
         if vectors:
-            said.append("turned " + " after ".join(vectors))
-        return ", ".join(said)
+            words.append("turned " + " after ".join(vectors))
+        return ", ".join(words)
 
 
 @short_repr
@@ -122,8 +122,8 @@ class MachineCertificate:
     interrupted: bool = False
     rule: PointRule | None = None
     """Where O is, if the study places it anew at every pose of a region: all of this is proved of O placed by it."""
-    seal: str = ""
-    """Of the machine, its poses, and what another run goes on with: only that of the same machine, unchanged, does."""
+    machine: str = ""
+    """Digest of the machine and its poses: another run goes on with the certificate of the same machine only."""
 
     @property
     def proved(self) -> bool:
@@ -146,14 +146,14 @@ class MachineCertificate:
                 "What is proved holds for this rule. With O placed for the least condition number, that is at no "
                 "pose larger.",
             )
-        kept = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
+        proved = [f"{one.name.replace('_', ' ')} {one.side}" for one in self.limits[1:] if one.answer == PROVED]
         if self.limits and self.limits[0].answer == PROVED:
             out.append(
                 "Proved: none of these poses is singular, and the machine never leaves its side of a singularity."
             )
-        if kept:
-            limits = "the limit" if len(kept) == 1 else "the limits"
-            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(kept)}.")
+        if proved:
+            limits = "the limit" if len(proved) == 1 else "the limits"
+            out.append(f"Proved, up to {self.tolerance:g} of each: {limits} {', '.join(proved)}.")
         if self.condition[0] > 0.0:
             out.append(
                 f"The worst condition number met is {outward(self.condition[0], False)}, at "
@@ -191,16 +191,11 @@ class MachineCertificate:
         Raises
         ------
         ValueError
-            If it is none, or not whole.
+            If it is not whole.
 
         """
-        form = table("certificate", data).get("format")
-        if not isinstance(form, str) or form != FORMAT:
-            raise ValueError(f"certificate: got no {FORMAT!r} mark, expected a certificate written by ninedof")
-        names = [field.name for field in fields(cls)]
-        known_keys("certificate", data, [*names, "format", "proved"])
-        found = entries_of(cls, data, skipped=["rule"])
-        return cls(**found, rule=PointRule.from_dict(data["rule"]) if data.get("rule") is not None else None)
+        rule = table("certificate", data).get("rule")
+        return cls(**entries_of(cls, data, skipped=["rule"]), rule=None if rule is None else PointRule.from_dict(rule))
 
     def __str__(self) -> str:
         """Return the sentences."""

@@ -16,7 +16,6 @@ from ninedof.support.arrays import thread_argument
 from ninedof.support.fields import entries_of
 from ninedof.support.files import write_whole
 from ninedof.support.progress import Progress, progress_argument
-from ninedof.support.reading import PROOF, read_file
 from ninedof.support.short import short_repr
 
 FILE = "optimum.certificate"
@@ -216,9 +215,8 @@ def check_certificate(path: str | os.PathLike[str], *, progress: Progress | None
         If the file cannot be read.
 
     """
-    path_argument("path", path)
     try:
-        data = read_file(path, PROOF)
+        data = path_argument("path", path).read_bytes()
     except OSError as error:
         raise ValueError(f"certificate: got {path!s}, expected a file that can be read ({error.strerror})") from None
     progress_argument(progress)

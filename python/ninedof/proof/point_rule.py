@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,12 +12,11 @@ from numpy.typing import ArrayLike
 from ninedof import _core
 from ninedof.motion.rotations import from_vectors
 from ninedof.robot.configuration import Configuration
-from ninedof.support.arguments import table
 from ninedof.support.arrays import Floats
+from ninedof.support.fields import made
 from ninedof.support.short import short_repr
 
 Six = tuple[float, ...]
-MOST_TERMS, HIGHEST = 1000, 6
 
 
 @short_repr
@@ -115,7 +112,7 @@ class PointRule:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values."""
-        return {**self.__dict__, "digest": self.digest}
+        return dict(self.__dict__)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> PointRule:
@@ -124,45 +121,10 @@ class PointRule:
         Raises
         ------
         ValueError
-            If it is not whole, or has been changed: what was proved does not hold for another rule.
+            If it is not whole.
 
         """
-        table("rule", data)
-        try:
-            out = cls(
-                _three(data["position"]),
-                tuple(_three(row) for row in data["rotation"]),
-                _three(data["internal_point"]),
-                tuple(float(x) for x in data["scale"]),
-                tuple(tuple(int(n) for n in row) for row in data["powers"]),
-                tuple(_three(row) for row in data["coefficients"]),
-            )
-        except (KeyError, TypeError, ValueError, OverflowError, IndexError) as error:
-            raise ValueError(f"rule: got one without {error}, expected a whole one") from None
-        if not out._whole():
-            raise ValueError("rule: got terms that do not fit each other, expected a whole one")
-        if out.digest != data.get("digest"):
-            raise ValueError("rule: got one that was changed since it was proved, expected that of the certificate")
-        return out
-
-    @property
-    def digest(self) -> str:
-        """What tells this rule from every other."""
-        numbers = [*self.position, *sum(self.rotation, ()), *self.internal_point, *self.scale]
-        numbers += [float(n) for row in self.powers for n in row] + [x for row in self.coefficients for x in row]
-        return hashlib.sha256(struct.pack(f"<{len(numbers)}d", *numbers)).hexdigest()
-
-    def _whole(self) -> bool:
-        terms = len(self.powers)
-        return (
-            len(self.rotation) == 3
-            and len(self.scale) == 6
-            and 0 < terms == len(set(self.powers)) <= MOST_TERMS
-            and terms == len(self.coefficients)
-            and all(len(row) == 6 and min(row) >= 0 and sum(row) <= HIGHEST for row in self.powers)
-            and all(0.0 < x < np.inf for x in self.scale)
-            and bool(np.isfinite(self.coefficients).all())
-        )
+        return made(cls, data, "rule")
 
 
 def tilt_and_yaw(turn: Floats) -> tuple[Floats, Floats]:

@@ -80,9 +80,7 @@ def _made_by(record: Any) -> Html:
     """Return the command line of the run, where the record has it."""
     if not record.command:
         return Html()
-    resumed = "--resume" in record.command.split()  # of a stranger: shlex may find no end of a quote
-    said = "It continued an interrupted run: without --resume it begins anew." if resumed else ""
-    return joined(paragraphs(["The command that made it:"]), listing(record.command), paragraphs([said], class_="note"))
+    return joined(paragraphs(["The command that made it:"]), listing(record.command))
 
 
 def _versions(record: Any, more: list[tuple[str, object]]) -> Html:

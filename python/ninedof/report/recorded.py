@@ -25,7 +25,7 @@ def of_recorded(record: Any, name: str) -> Page:
     said, answer = f"A run of kind “{record.kind}”; its figures are below.", Html()
     top: list[Any] = []
     if (motion := results.get("motion")) is not None:
-        said, answer, top = _motion(motion, record.asked.get("unit", ""))
+        said, answer, top = _motion(motion, record.question.get("unit", ""))
         good = top[0][1] == 0 and motion["tracked"]
     elif (sweep := results.get("sweep")) is not None:
         ends = {name: row for name, row in sweep["indices"].items() if row.get("least")}
@@ -40,7 +40,7 @@ def of_recorded(record: Any, name: str) -> Page:
         headline = "The paper's numbers beside ours"
         said = "Which numbers of the paper hold? Each is computed anew; the seven figures are drawn anew."
         answer, top = html_of(verdicts_table(rows)), [("numbers and claims", len(rows))]
-    sections = {"question": paragraphs([said]), "again": origin.of_question(record.asked, record)}
+    sections = {"question": paragraphs([said]), "again": origin.of_question(record.question, record)}
     if answer:
         sections["answer"] = answer
     return Page(record.kind, headline, top, sections, None, good)

@@ -12,6 +12,9 @@ from ninedof.optimize.result import Result
 from ninedof.paper.tables import comparison_table
 from ninedof.pareto import Front
 from ninedof.proof.machine_record import MachineCertificate
+from ninedof.records.certificate import certificate_file, load_certificate
+from ninedof.records.load import load, split
+from ninedof.records.record import Record, load_record
 from ninedof.report import origin
 from ninedof.report.figures import figures, image, stems
 from ninedof.report.front import of_front
@@ -21,12 +24,8 @@ from ninedof.report.recorded import FROM_RECORD, of_recorded
 from ninedof.report.workspace import of_workspace
 from ninedof.robot.configuration import Configuration
 from ninedof.robot.geometry import Geometry
-from ninedof.runs.folder import Record, load_record
-from ninedof.runs.machine_file import certificate_file, load_certificate
-from ninedof.runs.objects import load, split
 from ninedof.support.arguments import path_argument, shown
 from ninedof.support.files import write_whole
-from ninedof.support.printable import escaped, one_line
 from ninedof.tables.html import Html, html_of, joined
 from ninedof.workspace import WorkspaceMap
 
@@ -88,19 +87,12 @@ def report(run: Result | Front | str | os.PathLike[str], path: str | os.PathLike
     folder = place if place.is_dir() else place.parent
     name = folder.resolve().name + (f"#{point}" if point else "")
     file = folder / (f"report-{point}.html" if point else FILE) if path is None else Path(path)
-    try:
-        record = load_record(place)
-        contents = None if record.kind in FROM_RECORD and not point else load(run)
-        whole = load(place) if point else None
-        certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
-        made = _page_of(contents, record, name, point, whole, certificate)
-        text = _text(made, record, None if point else folder, name)
-    except ValueError as error:
-        words = one_line(str(error))
-        raise ValueError(words if words.startswith(escaped(str(place))) else f"{place}: {words}") from None
-    except ODD as error:
-        words = one_line(f"{type(error).__name__}: {error}")
-        raise ValueError(f"{place}: got a record that is not whole ({words}), expected that of a run") from None
+    record = load_record(place)
+    contents = None if record.kind in FROM_RECORD and not point else load(run)
+    whole = load(place) if point else None
+    certificate = _certificate_of(contents, run) if isinstance(contents, Result) else None
+    made = _page_of(contents, record, name, point, whole, certificate)
+    text = _text(made, record, None if point else folder, name)
     return write_whole(file, text.encode())
 
 
@@ -112,7 +104,7 @@ def _certificate_of(contents: Result, run: str | os.PathLike[str]) -> MachineCer
     certificate = load_certificate(run)
     if not contents.is_certified_by(certificate):
         raise ValueError(
-            f"{file}: got a certificate of another machine or one that was changed, expected that of the run: `ninedof "
+            f"{file}: got a certificate of another machine, expected that of the run: once it is removed, `ninedof "
             f"certify {os.fspath(run)}` writes it anew"
         )
     return certificate

@@ -22,7 +22,7 @@ from ninedof.workspace.tables import workspace_table
 
 def of_workspace(workspace: WorkspaceMap, record: Any) -> Page:
     """Return the page of a workspace; without machine and question where the record does not hold them."""
-    asked, shown = record.asked, None
+    asked, shown = record.question, None
     sections = {
         "answer": html_of(workspace_table(workspace, most=100)),
         "proof": proof.of_workspace(workspace, asked),

@@ -1,41 +1,60 @@
-"""The command line that is being run: records keep it, and what it holds is given back when it ends."""
+"""The command line that is being run: records keep it, and it is printed again where it goes on with its run."""
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import dataclass
+from pathlib import Path
 
-_RUNNING: ContextVar[str] = ContextVar("command", default="")
-_END: ContextVar[ExitStack | None] = ContextVar("end", default=None)
+
+@dataclass
+class _Command:
+    words: list[str]
+    again: list[str] | None = None
+    why: str = ""
+
+
+_RUNNING: ContextVar[_Command | None] = ContextVar("command", default=None)
 
 
 @contextmanager
 def running(program: str, arguments: Sequence[str]) -> Iterator[None]:
-    """Name the command line that runs until the end of the block; then do what `at_end` was given, the last first.
-
-    A command that runs within another ends with it.
-    """
-    token = _RUNNING.set(shlex.join([program, *arguments]))
-    with ExitStack() as stack:
-        end = _END.set(_END.get() or stack)
-        try:
-            yield
-        finally:
-            _END.reset(end)
-            _RUNNING.reset(token)
+    """Name the command line that runs until the end of the block."""
+    token = _RUNNING.set(_Command([program, *arguments]))
+    try:
+        yield
+    finally:
+        _RUNNING.reset(token)
 
 
 def command_line() -> str:
     """Return the command line as a shell takes it; "" where Python called."""
-    return _RUNNING.get()
+    command = _RUNNING.get()
+    return "" if command is None else shlex.join(command.words)
 
 
-def at_end(call: Callable[[], object]) -> bool:
-    """Call a function when the command ends, however it ends; return False where none runs, but Python called."""
-    stack = _END.get()
-    if stack is None:
-        return False
-    stack.callback(call)
-    return True
+def goes_on(out: Path | None = None) -> None:
+    """Note that the command goes on with its run when it is typed again, with `--out` if it has such a folder."""
+    if (command := _RUNNING.get()) is not None:
+        named = out is None or any(word == "--out" or word.startswith("--out=") for word in command.words)
+        command.again = command.words if named else [*command.words, "--out", str(out)]
+
+
+def ended_by_time(without: str = "") -> None:
+    """Note that the time ended the run; `without` is an option that is left out where it goes on."""
+    if (command := _RUNNING.get()) is not None and command.again is not None:
+        command.why = "the time is over"
+        if without:
+            after = [word == without for word in ["", *command.again]]
+            pairs = zip(command.again, after, strict=False)
+            command.again = [w for w, value in pairs if not value and w != without and not w.startswith(f"{without}=")]
+
+
+def how_to_go_on(interrupted: bool) -> str:
+    """Return how a command ended, and the line to type to go on with its run; "" where it came to its end."""
+    command = _RUNNING.get() or _Command([])
+    why = "interrupted" if interrupted else command.why
+    return f"{why}; to go on, type: {shlex.join(command.again)}" if why and command.again else why

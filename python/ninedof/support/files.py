@@ -1,46 +1,39 @@
-"""Files written whole or not at all, and results saved as one file of named arrays."""
+"""Files written whole or not at all. Those that ninedof keeps hold a digest of their bytes, checked before use."""
 
 from __future__ import annotations
 
-import io
 import os
-import re
 import secrets
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
+from hashlib import sha256
 from pathlib import Path
 from typing import IO, Any, ClassVar, Self
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
+import numpy as np
 from numpy.typing import NDArray
 
 from ninedof.support.arguments import path_argument
-from ninedof.support.npz import DAMAGE, read_npz, write_npz
-from ninedof.support.reading import JSON, read_file
-from ninedof.support.system import sync_folder
+from ninedof.support.blocks import blocks
+from ninedof.support.json import decode, encode
 
 Arrays = dict[str, NDArray[Any]]
 
 PART = ".part-"  # begins the name of a file that is being written
 MOST_NAME = 120  # bytes of a name that is put into a folder
-
-_PART = re.compile(rf"{re.escape(PART)}(.+)-[0-9a-f]{{8}}", re.DOTALL)
-_SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
+SHORT = 40  # characters of a name that the name of its part repeats: a part of the longest name fits too
+DIGITS = 64  # of a digest
+PIECE = 2**18  # bytes read at a time
+DIGEST = b',\n  "digest": "'  # before the digest of a JSON file
+CHANGED = "got no file as ninedof wrote it, expected one that was not changed or damaged since"
 
 
 def part_name(name: str) -> str:
-    """Return a new name for the part of a file that is being written; it begins with PART and, if short, the name."""
-    return f"{PART}{name[:_SHORT]}-{secrets.token_hex(4)}"
-
-
-def is_leftover(path: Path, names: re.Pattern[str]) -> bool:
-    """Return whether a path is the part of a file of one of these names, left by a run that was killed as it wrote.
-
-    A name has at most 40 characters, as in `part_name`. A folder or a link is none, and nor are files of other names:
-    they are somebody else's.
-    """
-    part = _PART.fullmatch(path.name)
-    return bool(part and names.fullmatch(part[1])) and path.is_file() and not path.is_symlink()
+    """Return a new name for a file that is being written; it begins with PART and the name."""
+    return f"{PART}{name[:SHORT]}-{secrets.token_hex(4)}"
 
 
 def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path:
@@ -56,7 +49,7 @@ def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path
     """
     part = path.with_name(part_name(path.name))  # in the same folder: renaming is atomic there
     try:
-        with part.open("wb") as file:
+        with part.open("w+b") as file:
             if callable(data):
                 data(file)
             else:
@@ -69,7 +62,6 @@ def write_whole(path: Path, data: bytes | Callable[[IO[bytes]], object]) -> Path
     finally:
         with suppress(OSError):  # the first error is the one to be told
             part.unlink(missing_ok=True)
-    sync_folder(path.parent)
     return path
 
 
@@ -78,38 +70,15 @@ def naming(error: OSError, path: Path) -> OSError:
     return OSError(error.errno, error.strerror or str(error), os.fspath(path)) if error.errno else error
 
 
-def why_not_writable(path: Path) -> str:
-    """Return why a file cannot be written there, "" where it can: to be known before the work, not after it."""
-    try:
-        if path.is_dir():
-            return "it is a folder"
-        if path.is_symlink() and not path.exists():
-            return "it is a link to nothing"
-        with suppress(FileNotFoundError):
-            path.lstat()  # raises where the name is too long
-        part = path.with_name(part_name(path.name))
-        part.touch()
-        part.unlink()
-    except OSError as error:
-        return error.strerror or str(error)
-    except ValueError as error:  # a zero byte
-        return str(error)
-    return ""
+def read_text(path: str | os.PathLike[str]) -> str:
+    """Return the text of a file, without a byte order mark; line ends are those of Python."""
+    return Path(path).read_text(encoding="utf-8-sig")
 
 
 def own_or_new(name: str, path: Path, mark: str) -> None:
     """Raise ValueError, naming the argument, for a file that exists without the mark of those that ninedof writes."""
-    if reason := why_not_writable(path):
-        raise ValueError(f"{name}: got {path}, which cannot be written ({reason}), expected a writeable place")
-    if path.exists() and not _has(path, mark):
+    if path.exists() and not (path.is_file() and mark.encode() in path.read_bytes()):
         raise ValueError(f"{name}: got {path}, which exists and was not written by ninedof, expected another name")
-
-
-def _has(path: Path, mark: str) -> bool:
-    try:
-        return mark.encode() in read_file(path, JSON)
-    except OSError:
-        return False
 
 
 def is_plain_name(name: object) -> bool:
@@ -123,11 +92,89 @@ def is_plain_name(name: object) -> bool:
     )
 
 
-def npz_bytes(arrays: Mapping[str, Any], *, compressed: bool = False) -> bytes:
-    """Return the bytes of a .npz file."""
-    buffer = io.BytesIO()
-    write_npz(buffer, arrays, compressed=compressed)
-    return buffer.getvalue()
+def json_bytes(entries: Mapping[str, Any]) -> bytes:
+    """Return entries, of which `format` is one, as a JSON file with their digest behind them."""
+    body = encode(entries).encode().removesuffix(b"\n}")
+    return body + DIGEST + sha256(body).hexdigest().encode() + b'"\n}\n'
+
+
+def read_json(path: Path, form: str) -> dict[str, Any]:
+    """Read a file of `json_bytes`, without the format and the digest.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it cannot be read, was changed, or has another format.
+
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
+    body, _, end = data.rpartition(DIGEST)
+    if end != sha256(body).hexdigest().encode() + b'"\n}\n':
+        raise ValueError(f"{path}: {CHANGED}")
+    entries: dict[str, Any] = decode(f"{body.decode()}\n}}")
+    if entries.pop("format", None) != form:
+        raise ValueError(f"{path}: got another format than {form!r}, expected a file of this version of ninedof")
+    return entries
+
+
+def write_npz(path: Path, arrays: Mapping[str, Any], *, compressed: bool = False, salt: str = "") -> Path:
+    """Write arrays as numpy does, with their digest as the comment of the archive; return the path.
+
+    A text before the bytes, the salt, ties the file to what it belongs to.
+    """
+    return write_whole(path, partial(_pack, arrays, ZIP_DEFLATED if compressed else ZIP_STORED, salt))
+
+
+def read_npz(path: Path, salt: str = "") -> Arrays:
+    """Read what `write_npz` wrote.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it cannot be read or was changed.
+
+    """
+    try:
+        with path.open("rb") as file:
+            digest = _digest(file, salt)
+            if file.read() != digest:
+                raise ValueError(f"{path}: {CHANGED}")
+            file.seek(0)
+            with np.load(file, allow_pickle=False) as arrays:
+                return dict(arrays)
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
+
+
+def _pack(arrays: Mapping[str, Any], compression: int, salt: str, file: IO[bytes]) -> None:
+    with ZipFile(file, "w", compression) as archive:
+        archive.comment = bytes(DIGITS)
+        for name, value in arrays.items():
+            array = np.asanyarray(value)
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                if not isinstance(array, np.memmap) or not array.flags.c_contiguous:
+                    np.lib.format.write_array(member, array, allow_pickle=False)
+                    continue
+                np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
+                for _, piece in blocks(array):  # one that is mapped from a file may be larger than the memory
+                    member.write(piece.tobytes())
+    digest = _digest(file, salt)
+    file.seek(-DIGITS, os.SEEK_END)
+    file.write(digest)
+
+
+def _digest(file: IO[bytes], salt: str) -> bytes:
+    """Return the digest of all bytes of a file but those of its own digest, in front of which the file then stands."""
+    digest, left = sha256(salt.encode()), file.seek(0, os.SEEK_END) - DIGITS
+    file.seek(0)
+    while left > 0:
+        piece = file.read(min(left, PIECE))
+        digest.update(piece)
+        left -= len(piece)
+    return digest.hexdigest().encode()
 
 
 class Saved(ABC):
@@ -147,8 +194,7 @@ class Saved(ABC):
         """
         file = path_argument("path", path)
         file = file if file.suffix == ".npz" else file.with_name(file.name + ".npz")
-        contents = self._contents()
-        return write_whole(file, lambda opened: write_npz(opened, contents, compressed=self.COMPRESSED))
+        return write_npz(file, self._contents(), compressed=self.COMPRESSED)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
@@ -164,15 +210,11 @@ class Saved(ABC):
             Naming the file, if it cannot be read, is damaged, or has another format.
 
         """
-        path_argument("path", path)
+        contents = read_npz(path_argument("path", path))
         try:
-            contents = read_npz(Path(path))
             return cls._made(contents)
-        except OSError as error:
-            raise ValueError(f"{os.fspath(path)}: cannot be read ({error.strerror or error})") from None
-        except DAMAGE:
-            expected = f"got no {cls.FORMAT!r} file, expected a whole one that `save` wrote"
-            raise ValueError(f"{os.fspath(path)}: {expected}") from None
+        except (KeyError, ValueError):
+            raise ValueError(f"{os.fspath(path)}: got no {cls.FORMAT!r} file, expected what `save` wrote") from None
 
     @abstractmethod
     def _contents(self) -> dict[str, Any]:
@@ -181,4 +223,4 @@ class Saved(ABC):
     @classmethod
     @abstractmethod
     def _made(cls, contents: Arrays) -> Self:
-        """Return the result that has these arrays; raise an error of DAMAGE for those of another format."""
+        """Return the result that has these arrays; raise KeyError or ValueError for those of another format."""

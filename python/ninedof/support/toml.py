@@ -6,9 +6,8 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from ninedof.support.arguments import path_argument, shown
-from ninedof.support.files import write_whole
-from ninedof.support.reading import DEEPEST, TOML, deep_key, read_text
+from ninedof.support.arguments import path_argument
+from ninedof.support.files import read_text, write_whole
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -22,12 +21,9 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     name = str(path_argument("path", path))
     try:
-        text = read_text(path, TOML)
-        if key := deep_key(text):
-            raise ValueError(f"got the key {shown(key)}, expected at most {DEEPEST} parts")
         import tomllib  # when it is needed, as it takes time to load
 
-        return tomllib.loads(text)
+        return tomllib.loads(read_text(path))
     except OSError as error:
         raise ValueError(f"{name}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:

@@ -1,15 +1,12 @@
 """Long work in chunks: each is computed alone, anywhere, and none twice where a folder keeps what is finished.
 
-The folder has `finished.npz`, the question and which chunks are finished, and a .npy file for each large array.
+The folder notes which chunks are finished, and has a .npy file for each large array.
 """
 
 from __future__ import annotations
 
-import json
-import logging
 import math
 import os
-import re
 import secrets
 import shutil
 from collections.abc import Generator, Iterator
@@ -24,19 +21,13 @@ from typing import Any, NamedTuple, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ninedof.support.arguments import executor_argument, path_argument, shown, whole
+from ninedof.support.arguments import executor_argument, path_argument, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, is_leftover, naming, write_whole
-from ninedof.support.json import encode
-from ninedof.support.lock import LOCK, FolderLock
-from ninedof.support.npz import DAMAGE, read_npz, write_npz
+from ninedof.support.files import Arrays, naming
 from ninedof.support.progress import Progress, progress_argument
-from ninedof.support.versions import versions
+from ninedof.support.store import Store
 
-LOG = logging.getLogger("ninedof")
-STATE = "finished.npz"
-FINISHED, HEAD = "finished", "head"  # entries of it
-FORMAT = "ninedof-chunks-3"
+FINISHED = "finished"  # an entry of what is noted
 EVERY = 0.5  # seconds: what is finished is noted as often, and at the end
 IN_FLIGHT = 128  # chunks at an executor: enough to keep it busy, few to be lost or pickled early
 MOST_CHUNK, MOST_CHUNKS = 2**24, 2**22  # points of a chunk, chunks of a run
@@ -53,7 +44,7 @@ class State(Protocol):
         """Take the values of the chunk that begins with point `first`."""
 
     def noted(self) -> Arrays:
-        """Return what `finished.npz` holds; `finished` is part of it."""
+        """Return what a folder notes; `finished` is part of it."""
 
 
 S = TypeVar("S", bound=State, covariant=True)
@@ -122,16 +113,11 @@ def run(
         if folder is not None:
             work = replace(work, chunk=folder.chunk)  # type: ignore[type-var]  # every work is a dataclass
         state = work.begin(folder)
-        try:
-            for done in _done(work, state, executor):
-                if folder is not None:
-                    folder.note(state)
-                if progress is not None:
-                    progress(done, work.points, None)
-        except Exception as error:
-            if folder is not None and state.finished.any() and (folder.path / STATE).exists():
-                error.add_note(f"Finished chunks are kept in {folder.path}: the same call goes on from there.")
-            raise
+        for done in _done(work, state, executor):
+            if folder is not None:
+                folder.note(state)
+            if progress is not None:
+                progress(done, work.points, None)
         return state
 
 
@@ -190,68 +176,20 @@ def _failed(future: Future[Any]) -> bool:
     return future.cancelled() or future.exception() is not None
 
 
-class Folder:
-    """What is finished of some work, in a folder that belongs to one run at a time.
-
-    Parameters
-    ----------
-    path : path
-        Made if it is missing. It must be empty or be of the same question.
-    question : mapping
-        All that the values depend on, but for the version of this package.
-    chunk : int
-        Points of a chunk. Where chunks are finished theirs is used.
-
-    Raises
-    ------
-    ValueError
-        If the folder holds something else or another run is using it.
-
-    """
+class Folder(Store):
+    """What is finished of some work, in the folder of a run: notes as piece 0, large arrays in files beside it."""
 
     def __init__(self, path: Path, question: dict[str, Any], chunk: int) -> None:
-        self.path, self.chunk = path, chunk
-        self.saved: Arrays = {}
+        super().__init__(path, question, chunk)
+        self.saved: Arrays = self.read(0) or {}
         """What was noted before."""
-        self._question = encode(question | {"ninedof": versions()["ninedof"]}, indent=None, sort_keys=True)
         self._files: dict[str, Any] = {}
         self._state: State | None = None
-        self._next, self._unwritten = 0.0, False
-        _require_ours(path)
-        self._lock = FolderLock(path)
-        try:
-            self._read()
-        except BaseException:
-            self._lock.close()
-            raise
-
-    def _read(self) -> None:
-        file = self.path / STATE
-        for entry in self.path.iterdir():
-            if is_leftover(entry, OURS):  # of a run that was killed
-                entry.unlink()
-        if not file.exists():
-            return
-        try:
-            self.saved = read_npz(file)
-            head = json.loads(str(self.saved.pop(HEAD)))
-            if head["format"] != FORMAT:
-                raise ValueError
-        except OSError as error:
-            raise ValueError(f"{file}: cannot be read ({error.strerror})") from None
-        except DAMAGE:
-            raise ValueError(f"{file}: got no whole {FORMAT!r} file, expected one that ninedof wrote") from None
-        if head["question"] != self._question:
-            difference = _difference(json.loads(head["question"]), json.loads(self._question))
-            raise ValueError(
-                f"out: got {self.path}, which holds the chunks of another question ({difference}), "
-                "expected an empty folder, or the same question"
-            )
-        self.chunk = int(head["chunk"])
+        self._next = 0.0
 
     def array(self, name: str, shape: tuple[int, ...]) -> Floats:
         """Return an array of numbers in a file of the folder: read through a memory map, written by `put`."""
-        path = self.path / f"{name}.npy"
+        path = self.folder / f"{name}.npy"
         try:
             fits = (values := np.load(path, mmap_mode="r")).shape == shape and values.dtype == np.float64
         except (OSError, ValueError, EOFError):
@@ -272,12 +210,12 @@ class Folder:
             while left:
                 left = left[file.write(left) :]
         except OSError as error:
-            raise naming(error, self.path / f"{name}.npy") from None
+            raise naming(error, self.folder / f"{name}.npy") from None
 
     def free(self) -> float:
         """Return the bytes that are free on the disk; infinity where it does not say."""
         with suppress(OSError):
-            disk = shutil.disk_usage(self.path)
+            disk = shutil.disk_usage(self.folder)
             if disk.total:
                 return disk.free
         return math.inf
@@ -285,56 +223,17 @@ class Folder:
     def note(self, state: State) -> None:
         """Note what is finished, unless that was done just now: then at the end."""
         self._state = state
-        if monotonic() >= self._next:
-            self._write(state)
+        if monotonic() >= self._next and state.finished.any():
+            self.keep(0, state.noted())
+            self._next = monotonic() + EVERY
 
-    def _write(self, state: State) -> None:
-        head = encode({"format": FORMAT, "chunk": self.chunk, "question": self._question}, indent=None)
-        contents = {HEAD: np.array(head), **state.noted()}
-        try:
-            write_whole(self.path / STATE, lambda file: write_npz(file, contents))
-        except OSError as error:  # a full disk: the result is worth more
-            if not self._unwritten:
-                LOG.warning("%s; the run goes on, but what is finished from now on is lost if it ends early", error)
-            self._unwritten = True
-        self._next = monotonic() + EVERY
-
-    def __enter__(self) -> Folder:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Note what is finished and let another run have the folder; where nothing is finished it is left empty."""
-        try:
-            for file, _offset in self._files.values():
-                file.close()
-            kept = self._state is not None and bool(self._state.finished.any())
-            if self._state is not None and kept:
-                self._write(self._state)
-            if not self.saved and not (kept and (self.path / STATE).exists()):
-                for name in (STATE, *(f"{name}.npy" for name in self._files)):
-                    with suppress(OSError):
-                        (self.path / name).unlink(missing_ok=True)
-        finally:
-            self._lock.close()
-
-
-OURS = re.compile(re.escape(STATE))
-
-
-def _require_ours(path: Path) -> None:
-    """Raise unless a folder can be used: it is empty or has a state. Nothing of another folder is changed."""
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-        others = sorted(entry.name for entry in path.iterdir() if entry.name != LOCK and not is_leftover(entry, OURS))
-    except OSError as error:
-        reason = error.strerror
-        raise ValueError(f"out: got {path}, which cannot be created ({reason}), expected a folder") from None
-    if others and STATE not in others:
-        raise ValueError(f"out: got {path}, which holds {shown(others[0])} but no {STATE}, expected it empty")
-
-
-def _difference(there: dict[str, Any], here: dict[str, Any]) -> str:
-    """Return the entries in which two questions differ, with what both say."""
-    names = sorted(name for name in {*there, *here} if there.get(name) != here.get(name))
-    names = ["kind"] if "kind" in names else names
-    return "; ".join(f"{name}: {shown(there.get(name))} there, {shown(here.get(name))} here" for name in names)
+    def __exit__(self, kind: object, error: BaseException | None, *more: object) -> None:
+        """Note what is finished; where that is nothing, no array stays."""
+        for file, _offset in self._files.values():
+            file.close()
+        if self._state is not None and self._state.finished.any():
+            self.keep(0, self._state.noted())
+        if not self.kept():
+            for name in self._files:
+                (self.folder / f"{name}.npy").unlink(missing_ok=True)
+        super().__exit__(kind, error, *more)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ninedof.motion.rotations import from_quaternions
 from ninedof.motion.trajectory import Trajectory
-from ninedof.runs.design_file import Design
+from ninedof.records.design_file import Design
 from ninedof.viewer.body import Body, BodySearch, body_of, question_of
 from ninedof.viewer.folders import build
 from ninedof.viewer.machine import Machine

@@ -13,9 +13,9 @@ from ninedof.export.formats import FORMATS
 from ninedof.motion.follow import follow
 from ninedof.motion.trajectory import Trajectory
 from ninedof.plot.files import picture
+from ninedof.records.design_file import save_design
+from ninedof.records.motion import legs_csv
 from ninedof.redundancy.rules import RULES, WORDS
-from ninedof.runs.design_file import save_design
-from ninedof.runs.motion_folder import legs_csv
 from ninedof.support.extras import MissingExtra
 from ninedof.support.units import amount, with_unit
 from ninedof.viewer.html import limits_html, number, numbers_html, words_html

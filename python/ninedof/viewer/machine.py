@@ -20,10 +20,10 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.optimize.result import Result
 from ninedof.paper.published import published_variables
 from ninedof.pareto import Front
+from ninedof.records.design_file import Design, hexagonal_design
+from ninedof.records.load import load
 from ninedof.robot.configuration import Configuration, single
 from ninedof.robot.geometry import TRIPLES, Geometry
-from ninedof.runs.design_file import Design, hexagonal_design
-from ninedof.runs.objects import load
 from ninedof.support.arguments import shown
 from ninedof.support.arrays import Floats
 

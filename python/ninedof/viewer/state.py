@@ -14,10 +14,10 @@ from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.motion.rotations import from_vectors, to_quaternions, vectors_between
 from ninedof.motion.trajectory import Trajectory
 from ninedof.position.forward_position import PositionStatus, forward_position
+from ninedof.records.design_file import Design
 from ninedof.redundancy.redundancy import best_internal_point
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import Configuration
-from ninedof.runs.design_file import Design
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.support.arguments import choice, known_keys
 from ninedof.support.arrays import Floats

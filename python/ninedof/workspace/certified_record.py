@@ -29,9 +29,7 @@ ENDS = {
 }
 
 OF_ALL = "the gap asked for is reached by all allowed poses together"
-BEYOND = ("nothing", "something", "unknown")
 SETS = ("reachable", "inclusive", "dexterous")
-HOMES = ("allowed", "forbidden", "unknown")
 
 States = NDArray[np.int8]
 
@@ -242,42 +240,7 @@ class CertifiedWorkspace(Saved):
             raise ValueError
         for name in ("volume", "home_volume", "estimate"):
             words[name] = None if words[name] is None else tuple(words[name])
-        found = cls(**words, **data)
-        if not found._is_whole():
-            raise ValueError
-        return found
-
-    def _is_whole(self) -> bool:
-        """Whether the parts of a file belong together: an index or a box that is wrong would prove anything."""
-        shapes: dict[str, tuple[int, ...]] = {name: (3,) for name in ("low", "high", "box_low", "box_high")}
-        shapes |= {name: (len(self.inner_low), 3) for name in ("inner_low", "inner_high")}
-        shapes |= {name: (len(self.open_low), 3) for name in ("open_low", "open_high")}
-        shapes |= {"open_volume": (len(self.open_low), 2), "first_cut": (len(self.open_low) + 1,)}
-        shapes |= {"cuts": (len(self.cuts), 5)}
-        numbers = {name: getattr(self, name) for name in shapes}
-        if any(numbers[name].shape != shape for name, shape in shapes.items()):
-            return False
-        if any(a.dtype != (np.int64 if name == "first_cut" else np.float64) for name, a in numbers.items()):
-            return False
-        if any(not np.isfinite(a).all() for name, a in numbers.items() if name not in ("cuts", "open_volume")):
-            return False
-        boxes = (
-            (self.box_low, self.box_high, self.low, self.high),
-            (self.low, self.high, self.inner_low, self.inner_high),
-            (self.low, self.high, self.open_low, self.open_high),
-        )
-        bounds = (self.volume, self.home_volume, *self.open_volume.tolist())
-        return bool(
-            all((a <= low).all() and (low <= high).all() and (high <= b).all() for a, b, low, high in boxes)
-            and all(len(pair) == 2 and 0.0 <= pair[0] <= pair[1] for pair in bounds)
-            and np.isfinite(self.cuts[:, :3]).all()
-            and not np.isnan(self.cuts).any()
-            and self.first_cut[0] == 0
-            and self.first_cut[-1] == len(self.cuts)
-            and (np.diff(self.first_cut) >= 0).all()
-            and (self.end in ENDS and self.home in HOMES and self.beyond in BEYOND)
-            and (self.estimate is None or len(self.estimate) == 2)
-        )
+        return cls(**words, **data)
 
 
 ARRAYS = tuple(

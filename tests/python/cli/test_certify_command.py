@@ -5,7 +5,6 @@ import shutil
 from importlib import import_module
 
 import pytest
-from changed_files import write_sealed
 
 import ninedof as nd
 from ninedof.cli.app import main
@@ -44,7 +43,7 @@ def test_a_run_may_be_called_as_its_certificate(run, tmp_path, capsys):
     named = tmp_path / "certify-1"
     shutil.copytree(run, named)
     assert status(named) == 0
-    assert status(named, "--resume") == 0
+    assert status(named) == 0
     assert nd.load_certificate(named) == nd.load_certificate(named / "certify.json")
     assert main_status("report", named) == 0
 
@@ -59,16 +58,15 @@ def test_a_bound_that_does_not_hold_is_said(run, capsys):
 @pytest.mark.parametrize(
     ("written", "message"),
     [
-        ("", "not a JSON file"),
-        ("[]", "expected a certificate written by ninedof"),
-        ('{"format": "ninedof-machine-certificate-1"}', "got a file that was changed or damaged"),
+        ("", "got no file as ninedof wrote it"),
+        ('{"format": "ninedof-machine-certificate-2"}', "got no file as ninedof wrote it"),
     ],
 )
 def test_a_broken_certificate_is_named(run, tmp_path, capsys, written, message):
     folder = tmp_path / "run"
     shutil.copytree(run, folder)
     (folder / "certify.json").write_text(written)
-    assert status(folder, "--resume") == 2
+    assert status(folder) == 2
     said = capsys.readouterr().err.strip()
     assert message in said
     assert "Traceback" not in said
@@ -122,18 +120,10 @@ def test_a_report_takes_no_certificate_of_another_machine_nor_a_changed_one(run,
     assert not nd.load(other).is_certified_by(nd.load_certificate(other))
     with pytest.raises(ValueError, match=r"certify\.json: got a certificate of another machine"):
         nd.report(other)
+    assert status(other) == 2
     text = (ours / "certify.json").read_text()
-    changed = text.replace('"which": "det N"', '"which": "det B"')
-    (ours / "certify.json").write_text(changed)
-    with pytest.raises(ValueError, match=r"certify\.json: got a file that was changed or damaged"):
-        nd.report(ours)
-    (ours / "certify.json").write_text(changed.replace('"digest"', '"more"'))
-    with pytest.raises(ValueError, match=r"certify\.json: got a file that was changed"):
-        nd.report(ours)
-    write_sealed(ours / "certify.json", {k: v for k, v in json.loads(changed).items() if k != "digest"})
-    with pytest.raises(
-        ValueError, match=r"certify\.json: got a certificate of another machine or one that was changed"
-    ):
+    (ours / "certify.json").write_text(text.replace('"which": "det N"', '"which": "det B"'))
+    with pytest.raises(ValueError, match=r"certify\.json: got no file as ninedof wrote it"):
         nd.report(ours)
 
 

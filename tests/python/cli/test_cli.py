@@ -48,7 +48,7 @@ def test_main_job(capsys, tmp_path):
     names = {path.name for path in (tmp_path / "run").iterdir()}
     stems = ("mechanism", "condition")
     drawn = {f"{stem}.{kind}" for stem in stems for kind in ("png", "svg", "pdf")}
-    kept = {"command.json", "chunks"}
+    kept = {"question.json", "pieces"}
     assert names == {"record.json", "report.html"} | kept | drawn
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["study"]["solver"] == {"starts": 64, "seed": 0}
@@ -170,7 +170,7 @@ def test_a_run_never_overwrites_another(capsys):
     Path("run/mine.txt").write_text("kept")
     status, _, err = run(capsys, "--out run --no-figures")
     assert status == 2
-    assert "not an empty folder" in err
+    assert "which holds 'mine.txt'" in err
     assert [p.name for p in Path("run").iterdir()] == ["mine.txt"]
 
 
@@ -231,7 +231,12 @@ def test_the_figures_of_the_paper_are_drawn_where_asked(capsys, tmp_path, monkey
     assert status == 0
     assert "drawing Fig. 5, the plates" in err
     figures = {f"figure_{k}.png" for k in range(1, 8)}
-    assert {path.name for path in (tmp_path / "figures").iterdir()} == {"record.json", "report.html"} | figures
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {
+        "record.json",
+        "report.html",
+        "question.json",
+        "pieces",
+    } | figures
     page = (tmp_path / "figures" / "report.html").read_text()
     assert page.count("data:image/png") == 7
     for row in json.loads(out):

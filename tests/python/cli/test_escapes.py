@@ -47,7 +47,7 @@ def test_a_folder_with_an_escape_in_its_name_is_refused_in_one_line(capsys):
     assert is_harmless(err)
 
 
-def test_the_hint_to_resume_is_one_word_for_a_shell(capsys, monkeypatch):
+def test_the_line_to_go_on_is_one_for_a_shell(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "300")
 
     def interrupted(*_, **__):
@@ -56,7 +56,8 @@ def test_the_hint_to_resume_is_one_word_for_a_shell(capsys, monkeypatch):
     monkeypatch.setattr("ninedof.cli.commands.sweep.sweep_poses", interrupted)
     status, _, err = run(capsys, "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b")
     assert status == 130
-    assert shlex.split(err.split("`")[1]) == ["ninedof", "resume", "a [bold]b"]
+    line = ["ninedof", "sweep", "--over", "x_p=-1:1:3", "--out", "a [bold]b"]
+    assert shlex.split(err.split("type: ")[1]) == line
 
 
 @pytest.mark.parametrize(

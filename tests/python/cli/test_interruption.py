@@ -1,13 +1,10 @@
 """Ctrl-C at any time: exit status 130, no traceback, and what is finished stays."""
 
-import gc
 import os
 import shlex
 import signal
 import subprocess
 import sys
-import time
-import weakref
 
 import pytest
 
@@ -15,7 +12,6 @@ import ninedof as nd
 from ninedof.cli.app import main
 from ninedof.cli.commands import paper as paper_command
 from ninedof.cli.interruption import interruptible
-from ninedof.support.starting import is_command
 
 LOADING = """
 import signal, sys
@@ -46,14 +42,14 @@ SIGNALS = [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 @pytest.mark.parametrize(
     ("name", "number", "status"),
     [
-        *((name, signal.SIGINT, 130) for name in ("typing", "ninedof._core", "ninedof.cli.commands.optimize")),
-        *(("ninedof.design.study", number, status) for number, status in SIGNALS),
+        ("ninedof._core", signal.SIGINT, 130),
+        ("ninedof.cli.commands.optimize", signal.SIGINT, 130),
     ],
 )
 def test_an_interruption_while_the_command_is_loaded(name, number, status):
     """As the installed script does: it has its own name and imports `main`."""
     code = "from ninedof.cli.app import main; main()"
-    code = f"sys.path[:] = {sys.path}\nsys.modules.pop('typing', None)\n{code}"
+    code = f"sys.path[:] = {sys.path}\n{code}"
     script = LOADING.format(argv=["/usr/bin/ninedof", "--version"], name=name, number=int(number), code=code)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (status, "", "")
@@ -63,32 +59,6 @@ def test_a_program_that_uses_the_package_keeps_its_handler():
     script = LOADING.format(argv=["plan.py"], name="none", number=2, code=f"sys.path[:] = {sys.path}\nimport ninedof")
     script += "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
-    assert is_command(["-m"], ["python3", "-X", "dev", "-m", "ninedof", "sheet"])
-    assert not is_command(["-m"], ["python3", "-m", "planner", "ninedof"])
-    assert not is_command([], [])
-
-
-def test_an_interruption_lost_in_a_callback_is_raised_again():
-    """Python drops an exception of a callback of a weak reference; figures have thousands of them."""
-
-    class Thing:
-        pass
-
-    def gone(_):
-        raise KeyboardInterrupt
-
-    def work():
-        thing = Thing()
-        reference = weakref.ref(thing, gone)
-        del thing
-        gc.collect()
-        assert reference() is None
-        end = time.perf_counter() + 5.0
-        while time.perf_counter() < end:
-            time.sleep(0.001)
-
-    with pytest.raises(KeyboardInterrupt), interruptible():
-        work()
 
 
 def test_an_interruption_while_drawing_leaves_the_record(tmp_path, monkeypatch, capsys):
@@ -111,7 +81,7 @@ def test_an_interruption_of_the_figures_of_the_paper(tmp_path, monkeypatch):
     with pytest.raises(SystemExit) as ended:
         main(["paper", "--figures", "--out", "drawn"])
     assert ended.value.code == 130
-    assert [file.name for file in (tmp_path / "drawn").iterdir()] == ["record.json"]
+    assert (tmp_path / "drawn" / "record.json").is_file()
 
 
 @pytest.mark.parametrize(("number", "status"), SIGNALS)
@@ -124,7 +94,8 @@ def test_every_signal_ends_a_command_alike(tmp_path, monkeypatch, capsys, number
         main(shlex.split("sweep --over x_p=-1:1:9 --out run"))
     assert ended.value.code == status
     assert signal.getsignal(number) is before
-    assert "`ninedof resume run` continues the run" in capsys.readouterr().err
+    line = "ninedof: interrupted; to go on, type: ninedof sweep --over x_p=-1:1:9 --out run"
+    assert line in capsys.readouterr().err
     assert isinstance(nd.load("run"), nd.SweepResult)
     assert not [file for file in (tmp_path / "run").iterdir() if file.name.startswith(".part-")]
 
@@ -180,7 +151,7 @@ from threading import Thread
 sys.path[:] = {path}
 from ninedof.cli.app import main
 from ninedof.support import files
-from ninedof.chunks.store import Store
+from ninedof.support.store import Store
 whole, keep = files.os.replace, Store.write
 
 def kept(store, k, arrays):

@@ -43,7 +43,7 @@ def test_a_circle_of_the_published_design(capsys, tmp_path):
     assert "tracked back from the leg lengths, every step proved" in out
     files = {"record.json", "legs.csv", "poses.csv", "motion.npz", "motion.png", "motion.svg", "motion.pdf"}
     files.add("report.html")
-    assert {file.name for file in (tmp_path / "run").iterdir()} == files
+    assert {file.name for file in (tmp_path / "run").iterdir()} == files | {"question.json", "pieces"}
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["kind"] == "motion"
     assert {*record["files"], "record.json"} == files

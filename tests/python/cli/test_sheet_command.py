@@ -8,7 +8,8 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.runs.folder import load, write_run
+from ninedof.records.record import load_run as load
+from ninedof.records.record import write_run
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 

@@ -8,7 +8,7 @@ import pytest
 
 from ninedof.cli import screen
 from ninedof.cli.ending import ended
-from ninedof.runs.design_file import HEXAGON, hexagonal_design
+from ninedof.records.design_file import HEXAGON, hexagonal_design
 from ninedof.support.arguments import whole
 from ninedof.support.extras import MissingExtra
 

@@ -39,8 +39,8 @@ def test_the_same_command_solves_what_the_time_ended(tmp_path, monkeypatch, caps
     assert run(f"{line} --time 1e-9") in (DONE, NO_RESULT)  # by whether a start was quicker
     ended = json.loads(capsys.readouterr().out)["optimization"]
     assert (ended["status"], ended["interrupted"]) == ("stopped", False)
-    assert not list((tmp_path / "run" / "chunks").glob("chunk-*"))
-    assert run(f"{line} --resume --time 600") == DONE
+    assert not list((tmp_path / "run" / "pieces").iterdir())
+    assert run(f"{line} --time 600") == DONE
     assert json.loads(capsys.readouterr().out)["optimization"]["status"] == "optimal"
     assert nd.load("run").status == nd.Status.OPTIMAL
 

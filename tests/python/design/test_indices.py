@@ -8,7 +8,7 @@ import pytest
 
 import ninedof as nd
 from ninedof.design.indices import INDICES, Index, computed, objectives
-from ninedof.runs.design_file import hexagonal_design, indices
+from ninedof.records.design_file import hexagonal_design, indices
 
 DOCS = Path(__file__).parents[3] / "docs"
 PUBLISHED = {"a1": 0.0, "a2": 5.8124, "b1": 2.9062, "b2": 0.0, "zp": 3.9828, "zs": 2.4435}

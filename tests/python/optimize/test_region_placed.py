@@ -16,7 +16,8 @@ from sizes import LONG, size
 
 import ninedof as nd
 from ninedof import _core
-from ninedof.runs.folder import load, write_run
+from ninedof.records.record import load_run as load
+from ninedof.records.record import write_run
 
 TURNS = nd.Study(
     constraints={"radius_ratio": (None, 2.0), "leg_ratio": (None, 2.5)},

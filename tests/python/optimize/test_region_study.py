@@ -205,7 +205,8 @@ def test_check_finds_a_region_that_only_holds_at_listed_poses():
 
 @pytest.mark.slow
 def test_a_result_is_read_back(tmp_path):
-    from ninedof.runs.folder import load, write_run
+    from ninedof.records.record import load_run as load
+    from ninedof.records.record import write_run
 
     result = solved("turns, frobenius")
     write_run(result, tmp_path)

@@ -8,7 +8,7 @@ import pytest
 import ninedof as nd
 from ninedof.pareto import solving
 from ninedof.pareto.limited import unit_of, with_degrees, without_degrees
-from ninedof.runs.folder import write_run
+from ninedof.records.record import write_run
 
 STUDY = nd.Study(
     "symmetric",

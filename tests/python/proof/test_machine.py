@@ -305,12 +305,6 @@ def test_only_the_certificate_of_the_same_machine_is_gone_on_with():
         certify(asked, geometry, other, 150.0, resume=made)
     with pytest.raises(ValueError, match="resume: got a certificate of another machine"):
         certify(asked, geometry, nd.Configuration.neutral([360.0], [260.0]), 151.0, resume=made)
-    changed = replace(made, condition=(1.0, 1.1))
-    with pytest.raises(ValueError, match="or one that was changed"):
-        proved(SMALL, resume=changed)
-    milder = replace(made, limits=(replace(made.limits[0], answer="proved", margin=9.0), *made.limits[1:]))
-    with pytest.raises(ValueError, match="or one that was changed"):
-        proved(SMALL, resume=milder)
     again = MachineCertificate.from_dict(made.to_dict())
     assert proved(SMALL, resume=again, time_limit=0.5)[2].condition[1] <= made.condition[1]
 

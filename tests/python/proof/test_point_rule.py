@@ -161,7 +161,7 @@ def test_a_rule_that_passes_a_limit_is_said_to():
     assert str(found).startswith("O follows the rule stored in the certificate: a polynomial of degree 1 with 4 terms")
 
 
-def test_the_rule_comes_back_from_the_file_and_one_that_was_changed_does_not():
+def test_the_rule_comes_back_from_the_file():
     region = REGIONS["path"]
     rule = random_rule(region, np.random.default_rng(5), 3)
     certificate = proved(region, rule, gap=5.0, time_limit=5.0)
@@ -169,24 +169,8 @@ def test_the_rule_comes_back_from_the_file_and_one_that_was_changed_does_not():
     again = MachineCertificate.from_dict(data)
     assert again == certificate
     assert again.rule == rule
-    for change in (
-        lambda table: table["coefficients"][0].__setitem__(0, np.nextafter(table["coefficients"][0][0], 1e9)),
-        lambda table: table["scale"].__setitem__(0, 32.0),
-        lambda table: table["internal_point"].__setitem__(2, 261.0),
-    ):
-        changed = json.loads(json.dumps(data))
-        change(changed["rule"])
-        with pytest.raises(ValueError, match="rule: got one that was changed since it was proved"):
-            MachineCertificate.from_dict(changed)
-    for key, value, message in (
-        ("powers", data["rule"]["powers"][1:], "terms that do not fit each other"),
-        ("scale", "x", "expected a whole one"),
-        ("coefficients", [[1.0]], "expected a whole one"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            PointRule.from_dict(data["rule"] | {key: value})
-    with pytest.raises(ValueError, match=r"changed since it was proved"):
-        PointRule.from_dict({k: v for k, v in data["rule"].items() if k != "digest"})
+    with pytest.raises(ValueError, match=r"^rule\.scale: got 'x', expected a list"):
+        PointRule.from_dict(data["rule"] | {"scale": "x"})
 
 
 def test_a_proof_goes_on_with_its_own_rule_alone():
@@ -200,7 +184,7 @@ def test_a_proof_goes_on_with_its_own_rule_alone():
     assert again.condition[1] <= part.condition[1]
     with pytest.raises(ValueError, match=r"^rule: got another one than that of the certificate"):
         proved(region, other, resume=part)
-    with pytest.raises(ValueError, match=r"^resume: got a certificate of another machine or one that was changed"):
+    with pytest.raises(ValueError, match=r"^resume: got a certificate without a rule for O"):
         certify(study(region), GEOMETRY, NEUTRAL, 150.0, resume=replace(part, rule=None))
 
 

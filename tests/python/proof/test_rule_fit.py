@@ -133,7 +133,7 @@ def test_a_study_with_o_placed_is_certified_by_a_rule(tmp_path, capsys):
     assert certificate.condition[0] <= result.condition_number * 1.02
     assert "O follows the rule" in nd.report(tmp_path / "run", tmp_path / "page.html").read_text()
     with pytest.raises(SystemExit) as end:
-        main(["certify", str(tmp_path / "run"), "--resume", "--time", "1"])
+        main(["certify", str(tmp_path / "run"), "--time", "1"])
     assert end.value.code == 0
     again = nd.load_certificate(tmp_path / "run")
     assert again.rule == certificate.rule

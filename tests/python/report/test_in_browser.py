@@ -7,7 +7,7 @@ import chromium
 import pytest
 
 import ninedof as nd
-from ninedof.runs.folder import write_run
+from ninedof.records.record import write_run
 
 pytestmark = pytest.mark.skipif(chromium.PROGRAM is None, reason="needs the program chromium")
 WIDTHS = (320, 1280)
@@ -59,7 +59,7 @@ def pages(page, tmp_path_factory):
     made = {"optimization": page}
     for name, run in (("front", front), ("workspace", space)):
         (place / name).mkdir()
-        write_run(run, place / name, asked=asked if run is space else None)
+        write_run(run, place / name, question=asked if run is space else None)
         (place / name / "mechanism.svg").write_text(STILL)
         made[name] = nd.report(place / name)
     return made

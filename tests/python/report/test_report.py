@@ -22,9 +22,9 @@ from ninedof.cli.job_report import write_job
 from ninedof.cli.screen import Screen
 from ninedof.pareto import Front
 from ninedof.pareto.limited import without_degrees
+from ninedof.records.record import Record
 from ninedof.report import origin
 from ninedof.report.question import FAMILIES
-from ninedof.runs.folder import Record
 from ninedof.tables import Column, Table
 from ninedof.tables.html import Html, html_of, tag
 from ninedof.tables.numbers import short
@@ -258,9 +258,7 @@ def test_optimize_writes_its_report_and_lists_it(tmp_path):
         assert ("report.html" in listed) == (name == "with") == (tmp_path / name / "report.html").is_file()
 
 
-@pytest.mark.parametrize(
-    "command", ["", "ninedof optimize 'my study.toml' --out <b>", "ninedof pareto --resume --out x"]
-)
+@pytest.mark.parametrize("command", ["", "ninedof optimize 'my study.toml' --out <b>", "ninedof pareto --out x"])
 def test_the_page_shows_the_command_that_made_the_run(command):
     """As it was typed, beside the one that solves the study of the page."""
     study = nd.Study.paper()
@@ -269,7 +267,6 @@ def test_the_page_shows_the_command_that_made_the_run(command):
     assert "ninedof optimize study.toml" in words
     assert ("The command that made it:" in words) == bool(command)
     assert command in words
-    assert ("without --resume it begins anew" in words) == ("--resume" in command)
 
 
 @pytest.mark.parametrize(

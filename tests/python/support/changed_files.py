@@ -2,14 +2,14 @@
 
 import json
 
-from ninedof.support.seal import DIGEST, sealed
+from ninedof.support.files import json_bytes
 
 
 def entries_of(path):
     """Return what a file says, without its digest."""
-    return {name: value for name, value in json.loads(path.read_text()).items() if name != DIGEST}
+    return {name: value for name, value in json.loads(path.read_text()).items() if name != "digest"}
 
 
 def write_sealed(path, entries):
     """Write entries as ninedof does, with the digest of what they are now."""
-    path.write_text(json.dumps(sealed(entries)))
+    path.write_bytes(json_bytes(entries))

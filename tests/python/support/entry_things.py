@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import ninedof as nd
-from ninedof.runs.machine_file import save_certificate
+from ninedof.records.certificate import save_certificate
 
 _PLACES = itertools.count()
 

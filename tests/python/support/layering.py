@@ -50,7 +50,6 @@ NOWHERE = {"pybind11", "Python.h", "iostream"}
 PYTHON_ROOMS = (
     "support",
     "tables",
-    "chunks",
     "robot",
     "conditioning",
     "kinematics",
@@ -70,7 +69,7 @@ PYTHON_ROOMS = (
     "plot",
     "paper",
     "export",
-    "runs",
+    "records",
     "report",
     "viewer",
     "__init__",
@@ -95,7 +94,7 @@ CORE_USERS = {
     "workspace",
     "sweep",
     "__init__",
-    "runs",
+    "records",
 }
 
 # Figures are drawn from what is handed to them and never compute. Imports for the type checker alone are free.

@@ -1,11 +1,7 @@
 """Files that were damaged, or written by somebody who had it in for us: mutations that know the structure."""
 
 import copy
-import io
-import json
-import zipfile
 
-import numpy as np
 import tomli_w
 
 NUMBERS = [0, -1, 1, 3.5, -2.5, 1e-300, 5e-324, 1e300, -1e300, 2**31, 2**63, 10**30, -(2**70), 0.1 + 0.2]
@@ -110,60 +106,8 @@ def toml_mutant(data, pick):
         return torn(data, pick)
 
 
-def json_mutant(data, pick):
-    if pick.random() < 0.25:
-        return torn(data, pick)
-    return json.dumps(mutated(json.loads(data), pick)).encode()
-
-
 def csv_mutant(data, pick):
     if pick.random() < 0.4:
         return torn(data, pick)
     rows = mutated([line.split(",") for line in data.decode().splitlines()], pick)
     return "\n".join(",".join(map(str, row)) if isinstance(row, list) else str(row) for row in rows).encode()
-
-
-def npz_mutant(data, pick):
-    kind = pick.randrange(3)
-    if kind == 0:
-        return torn(data, pick)
-    with np.load(io.BytesIO(data)) as found:
-        arrays = dict(found)
-    with np.errstate(all="ignore"):
-        return _packed(_changed_array(arrays, pick), data, pick)
-
-
-def _changed_array(arrays, pick):
-    name = pick.choice(sorted(arrays))
-    array = arrays[name]
-    how = pick.randrange(8)
-    if how == 0:
-        del arrays[name]
-    elif how == 1:
-        arrays[name] = (
-            array.astype(pick.choice(["f4", ">f8", "i4", "U3", "c16", "S8"]), casting="unsafe")
-            if array.dtype.kind in "fiu"
-            else np.array(pick.choice(NUMBERS))
-        )
-    elif how == 2:
-        arrays[name] = array[None]
-    elif how == 3:
-        arrays[name] = array[:-1] if array.ndim else np.zeros(3)
-    elif how == 4:
-        arrays[name] = np.full_like(array, np.nan) if array.dtype.kind == "f" else np.zeros(0)
-    elif how == 5:
-        arrays[pick.choice(["x", "../x", "", name + "x"])] = arrays.pop(name)
-    elif how == 6 and array.dtype.kind == "U" and not array.ndim:
-        arrays[name] = np.array(json_mutant(str(array).encode(), pick).decode("utf-8", "replace"))
-    else:
-        arrays[name] = np.array(pick.choice(TEXTS))
-    return arrays
-
-
-def _packed(arrays, data, pick):
-    buffer = io.BytesIO()
-    try:
-        np.savez(buffer, **arrays)
-    except (ValueError, TypeError, zipfile.BadZipFile):
-        return torn(data, pick)
-    return buffer.getvalue()

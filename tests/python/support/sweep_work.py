@@ -59,7 +59,7 @@ def wrong_shape(g, c, lc):
 
 def finished(folder):
     """The numbers of the chunks that a folder has."""
-    file = Path(folder) / chunks.STATE
+    file = Path(folder) / "pieces" / "00000000.npz"
     if not file.exists():
         return set()
     with np.load(file) as noted:

@@ -220,7 +220,7 @@ nd.atlas(40_000, seed=3, chunk=4000, out={str(out)!r})
     monkeypatch.setattr(AtlasWork, "values", counted)
     same(nd.atlas(40_000, seed=3, out=out), found)
     assert calls == list(range(12_000, 40_000, 4000))
-    with pytest.raises(ValueError, match=r"another question \(seed: 3 there, 4 here"):
+    with pytest.raises(ValueError, match=r"another question: seed is 3 there and 4 here"):
         nd.atlas(40_000, seed=4, out=out)
 
 

@@ -118,7 +118,7 @@ def test_an_error_of_the_executor_is_raised_and_the_next_call_goes_on(outcome, e
     monkeypatch.setattr(chunks, "IN_FLIGHT", 8)
     with pytest.raises(error) as raised:
         asked(executor=Broken(15, outcome), out=tmp_path)
-    assert raised.value.__notes__ == [f"Finished chunks are kept in {tmp_path}: the same call goes on from there."]
+    assert raised.value.__notes__ == [f"Finished pieces are kept in {tmp_path}: the same call goes on from there."]
     kept = len(finished(tmp_path))
     assert kept >= 7
     rest = Broken(-1, None)
@@ -372,10 +372,11 @@ def test_a_scheduler_that_is_lost_ends_the_run_with_what_to_do_next(tmp_path, ca
         main([*line, "my run", "--scheduler", "tcp://127.0.0.1:8786"])
     assert end.value.code == 4
     (said,) = (said for said in capsys.readouterr().err.splitlines() if said.startswith("ninedof: "))
-    assert said.startswith("ninedof: --scheduler: lost tcp://127.0.0.1:8786 (CancelledError); finished chunks are kept")
-    assert "--out 'my run' --resume" in said
-    assert finished(tmp_path / "my run" / "chunks") == {0, 1}
+    assert said.startswith(
+        "ninedof: --scheduler: lost tcp://127.0.0.1:8786 (CancelledError). Finished pieces are kept in"
+    )
+    assert finished(tmp_path / "my run") == {0, 1}
     with pytest.raises(SystemExit) as end:
-        main([*line, "my run", "--resume"])
+        main([*line, "my run"])
     assert end.value.code == 0
     assert nd.load("my run")["condition_number"].shape == (23,)

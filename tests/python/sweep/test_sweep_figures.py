@@ -230,8 +230,8 @@ def test_sweep_over_poses(here, capsys):
     assert "leg ratio" in out
     names = {p.name for p in (here / "run").iterdir()}
     assert names == {
-        "chunks",
-        "command.json",
+        "pieces",
+        "question.json",
         "record.json",
         "report.html",
         "sweep.npz",
@@ -292,8 +292,8 @@ def test_the_atlas_command(here, capsys, monkeypatch):
     assert "Best of all designs" in out
     names = {p.name for p in (here / "run").iterdir()}
     assert names == {
-        "chunks",
-        "command.json",
+        "pieces",
+        "question.json",
         "record.json",
         "report.html",
         "atlas.npz",
@@ -359,8 +359,6 @@ BAD = {
     "sweep --over x_p=0:1:3 --index six_legged": "index: got 'six_legged', which is for the neutral pose",
     "sweep --over zs=1:2:3 --index six_legged --lc optimal": "characteristic_length: got 'optimal'",
     "sweep --a1 3 --over a1=0:1:3": "--over: got a1, which --a1 holds",
-    "sweep --over x_p=0:1:3 --resume": "--resume: got no --out",
-    "sweep --over x_p=0:1:3 --resume --out nowhere": "which holds no chunks",
     "sweep --over x_p=0:1:3 --threads 0": "threads: got 0",
     "atlas --designs 0": "designs: got 0",
     "atlas --seed -1": "seed: got -1",
@@ -391,25 +389,24 @@ def test_without_dask_the_error_says_what_to_install(here, capsys, monkeypatch):
 
 
 def test_an_interrupted_command_is_resumed(here, capsys):
-    """Ctrl-C: status 130, a message names the kept chunks, --resume goes on with the same other options."""
+    """Ctrl-C: status 130, a message has the line to go on, which does; another question is refused."""
     line = [sys.executable, "-m", "ninedof", "sweep", "figure-7", "--points", "4001", "--out", "run", "--no-figures"]
     process = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
-    while not finished("run/chunks") and time.monotonic() < deadline:
+    while not finished("run") and time.monotonic() < deadline:
         time.sleep(0.005)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert "finished chunks are kept in run" in " ".join(out.split())
-    assert "`ninedof resume run` continues the run" in err
-    kept = len(finished("run/chunks"))
+    assert out == ""
+    assert f"to go on, type: ninedof {' '.join(line[3:])}" in err
+    kept = len(finished("run"))
     assert kept >= 1
-    status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --resume --no-figures")
+    status, _, err = run(capsys, "sweep figure-7 --points 5 --out run --no-figures")
     assert status == 2
     assert "another question" in err
     status, _, err = run(capsys, "sweep figure-7 --points 4001 --out run --no-figures")
-    assert status == 2
-    assert "not an empty folder" in " ".join(err.split())
+    assert status == 0
 
 
 # --- What the command says and draws ----------------------------------------------------------------------------------

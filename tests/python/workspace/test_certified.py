@@ -346,7 +346,7 @@ def test_saved_and_loaded(published, tmp_path):
     assert 100.0 * proved.gap <= said <= 105.0 * proved.gap
     assert np.array_equal(again.cuts, proved.cuts)
     assert "mm³" in str(again)
-    with pytest.raises(ValueError, match="expected a whole one"):
+    with pytest.raises(ValueError, match="got no 'ninedof-certified-workspace-1' file"):
         nd.CertifiedWorkspace.load(nd.workspace(published, BOX, criteria=LEGS, tolerance=0.1).save(tmp_path / "map"))
 
 
@@ -438,36 +438,3 @@ def test_what_lies_beyond_takes_no_time_that_there_is_not(published):
     asked = {"criteria": LEGS | {"condition_number": 5.0}, "archetype": "reachable", "orientations": 20}
     proved = nd.certified_workspace(published, BOX, time_limit=0.0, **asked)
     assert (proved.end, proved.beyond) == ("time", "unknown")
-
-
-DAMAGED = {
-    "an index past the planes": lambda d: d.update(first_cut=d["first_cut"] + 1),
-    "indices that fall": lambda d: d["first_cut"].__setitem__(1, len(d["cuts"]) + 5),
-    "a box that is no number": lambda d: d["open_low"].__setitem__((0, 0), np.nan),
-    "a box inside out": lambda d: d.update(inner_low=d["inner_high"], inner_high=d["inner_low"]),
-    "a box outside": lambda d: d["inner_high"].__setitem__((0, 0), 1e3),
-    "a box too few": lambda d: d.update(open_high=d["open_high"][1:]),
-    "planes of four numbers": lambda d: d.update(cuts=d["cuts"][:, :4]),
-    "planes that are no numbers": lambda d: d["cuts"].__setitem__((0, 3), np.nan),
-    "bounds in the wrong order": lambda d: d.update(
-        words=np.array(
-            str(d["words"]).replace('"volume":[', '"volume":[1e9,').replace('"volume": [', '"volume": [1e9,')
-        )
-    ),
-    "an end of another kind": lambda d: d.update(words=np.array(str(d["words"]).replace('"gap"', '"done"'))),
-}
-
-
-@pytest.mark.parametrize("damage", DAMAGED)
-def test_files_whose_parts_do_not_belong_together_are_refused(published, tmp_path, damage):
-    proved = nd.certified_workspace(published, BOX, criteria=LEGS, gap=0.05)
-    path = proved.save(tmp_path / "proved")
-    with np.load(path) as found:
-        contents = dict(found)
-    assert nd.CertifiedWorkspace.load(path).volume == proved.volume
-    before = {name: value.copy() for name, value in contents.items()}
-    DAMAGED[damage](contents)
-    assert any(not np.array_equal(before[n], contents[n], equal_nan=n != "words") for n in before)
-    np.savez(path, **contents)
-    with pytest.raises(ValueError, match="expected a whole one"):
-        nd.CertifiedWorkspace.load(path)

@@ -14,7 +14,7 @@ from ninedof.cli.app import main
 from ninedof.cli.workspace_figures import _planes, _section
 from ninedof.cli.workspace_question import compare_poses
 from ninedof.paper.published import published_variables
-from ninedof.runs.folder import write_run
+from ninedof.records.record import write_run
 from ninedof.workspace.study_criteria import EASE, leg_ranges, own_fraction
 from ninedof.workspace.study_question import narrowed
 
@@ -42,7 +42,7 @@ def test_the_command_leaves_a_run_folder(tmp_path, capsys, published):
     )
     assert_allclose(numbers["volume"], expected.volume, rtol=1e-12)
     figures = {f"{stem}.{kind}" for stem in ("workspace", "workspace_body") for kind in ("png", "svg", "pdf")}
-    kept = {"command.json", "chunks"}
+    kept = {"question.json", "pieces"}
     assert {p.name for p in (tmp_path / "run").iterdir()} == {"record.json", "map.npz", "report.html"} | kept | figures
     record = json.loads((tmp_path / "run" / "record.json").read_text())
     assert record["results"]["workspace"]["volume"] == numbers["volume"]

@@ -25,7 +25,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof atlas                                        a million designs
 
-  ninedof atlas --designs 100000000 --out atlas        a hundred million; --resume after an interruption"""
+  ninedof atlas --designs 100000000 --out atlas        a hundred million; again after an interruption"""
 
 
 @dataclass(frozen=True, kw_only=True)

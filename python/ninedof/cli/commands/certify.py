@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -13,17 +12,14 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.job_report import write_job
 from ninedof.cli.options import Options, Threads
-from ninedof.cli.remembered import given, remember, resumed
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.optimize.result import Result
 from ninedof.proof.machine_record import MachineCertificate, outward
+from ninedof.records.certificate import certificate_file, load_certificate, save_certificate
+from ninedof.records.load import load
 from ninedof.robot.leg_names import LEGS
-from ninedof.runs.command_file import FILE as COMMAND
-from ninedof.runs.command_file import Input
-from ninedof.runs.directory import used_directory
-from ninedof.runs.machine_file import begun_file, certificate_file, load_certificate, save_certificate
-from ninedof.runs.objects import load, split
 from ninedof.support.arguments import finite
+from ninedof.support.command import ended_by_time, goes_on
 from ninedof.support.margins import margin_words
 from ninedof.support.units import with_unit
 from ninedof.tables import RIGHT, Column, Table
@@ -35,7 +31,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof certify runs/20260101-120000 --condition 3.4 --time 600
 
-  ninedof certify runs/20260101-120000 --resume       go on where time was over"""
+  ninedof certify runs/20260101-120000                again: goes on where time was over"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +43,6 @@ class CertifyOptions(Options):
     gap: Annotated[float, typer.Option(help="Relative width of the enclosure of the worst condition number.")] = 0.05
     time: Annotated[float, typer.Option(help="Seconds for the condition number; limits take seconds.")] = 300.0
     tolerance: Annotated[float, typer.Option(help="By which limits may be passed, relative.")] = 1e-6
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with the boxes that an earlier run left.")] = False
     threads: Threads = None
 
 
@@ -57,24 +52,23 @@ def certify(options: CertifyOptions) -> None:
     finite("--time", options.time, 0.0)
     if options.condition is not None:
         finite("--condition", options.condition, 1.0)
-    run = given(options.run)
+    run = options.run
     result = load(run)
     if not isinstance(result, Result):
         raise ValueError(
             f"{run}: got no design of a study, expected a run of `ninedof optimize` or RUN#7, a point of a front"
         )
     file = certificate_file(run)
-    begun = begun_file(file)
+    earlier = load_certificate(run) if file.exists() else None
     states = []
 
     def keep(so_far: MachineCertificate) -> None:
         with suppress(OSError):  # a full disk: the proof is worth more than its states
-            states.append(save_certificate(so_far, begun))
+            states.append(save_certificate(so_far, file))
 
+    goes_on()
     try:
-        with used_directory(file.parent, "run"), screen.bar("boxes", "certify") as bar:
-            earlier = _earlier(file) if options.resume else None  # nobody writes it now
-            remember(file.parent, Input(file.name, "", split(run)[1]), f"{file.stem}.{COMMAND}")
+        with screen.bar("boxes", "certify") as bar:
             certificate = result.certify(
                 condition_number=options.condition,
                 gap=options.gap,
@@ -88,29 +82,21 @@ def certify(options: CertifyOptions) -> None:
     except KeyboardInterrupt:
         what = "what is proved so far is kept" if states else "the run folder is as it was"
         screen.print(bold("interrupted", f" before the limits were proved: {what}"))
-        raise typer.Exit(INTERRUPTED) from None
-
-    def write(_: object) -> Path:
-        save_certificate(certificate, file)
-        begun.unlink(missing_ok=True)
-        return file
-
+        raise
+    except ValueError as error:
+        if not str(error).startswith("resume: "):
+            raise
+        raise ValueError(f"{file}: {str(error).removeprefix('resume: ')}") from None
     data = certificate.to_dict() | {"left": []}
     answer = Answer([certificate_table(certificate), *certificate.sentences()], data)
-    write_job(screen, answer, write)
+    write_job(screen, answer, lambda _: save_certificate(certificate, file))
     screen.print(f"certificate {file}, {certificate.seconds:.0f} s")
     screen.data(data | {"file": str(file)})
     if certificate.interrupted:
         raise typer.Exit(INTERRUPTED)
+    if certificate.left_count:
+        ended_by_time()
     raise typer.Exit(DONE if certificate.proved and not certificate.left_count else NO_RESULT)
-
-
-def _earlier(file: Path) -> MachineCertificate | None:
-    """Return the certificate to go on with: of a run that was killed, or of one that has ended."""
-    begun = begun_file(file)
-    if begun.exists():
-        return load_certificate(begun)
-    return load_certificate(file) if file.exists() or not resumed() else None
 
 
 def certificate_table(certificate: MachineCertificate) -> Table:

@@ -24,7 +24,7 @@ from ninedof.cli.options import (
     TwistDeg,
 )
 from ninedof.design.indices import computed
-from ninedof.runs.design_file import indices
+from ninedof.records.design_file import indices
 from ninedof.sheet.sheet import sheet
 from ninedof.sheet.tables import limits_table, poses_table
 from ninedof.support.units import amount, unit_entry

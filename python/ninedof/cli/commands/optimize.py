@@ -13,24 +13,22 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import CHUNKS, run_folder
-from ninedof.cli.options import JobOptions, Resume, Starts, StudyFile, Threads
-from ninedof.cli.remembered import given
+from ninedof.cli.long_run import run_folder
+from ninedof.cli.options import JobOptions, Starts, StudyFile, Threads
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
 from ninedof.optimize.optimize import optimize as solve
-from ninedof.optimize.result import Result
+from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
 from ninedof.paper.comparison import Comparison, compare
 from ninedof.paper.tables import comparison_table, comparison_words
 from ninedof.proof.optimum import left_out_of
-from ninedof.runs.command_file import Input
-from ninedof.runs.describe import describe_comparison
-from ninedof.runs.figures import figures_of
-from ninedof.runs.folder import write_run
+from ninedof.records.figures import figures_of
+from ninedof.records.record import describe_comparison, write_run
 from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
+from ninedof.support.command import ended_by_time
 from ninedof.support.units import amount, unit_entry
 from ninedof.verify.verdict import check as examine
 
@@ -53,7 +51,6 @@ class OptimizeOptions(JobOptions):
     """The options."""
 
     study: StudyFile = None
-    resume: Resume = False
     starts: Starts = None
     seed: Annotated[int | None, typer.Option(help="Seed, in place of the study's.")] = None
     threads: Threads = None
@@ -76,8 +73,7 @@ def optimize(options: OptimizeOptions) -> None:
     """Find the best design of a study: by default, the design with the least condition number."""
     screen = Screen(options.json)
     thread_argument(options.threads)
-    reads = Input.of(None if options.study is None else str(options.study))
-    file = None if options.study is None else Path(given(str(options.study)))
+    file = options.study
     study = (Study.paper() if file is None else Study.load(file)).with_solver(options.starts, options.seed)
     if options.convergence and not options.figures:
         raise ValueError("--convergence: got it with --no-figures, expected one of the two")
@@ -85,10 +81,10 @@ def optimize(options: OptimizeOptions) -> None:
         raise ValueError(f"--time: got {options.time:g}, expected seconds, more than 0")
     if options.certify:
         left_out_of(study)  # raises where no proof is known, before the work
-    with run_folder(options.out, options.resume, reads) as directory:
+    with run_folder(options.out) as directory:
         limit = math.inf if options.time is None else options.time
         how: dict[str, Any] = {"threads": options.threads, "certify": options.certify, "time_limit": limit}
-        run = _solve(study, file, how | {"out": directory / CHUNKS}, screen)
+        run = _solve(study, file, how | {"out": directory}, screen)
     if isinstance(run, Comparison):
         result, answer = run.result, Answer(_comparison_parts(run), describe_comparison(run))
     else:
@@ -104,6 +100,8 @@ def optimize(options: OptimizeOptions) -> None:
         data["check"] = {"passed": verdict.passed, "report": verdict.report()}
     screen.print(folder_words(directory))
     screen.data({**data, "record": str(record)})
+    if options.time is not None and result.status == Status.STOPPED and not result.interrupted:
+        ended_by_time(without="--time")
     raise typer.Exit(exit_status(result, timed=options.time is not None))
 
 

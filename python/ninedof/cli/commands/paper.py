@@ -11,13 +11,14 @@ import typer
 
 from ninedof.cli.answer import Answer
 from ninedof.cli.job_report import folder_words, write_job
+from ninedof.cli.long_run import run_folder
 from ninedof.cli.options import Options, Report, Threads
 from ninedof.cli.screen import Screen
 from ninedof.paper.tables import verdicts_table
 from ninedof.paper.verdicts import verdicts
-from ninedof.runs.directory import new_directory
-from ninedof.runs.folder import Record, write_drawn
+from ninedof.records.record import Record, write_drawn
 from ninedof.support.arrays import thread_argument
+from ninedof.support.store import Store
 
 PLACE = 7
 EXAMPLES = """[bold]Examples[/bold]
@@ -43,14 +44,14 @@ def paper(options: PaperOptions) -> None:
     thread_argument(options.threads)
     if options.out is not None and not options.figures:
         raise ValueError(f"--out: got {options.out} without --figures, expected both")
-    directory = new_directory(options.out) if options.figures else None
-    rows = [asdict(v) for v in verdicts(options.threads)]
-    table = verdicts_table(rows)
-    if directory is None:
-        screen.print(table)
+    if not options.figures:
+        rows = [asdict(v) for v in verdicts(options.threads)]
+        screen.print(verdicts_table(rows))
     else:
-        write = partial(write_drawn, Record("paper", {}, {"verdicts": rows}), directory)
-        write_job(screen, Answer([table], rows), write, partial(_draw, screen), options.report)
+        with run_folder(options.out) as directory, Store(directory, {"kind": "paper"}):
+            rows = [asdict(v) for v in verdicts(options.threads)]
+            write = partial(write_drawn, Record("paper", {}, {"verdicts": rows}), directory)
+            write_job(screen, Answer([verdicts_table(rows)], rows), write, partial(_draw, screen), options.report)
         screen.print(folder_words(directory))
     screen.data(rows)
 

@@ -13,9 +13,8 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import CHUNKS, run_folder
-from ninedof.cli.options import JobOptions, Resume, Starts, Threads
-from ninedof.cli.remembered import given
+from ninedof.cli.long_run import run_folder
+from ninedof.cli.options import JobOptions, Starts, Threads
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.design.limits import names_with_max, split_label
 from ninedof.design.study import Study
@@ -24,9 +23,8 @@ from ninedof.pareto import Front
 from ninedof.pareto import pareto as trace_front
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limited import with_degrees
-from ninedof.runs.command_file import Input
-from ninedof.runs.folder import write_run
-from ninedof.runs.objects import split
+from ninedof.records.load import split
+from ninedof.records.record import write_run
 from ninedof.support.arrays import thread_argument
 
 PLACE = 2
@@ -40,7 +38,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof pareto runs/20260101-120000 --points 7   the study of a run, against the limit of greatest price
 
-  ninedof pareto study.toml --against leg_ratio --out front     --resume after an interruption"""
+  ninedof pareto study.toml --against leg_ratio --out front     again after an interruption"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +63,6 @@ class ParetoOptions(JobOptions):
         ),
     ] = None
     points: Annotated[int, typer.Option(help="Number of limits, if the command selects them.")] = 13
-    resume: Resume = False
     starts: Starts = None
     threads: Threads = None
 
@@ -77,8 +74,7 @@ def pareto(options: ParetoOptions) -> None:
     for limit in options.value or ():
         if not 0.0 < limit < math.inf:
             raise ValueError(f"--value: got {limit:g}, expected a finite number above 0")
-    reads = Input.of(None if options.study is None else str(options.study))
-    file = None if options.study is None else Path(given(str(options.study)))
+    file = options.study
     study, run = _study_of(file)
     study = study.with_solver(options.starts)
     against = options.against
@@ -88,8 +84,8 @@ def pareto(options: ParetoOptions) -> None:
     name = "the paper's problem" if file is None else file.name
     if study.length_note:
         screen.print(study.length_note)
-    with run_folder(options.out, options.resume, reads) as directory, screen.bar("limits", f"{name}, {against}") as bar:
-        how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory / CHUNKS}
+    with run_folder(options.out) as directory, screen.bar("limits", f"{name}, {against}") as bar:
+        how: dict[str, Any] = {"threads": options.threads, "progress": bar.show, "out": directory}
         front = trace_front(replace(study), against, options.value or None, options.points, **how)
     parts: list[Any] = [front_table(front)] if front.limits else []
     if front.interrupted:

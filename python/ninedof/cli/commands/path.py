@@ -13,18 +13,19 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.job_report import folder_words, write_job
+from ninedof.cli.long_run import run_folder
 from ninedof.cli.options import DesignOrPublished, JobOptions, Lc, LegLimits, Three, Two
 from ninedof.cli.screen import DONE, NO_RESULT, Screen, bold
 from ninedof.design.study import Study
 from ninedof.motion import Followed, Trajectory, follow
 from ninedof.motion.tables import legs_table, limits_table, motion_words
+from ninedof.records.motion import plain, write_motion
 from ninedof.redundancy.rules import RULES
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.directory import run_directory
-from ninedof.runs.motion_folder import plain, write_motion
 from ninedof.sheet.path_limits import PathLimits, path_limits
 from ninedof.sheet.weight import Weight
+from ninedof.support.store import Store
 from ninedof.support.units import unit_entry
 
 PLACE = 7
@@ -117,7 +118,7 @@ def path(options: PathOptions) -> None:
     else:
         question |= options.shapes | {"duration": trajectory.time[-1], "points": len(trajectory)}
     load |= _with_weight(load, weight, trajectory)
-    with run_directory(options.out) as directory:
+    with run_folder(options.out) as directory, Store(directory, {"kind": "motion", **question}):
         length = chosen.characteristic_length
         result = follow(g, trajectory, home, **how, **load, characteristic_length=length, unit=chosen.unit)
     of_study = path_limits(study, result, home) if study else None

@@ -13,12 +13,10 @@ import typer
 
 from ninedof.cli import options
 from ninedof.cli.chosen_design import chosen_design, named_design, with_length
-from ninedof.cli.remembered import given
 from ninedof.cli.sweep_job import Job, describe, json_data
 from ninedof.cli.swept_variables import FAMILIES, VARIABLES, swept_design
 from ninedof.design.indices import computed
 from ninedof.paper.sweeps import sweep_figure
-from ninedof.runs.command_file import Input
 from ninedof.support.angles import DEG, plain_name
 from ninedof.support.arguments import choice
 from ninedof.support.arrays import thread_argument
@@ -98,7 +96,7 @@ class Sweep(Job):
 def sweep(job: Sweep) -> None:
     """Compute an index over one to three coordinates of the configuration, or variables of the design."""
     thread_argument(job.threads)
-    what = job.what and given(job.what)
+    what = job.what
     if what in FIGURES:
         _expect_none(f"with {what}", job, NONE_WITH_FIGURES)
         call: Callable[..., SweepResult] = partial(sweep_figure, what.removeprefix("figure-"), job.points)
@@ -114,7 +112,7 @@ def sweep(job: Sweep) -> None:
             held, own = swept_design(what, job.sides, job.theta_z_deg, grid, job.lc)
             own["chunk"] = job.chunk
             call = partial(sweep_designs, held, grid, job.index or "condition_number", **own)
-    result, folder = job.compute(call, title, Input.of(job.what))
+    result, folder = job.compute(call, title)
     summary = {name: describe(result, name) for name in result if result[name].dtype.kind == "f"}
     table = summary_table(summary, title, result.units)
     data = json_data(result, summary)

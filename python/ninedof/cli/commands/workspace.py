@@ -13,17 +13,16 @@ import typer
 from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import Chosen, named_design, with_length
 from ninedof.cli.job_report import folder_words, write_job
-from ninedof.cli.long_run import CHUNKS, Finished, run_folder
-from ninedof.cli.remembered import given as given_file
+from ninedof.cli.long_run import piece, run_folder
 from ninedof.cli.screen import DONE, INTERRUPTED, NO_RESULT, Screen, bold
 from ninedof.cli.workspace_figures import draw
 from ninedof.cli.workspace_question import Question, WorkspaceOptions, question_of
 from ninedof.design.region_stack import places_o
+from ninedof.records.record import write_run
 from ninedof.robot.configuration import arrays_of
 from ninedof.robot.geometry import triples
-from ninedof.runs.command_file import Input
-from ninedof.runs.folder import write_run
 from ninedof.support.arrays import thread_argument
+from ninedof.support.store import Store
 from ninedof.workspace import CertifiedWorkspace, WorkspaceMap, certified_workspace
 from ninedof.workspace import workspace as find_workspace
 from ninedof.workspace.question_words import asked_lines
@@ -55,20 +54,19 @@ def workspace(options: WorkspaceOptions) -> None:
     """
     screen = Screen(options.json)
     thread_argument(options.threads)
-    reads = Input.of(options.design)
-    chosen = with_length(named_design(options.design and given_file(options.design)), options.lc)
+    chosen = with_length(named_design(options.design), options.lc)
     question = question_of(options, chosen)
     home, region = chosen.configuration, question.region
     record = {"geometry": triples(chosen.geometry), "home": arrays_of(home), **question.asked}
     how: dict[str, Any] = {"home": home, "threads": options.threads}
-    with run_folder(options.out, options.resume, reads) as directory:
-        results = Finished(directory / CHUNKS, {**record, "proof": question.proof})
+    whole = {"kind": "workspace", **record, "proof": question.proof}
+    with run_folder(options.out) as directory, Store(directory, whole) as store:
 
         def search() -> WorkspaceMap:
             with screen.bar("poses", options.archetype.replace("_", " ")) as bar:
                 return find_workspace(chosen.geometry, **question.asked, **how, progress=bar.show)
 
-        result = results.result(0, WorkspaceMap, search)
+        result = piece(store, 0, WorkspaceMap, search)
 
     def write(drawing: Any) -> Path:
         return write_run(result, directory, drawing, record)
@@ -82,7 +80,7 @@ def workspace(options: WorkspaceOptions) -> None:
             with screen.bar("boxes", "proving") as bar:
                 return certified_workspace(chosen.geometry, **asked, **proof, **how, progress=bar)
 
-        proved = results.result(1, CertifiedWorkspace, prove)
+        proved = piece(store, 1, CertifiedWorkspace, prove)
         if result.method != "sample":
             proved = proved.with_estimate(result.volume, result.error)
         result = replace(result, certified=proved)

@@ -1,0 +1,50 @@
+"""Where run folders are made."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from datetime import datetime
+from pathlib import Path
+
+from ninedof.support.store import require_run_or_nothing
+
+RUNS = Path("runs")
+
+
+@contextmanager
+def run_folder(out: Path | None) -> Iterator[Path]:
+    """Yield the folder of a run: `out`, which is missing, empty or that of a run to go on with, or runs/<time> here.
+
+    Whether the run there has the same question is for its `Store` to say, which also makes `out`. A folder of runs/
+    in which nothing is kept is removed.
+    """
+    if out is not None:
+        require_run_or_nothing(out)
+        yield out
+        return
+    folder = _of_now()
+    try:
+        yield folder
+    finally:
+        with suppress(OSError):
+            folder.rmdir()
+            RUNS.rmdir()
+
+
+def _of_now() -> Path:
+    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    for attempt in itertools.count():
+        path = RUNS / (f"{stamp}-{attempt}" if attempt else stamp)
+        try:
+            path.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            reason = error.strerror
+            raise ValueError(
+                f"out: got {path}, which cannot be created ({reason}), expected a writeable place"
+            ) from None
+        return path
+    raise AssertionError("unreachable")

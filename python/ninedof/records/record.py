@@ -1,0 +1,235 @@
+"""Run folders of all kinds, written and read. Each has a `record.json` of one form.
+
+The record has `format`, `kind`, `study` or `question` (what was asked), `results`, `versions`, `created`, `command` if
+one made it, `files`: the names of the arrays and figures beside it, and `digest`. It is written whole or not at all,
+before the figures are drawn.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ninedof.design.study import Study
+from ninedof.motion import Followed
+from ninedof.optimize.result import Result, result_from
+from ninedof.paper import published
+from ninedof.paper.comparison import Comparison, Row
+from ninedof.pareto import Front
+from ninedof.pareto.limited import limited, without_degrees
+from ninedof.proof.optimum import FILE as CERTIFICATE
+from ninedof.support.command import command_line
+from ninedof.support.fields import entries_of
+from ninedof.support.files import json_bytes, read_json, write_whole
+from ninedof.support.versions import versions
+from ninedof.sweep import SweepResult
+from ninedof.workspace import CertifiedWorkspace, WorkspaceMap
+
+FORMAT = "ninedof-record-4"
+FILE = "record.json"
+
+Run = Result | Comparison | Front | WorkspaceMap | SweepResult
+Draw = Callable[[Path], Sequence[Path]]
+"""Called with the directory after the record was written; draws figures there and returns their paths."""
+
+CERTIFIED = "certified.npz"  # beside the map of a workspace
+ARRAYS: dict[str, tuple[type[WorkspaceMap | SweepResult | Followed], str]] = {
+    "workspace": (WorkspaceMap, "map.npz"),
+    "sweep": (SweepResult, "sweep.npz"),
+    "atlas": (SweepResult, "atlas.npz"),
+    "motion": (Followed, "motion.npz"),
+}
+"""Kinds of runs whose numbers lie in a file beside the record."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """A run: what was asked, with which versions, what came out."""
+
+    kind: str
+    """"optimization", "comparison" (with the published optimum), "front", "workspace", "sweep", "atlas",
+    "motion" or "paper"."""
+    question: Study | Mapping[str, Any]
+    """The study, or the question as plain values."""
+    results: Mapping[str, Any]
+    """Named results as plain values."""
+    versions: Mapping[str, str] = field(default_factory=versions)
+    created: str = field(default_factory=lambda: datetime.now(UTC).isoformat(timespec="seconds"))
+    files: tuple[str, ...] = ()
+    """Arrays and figures beside the record."""
+    command: str = field(default_factory=command_line)
+    """The command line that made the run; "" without one."""
+
+    @property
+    def study(self) -> Study:
+        """The study.
+
+        Raises
+        ------
+        ValueError
+            If the run was none of a study.
+
+        """
+        if not isinstance(self.question, Study):
+            raise ValueError(f"got the record of a run of kind {self.kind}, expected one with a study")
+        return self.question
+
+
+def write_run(
+    run: Run,
+    directory: str | os.PathLike[str],
+    draw: Draw | None = None,
+    question: Mapping[str, Any] | None = None,
+    results: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write a run into an existing directory; return the path of its record.
+
+    Parameters
+    ----------
+    run : Result, Comparison, Front, WorkspaceMap or SweepResult
+        One that was interrupted leaves the record of an earlier run as it is.
+    directory : path
+    draw : callable, optional
+        Called with the directory after the record was written; draws figures there and returns their paths.
+    question : mapping, optional
+        What was asked, where the run does not hold it itself: of a workspace.
+    results : mapping, optional
+        What the record says of a sweep or an atlas; the arrays lie beside it.
+
+    """
+    folder = Path(directory)
+    result = run.result if isinstance(run, Comparison) else run
+    if getattr(result, "interrupted", False) and (folder / FILE).is_file():
+        if draw is not None:
+            draw(folder)
+        return folder / FILE
+    record, files = _record_of(run, question or {}, results or {}), []
+    if isinstance(run, WorkspaceMap | SweepResult):
+        files.append(run.save(folder / ARRAYS[record.kind][1]))
+    if isinstance(run, WorkspaceMap) and run.certified is not None:
+        files.append(run.certified.save(folder / CERTIFIED))
+    if isinstance(result, Result) and result.proof is not None and result.proof.certificate:
+        files.append(result.proof.save(folder / CERTIFICATE))
+    return write_drawn(replace(record, files=tuple(file.name for file in files)), folder, draw)
+
+
+def write_drawn(record: Record, folder: Path, draw: Draw | None) -> Path:
+    """Write a record, then draw, then write it with the names of the figures; return its path."""
+    path = write_record(record, folder)
+    if draw is not None:
+        write_record(replace(record, files=(*record.files, *(file.name for file in draw(folder)))), folder)
+    return path
+
+
+def _record_of(run: Run, question: Mapping[str, Any], results: Mapping[str, Any]) -> Record:
+    if isinstance(run, Result):
+        return Record("optimization", run.study, {"optimization": run.to_dict()})
+    if isinstance(run, Comparison):
+        return Record("comparison", run.result.study, describe_comparison(run))
+    if isinstance(run, Front):
+        front = {**run.to_dict(), "results": [result.to_dict() for result in run.results]}
+        return Record("front", run.study, {"front": front})
+    if isinstance(run, WorkspaceMap):
+        return Record("workspace", question, {"workspace": run.to_dict()})
+    question = {name: value for name, value in run.attributes.items() if name not in versions()}
+    return Record("atlas" if run.attributes.get("kind") == "atlas" else "sweep", question, results)
+
+
+def write_record(record: Record, directory: str | os.PathLike[str]) -> Path:
+    """Write `record.json` into an existing directory and return its path."""
+    question = (
+        {"study": record.question.to_dict()} if isinstance(record.question, Study) else {"question": record.question}
+    )
+    others = {name: getattr(record, name) for name in ("results", "versions", "created", "command", "files")}
+    if not record.command:
+        del others["command"]
+    return write_whole(
+        Path(directory) / FILE, json_bytes({"format": FORMAT, "kind": record.kind, **question, **others})
+    )
+
+
+def load_record(path: str | os.PathLike[str]) -> Record:
+    """Read a record from its file or its directory.
+
+    Raises
+    ------
+    ValueError
+        If there is no record, or it was changed; the message names the file.
+
+    """
+    data = read_json(folder_of(path) / FILE if Path(path).is_dir() else Path(path), FORMAT)
+    question = Study.from_dict(data.pop("study")) if "study" in data else data.pop("question")
+    return Record(**{"command": "", **data, "files": tuple(data["files"])}, question=question)
+
+
+def load_run(path: str | os.PathLike[str]) -> Result | Front | WorkspaceMap | SweepResult | Followed:
+    """Read what a run folder, or the record there, holds.
+
+    Robots are made anew from their variables; all other numbers are those written.
+
+    Raises
+    ------
+    ValueError
+        If there is no such record, or it was changed; the message names the file.
+
+    """
+    record, folder = load_record(path), folder_of(path)
+    if record.kind in ARRAYS:
+        kind, name = ARRAYS[record.kind]
+        run = kind.load(folder / name)
+        if not isinstance(run, WorkspaceMap) or CERTIFIED not in record.files:
+            return run
+        certified = CertifiedWorkspace.load(folder / CERTIFIED)
+        if certified.estimate not in (None, (run.volume, run.error)):
+            raise ValueError(f"{folder / CERTIFIED}: got what is proved of another map, expected that of this run")
+        return replace(run, certified=certified)
+    study = record.study  # a run of another kind has none
+    return _front(study, record) if record.kind == "front" else result_from(study, record.results["optimization"])
+
+
+def folder_of(path: str | os.PathLike[str]) -> Path:
+    """Return the folder of a run that is named by its folder or its record."""
+    place = Path(path)
+    return place if place.is_dir() else place.parent
+
+
+def _front(study: Study, record: Record) -> Front:
+    data = record.results["front"]
+    limits = tuple(float(row["limit"]) for row in data["rows"])
+    fields = entries_of(Front, data, skipped=["study", "limits", "results"])
+    plain, degrees = without_degrees(fields["against"])
+    results = []
+    for limit, entries in zip(limits, data["results"], strict=True):
+        value = math.radians(limit) if degrees else limit
+        results.append(result_from(limited(study, plain, value if np.isfinite(value) else None), entries))
+    return Front(study, **fields, limits=limits, results=tuple(results))
+
+
+def describe_comparison(c: Comparison) -> dict[str, Any]:
+    """Return the comparison with the published optimum as plain values."""
+    return {
+        "published": {"a1": published.A1, "b1": published.B1, "zp": published.ZP, "condition_number": published.KAPPA},
+        "as_printed": c.as_printed,
+        "why": c.why,
+        "designs": [_row(row) for row in c.rows()],
+        "optimization": c.result.to_dict(),
+    }
+
+
+def _row(row: Row) -> dict[str, Any]:
+    return {
+        "title": row.title,
+        "variables": row.variables,
+        "condition_number": row.condition_number,
+        "leg_lengths": dict(zip(("l", "q", "r"), row.legs, strict=True)),
+        "radius_ratio": row.radius_ratio,
+        "gain_percent": row.gain,
+        "active": list(row.active),
+    }

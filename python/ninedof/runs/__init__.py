@@ -1,1 +1,0 @@
-"""Run folders and design files: `folder` writes and reads every run folder, `design_file` reads one design."""

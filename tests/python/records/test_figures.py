@@ -1,0 +1,65 @@
+"""Figures of a run show the study that was solved."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ninedof as nd
+from ninedof.records.figures import _curves, _pose_name, _pose_names, figures_of
+from ninedof.records.record import write_run
+
+STUDY = nd.Study.load(Path(__file__).parents[3] / "examples" / "02_twist_and_legs.toml")
+
+
+def silent(_):
+    pass
+
+
+def test_curves_pass_through_the_design_at_its_own_characteristic_length():
+    best = nd.optimize(STUDY, starts=8).best
+    curves = _curves("it", best.geometry, best.configuration, best.condition_number, STUDY.characteristic_length)
+    zs, theta_z, kappa = curves.point
+    assert kappa == best.condition_number
+    assert np.interp(zs, curves.zs, curves.along_zs) == pytest.approx(kappa, rel=1e-3)
+    assert np.interp(theta_z, curves.theta_z, curves.along_theta_z) == pytest.approx(kappa, rel=1e-3)
+
+
+def test_the_convergence_is_drawn_only_where_asked(tmp_path, monkeypatch):
+    """It follows starts for longer than the optimization takes."""
+    monkeypatch.setattr("ninedof.records.figures._traces", lambda result, form: [(4.0, 3.9)])
+    monkeypatch.setattr("ninedof.plot.save", lambda figure, folder, stem: [folder / stem])
+    result, said = nd.optimize(STUDY, starts=4), []
+    default = figures_of(result, said.append)(tmp_path)
+    assert [path.name for path in default] == ["mechanism", "condition"]
+    assert not any("convergence" in words for words in said)
+    asked = figures_of(result, said.append, convergence=True)(tmp_path)
+    assert [path.name for path in asked] == ["mechanism", "condition", "convergence"]
+    assert any(words.startswith("tracing the starts") for words in said)
+
+
+def test_poses_are_named_by_their_shifts():
+    poses = (nd.Pose(), nd.Pose((0.1, 0.0, -0.2), unit="zp"), nd.Pose(rotation=(0.0, np.radians(10), 0.0)))
+    assert [_pose_name(pose) for pose in poses] == ["neutral", "x +0.1 zp, z \N{MINUS SIGN}0.2 zp", "θy +10°"]
+
+
+def test_poses_have_the_numbers_of_the_sheet():
+    study = replace(nd.Study.paper(), objective={"poses": nd.poses.box((0.1, 0.0, 0.2))})
+    result = nd.optimize(study, starts=2)
+    names, sheet = _pose_names(result, len(result.best.conditions)), nd.sheet(result)
+    assert len(names) == len(sheet.configurations) - 1 == 9
+    for k, name in enumerate(names, start=1):  # 0 is the neutral pose
+        shift = sheet.configurations[k].position - sheet.configurations[0].position
+        said = [f"{axis} {x:+.3g}" for axis, x in zip("xyz", shift, strict=True) if abs(x) > 1e-12]
+        assert name == (", ".join(said).replace("-", "\N{MINUS SIGN}") or "neutral")
+
+
+def test_no_figures_without_an_optimum(tmp_path):
+    """An interrupted run must end at once, and a study without a least value has no design to draw."""
+    result = nd.optimize(STUDY, starts=4)
+    for k, other in enumerate((replace(result, interrupted=True), replace(result, status=nd.Status.UNBOUNDED))):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        write_run(other, folder, figures_of(other, silent))
+        assert [p.name for p in folder.iterdir()] == ["record.json"]

@@ -1,0 +1,101 @@
+"""Fronts in run folders, written and read back, and the command that makes them."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+
+import ninedof as nd
+from ninedof.cli.app import main
+from ninedof.pareto import Front, pareto, solving
+from ninedof.records.record import load_run as load
+from ninedof.records.record import write_run
+from ninedof.verify import check
+
+PAPER = nd.Study.paper()
+
+
+@pytest.fixture(scope="module")
+def front():
+    return pareto(PAPER, "radius_ratio", values=[1.5, 2.0, 3.0])
+
+
+# --- Records ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_front_is_read_back_as_it_was(front, tmp_path):
+    path = write_run(front, tmp_path, lambda folder: [folder / "front.png"])
+    for place in (path, tmp_path):
+        read = load(place)
+        assert isinstance(read, Front)
+        assert read.table() == front.table()
+        assert (read.study, read.against, read.limits) == (front.study, front.against, front.limits)
+        assert read.prices == front.prices
+        for one, other in zip(read.results, front.results, strict=True):
+            assert one.candidates[0] == other.candidates[0]
+            assert one.study == other.study
+    assert json.loads(path.read_text())["files"] == ["front.png"]
+    assert check(load(path).results[1], perturbations=100).passed
+
+
+def test_a_front_without_designs_is_read_back(tmp_path):
+    found = pareto(nd.Study(constraints={"leg_ratio": (None, 0.5)}), "radius_ratio", starts=16)
+    write_run(found, tmp_path)
+    assert load(tmp_path).limits == (math.inf,)
+    assert load(tmp_path).table() == found.table()
+
+
+# --- The command ------------------------------------------------------------------------------------------------------
+
+
+def command(tmp_path, line):
+    with pytest.raises(SystemExit) as end:
+        main(["pareto", "--out", str(tmp_path / "run"), *line.split()])
+    return end.value.code
+
+
+def test_the_command_prints_and_records(tmp_path, capsys):
+    assert command(tmp_path, "--value 1.5 --value 2") == 0
+    out = capsys.readouterr().out
+    for words in ("3.762659", "3.941177", "condition number against radius ratio", "front.png"[:5], "run folder"):
+        assert words in out
+    names = {path.name for path in (tmp_path / "run").iterdir()}
+    assert names == {"record.json", "question.json", "report.html", "front.png", "front.svg", "front.pdf", "pieces"}
+    assert load(tmp_path / "run").limits == (1.5, 2.0)
+
+
+def test_the_command_prints_json(tmp_path, capsys):
+    assert command(tmp_path, "--value 1.5 --value 2 --json --no-figures") == 0
+    data = json.loads(capsys.readouterr().out)
+    assert [row["limit"] for row in data["front"]["rows"]] == [1.5, 2.0]
+    assert data["record"].endswith("record.json")
+    assert {path.name for path in (tmp_path / "run").iterdir()} == {"record.json", "question.json", "pieces"}
+
+
+def test_the_command_reports_an_infeasible_study(tmp_path, capsys):
+    assert command(tmp_path, "--against leg_ratio --value 0.5 --starts 16") == 3
+    assert "infeasible" in capsys.readouterr().out
+
+
+def test_the_command_continues_after_an_interruption(tmp_path, monkeypatch, capsys):
+    """The first time the second limit is cut short: what is solved is printed and kept, and drawn at the end."""
+    calls = []
+
+    def cut(study, **options):
+        calls.append(study)
+        return replace(nd.optimize(study, **options), interrupted=len(calls) == 2)
+
+    monkeypatch.setattr(solving, "optimize", cut)
+    line = "--value 1.5 --value 2"
+    assert command(tmp_path, line) == 130
+    words = " ".join(capsys.readouterr().out.split())
+    assert "interrupted: 1 limit is solved so far and kept in" in words
+    assert "solved so far and kept in" in words
+    assert not (tmp_path / "run" / "front.png").exists()
+    assert load(tmp_path / "run").limits == (2.0,)
+    assert command(tmp_path, line) == 0
+    assert len(calls) == 5  # four, and the one that was cut short
+    assert (tmp_path / "run" / "front.png").is_file()
+    assert load(tmp_path / "run").limits == (1.5, 2.0)
+    assert not load(tmp_path / "run").interrupted
