@@ -6,8 +6,10 @@ platform to O, lower ones from the base to O (paper, Section 3).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -32,6 +34,9 @@ COLOURS = {
     "plate": "0.55 0.6 0.65 1",
     "joint": "0.15 0.15 0.15 1",
 }
+Angles = tuple[float, float, float]
+"""Roll, pitch and yaw as URDF and SDFormat have them: R = Rz(yaw) Ry(pitch) Rx(roll)."""
+LEVEL = (0.0, 0.0, 0.0)
 RADIUS = 0.012  # of a rod, by the mean length of the legs; for the eye and for its inertia about its axis
 
 
@@ -48,7 +53,7 @@ class Leg:
     """The body that it ends at: "platform" or "O"."""
     tip_joint: str
     start: Floats
-    """Where it starts, base frame, shape (3,)."""
+    """Its first end, base frame, shape (3,)."""
     end: Floats
     shortest: float
     longest: float
@@ -115,9 +120,8 @@ def from_metres(values: Floats, unit: str) -> Floats:
 
 def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> Bodies:
     """Return the bodies of a design; masses in kg, above 0."""
-    masses = {"leg_mass": finite("leg_mass", leg_mass), "platform_mass": finite("platform_mass", platform_mass)}
-    for name, mass in masses.items():
-        if not mass > 0.0:
+    for name, mass in (("leg_mass", leg_mass), ("platform_mass", platform_mass)):
+        if not finite(name, mass) > 0.0:
             raise ValueError(f"{name}: got {mass:g}, expected a mass above 0")
     c, unit = model.configuration, model.unit
     p, s = in_metres(c.position, unit), in_metres(c.internal_point, unit)
@@ -136,8 +140,8 @@ def bodies_of(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = P
         rotation=c.rotation,
         internal_point=s,
         legs=legs,
-        part_mass=0.5 * masses["leg_mass"],
-        platform_mass=masses["platform_mass"],
+        part_mass=0.5 * float(leg_mass),
+        platform_mass=float(platform_mass),
         radius=RADIUS * float(np.mean([leg.length for leg in legs])),
     )
 
@@ -158,11 +162,54 @@ def _leg(name: str, at: dict[str, Floats], between: tuple[float, float] | None, 
     return Leg(name, root, f"{triple}{i}", tip, tip_joint, start, end, low, high, part)
 
 
+def length_words(model: Model) -> str:
+    """Return the unit of lengths of a file of a simulator, for people."""
+    return "metres" if model.unit else "the design's own, without a unit"
+
+
 def numbers(values: Iterable[float] | float) -> str:
     """Return the text of an attribute: it reads back to the same doubles."""
-    given = [values] if isinstance(values, float | int) else values
-    return " ".join(_short(float(value)) for value in given)
+    each = [values] if isinstance(values, float | int) else values
+    return " ".join(_short(float(value)) for value in each)
 
 
 def _short(value: float) -> str:
     return repr(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+
+
+def angles(rotation: Floats) -> Angles:
+    """Return roll, pitch and yaw of a rotation, radians; yaw is 0 where the pitch is a right angle."""
+    level = math.hypot(rotation[0, 0], rotation[1, 0])
+    pitch = math.atan2(-rotation[2, 0], level)
+    if level < 1e-12:
+        return math.atan2(-rotation[1, 2], rotation[1, 1]), pitch, 0.0
+    return math.atan2(rotation[2, 1], rotation[2, 2]), pitch, math.atan2(rotation[1, 0], rotation[0, 0])
+
+
+def rotation_of(rpy: Angles) -> Floats:
+    """Return the rotation of roll, pitch and yaw."""
+    (cr, cp, cy), (sr, sp, sy) = ([f(a) for a in rpy] for f in (math.cos, math.sin))
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
+    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
+    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(about_z @ about_y @ about_x)
+
+
+def pointing(direction: Floats) -> Angles:
+    """Return the angles of a frame whose z axis has a direction."""
+    x, y, z = (float(v) for v in direction)
+    return 0.0, math.atan2(math.hypot(x, y), z), math.atan2(y, x)
+
+
+def bars(joints: Iterable[Floats]) -> Iterator[tuple[Floats, Angles, float]]:
+    """Yield middle, angles and length of bars around a plate, from joint to joint; z is along the bar.
+
+    Joints in the order of their angles about their mean; two at the same place have no bar.
+    """
+    points = np.array(list(joints))
+    x, y, _ = (points - points.mean(axis=0)).T
+    ring = points[np.argsort(np.arctan2(y, x), kind="stable")]
+    for a, b in pairwise([*ring, ring[0]]):
+        length = float(np.linalg.norm(b - a))
+        if length > 1e-9 * float(np.abs(points).max()):
+            yield 0.5 * (a + b), pointing((b - a) / length), length

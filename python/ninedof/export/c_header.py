@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ninedof.export.model import Model
+from ninedof.export.model import Format, Model
 from ninedof.robot.geometry import triples
 from ninedof.support.arrays import Floats
 from ninedof.support.versions import versions
@@ -97,3 +97,6 @@ def _row(name: str, values: Iterable[float]) -> str:
 
 def _braces(values: Iterable[float]) -> str:
     return f"{{{', '.join(repr(float(value)) for value in values)}}}"
+
+
+FORMAT = Format("c", ".h", "C header of constants with the inverse kinematics", text)

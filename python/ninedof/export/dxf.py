@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import io
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.export.model import Model
-from ninedof.export.plates import Plate, Side, plates_of
+from ninedof.export.model import Format, Model
+from ninedof.robot.geometry import Geometry
+from ninedof.robot.plates import outlines
 from ninedof.support.arrays import Floats
 from ninedof.support.extras import optional
 from ninedof.support.units import with_unit
@@ -28,6 +29,8 @@ FONT = "arial.ttf"
 DIGITS = 6  # of the largest length in dimensions and tables
 PURPOSE = "the DXF drawing of the plates"
 JOINT_WORDS = {"E": "external", "I": "internal"}
+SAME = 1e-9
+"""Lengths that differ by less, relative to the plate, are equal."""
 
 
 def text(model: Model) -> str:
@@ -58,23 +61,88 @@ def text(model: Model) -> str:
 
 def _dimension_style(document: Any, height: float, decimals: int) -> None:
     sizes = {"dimtxt": height, "dimasz": height, "dimexo": height, "dimexe": 0.5 * height, "dimgap": 0.4 * height}
-    words = {
-        "dimdec": decimals,
-        "dimzin": 0,
-        "dimtad": 1,
-        "dimclrd": 5,
-        "dimclre": 5,
-        "dimclrt": 7,
-        "dimdsep": ord("."),
-    }
-    words |= {"dimlwd": BY_LAYER, "dimlwe": BY_LAYER}
-    document.dimstyles.new(STYLE, dxfattribs=sizes | words)
+    numbers = {"dimdec": decimals, "dimzin": 0, "dimtad": 1, "dimdsep": ord(".")}
+    lines = {"dimclrd": 5, "dimclre": 5, "dimclrt": 7, "dimlwd": BY_LAYER, "dimlwe": BY_LAYER}
+    document.dimstyles.new(STYLE, dxfattribs=sizes | numbers | lines)
 
 
 def _round_up(value: float) -> float:
     """Return the next number of two digits, so that the shift is easy to undo."""
     step = 10.0 ** (math.floor(math.log10(value)) - 1)
     return float(f"{step * math.ceil(value / step):.2g}")
+
+
+class Side(NamedTuple):
+    """A side of a hexagonal plate, and the two joints that it connects."""
+
+    name: str
+    start: Floats
+    end: Floats
+
+
+class Plate(NamedTuple):
+    """One plate, seen from +z of its frame."""
+
+    title: str
+    joints: dict[str, Floats]
+    """E1 E2 E3, the external ones, and I1 I2 I3, the internal ones; shape (3,)."""
+    outline: Floats
+    """Corners of the convex hull of the joints in plan, shape (n, 2); none where they lie on a line in plan."""
+    sides: list[Side]
+    """a1 and a2, or b1 and b2, where the plate is a hexagon of the paper; without those of length 0."""
+    radii: list[float]
+    """Of the circles about the origin on which the external and the internal joints lie, where they do; each once."""
+
+    @property
+    def size(self) -> float:
+        """The largest distance of a joint from the origin, in plan."""
+        return float(max(np.linalg.norm(joint[:2]) for joint in self.joints.values()))
+
+
+def plates_of(geometry: Geometry) -> tuple[Plate, Plate]:
+    """Return the base and the platform."""
+    return (
+        _plate("Base", geometry.base_external, geometry.base_internal, ("a1", "a2")),
+        _plate("Platform", geometry.platform_external, geometry.platform_internal, ("b1", "b2")),
+    )
+
+
+def _plate(title: str, external: Floats, internal: Floats, names: tuple[str, str]) -> Plate:
+    joints = {f"{kind}{i + 1}": row for kind, rows in (("E", external), ("I", internal)) for i, row in enumerate(rows)}
+    flat = np.vstack([external, internal]) * [1.0, 1.0, 0.0]
+    faces = outlines(flat) if np.ptp(flat) > 0.0 else []
+    outline = faces[0][:, :2] if faces else np.empty((0, 2))
+    return Plate(title, joints, outline, _sides(external, internal, names), _radii(external, internal))
+
+
+def _sides(external: Floats, internal: Floats, names: tuple[str, str]) -> list[Side]:
+    """Return the sides of a hexagon: the first to the internal joint of the same number, the second to the one before.
+
+    The joints lie on one circle about the origin in one plane z = constant, and each of the two sides has one length.
+    """
+    before = np.roll(internal, 1, axis=0)
+    all_joints = np.vstack([external, internal])
+    distances = [np.linalg.norm(external - other, axis=1) for other in (internal, before)]
+    scale = SAME * float(np.abs(all_joints).max())
+    on_one = [np.linalg.norm(all_joints[:, :2], axis=1), all_joints[:, 2], *distances]
+    if any(np.ptp(values) > scale for values in on_one):
+        return []
+    ends = (internal[0], before[0])
+    return [
+        Side(name, external[0], end)
+        for name, length, end in zip(names, distances, ends, strict=True)
+        if length[0] > scale
+    ]
+
+
+def _radii(external: Floats, internal: Floats) -> list[float]:
+    circles: list[float] = []
+    for joints in (external, internal):
+        radii = np.linalg.norm(joints[:, :2], axis=1)
+        limit = SAME * float(radii.max())
+        if np.ptp(radii) <= limit and not any(abs(radii[0] - other) <= limit for other in circles):
+            circles.append(float(radii[0]))
+    return circles
 
 
 class _Drawing:
@@ -95,8 +163,8 @@ class _Drawing:
         self._joints(plate)
         for side in plate.sides:
             self._side(side)
-        for radius, angle in zip(plate.radii, _free_angles(plate), strict=False):
-            self._radius(radius, angle)
+        for radius, angle in zip(plate.radii, np.degrees(_free_angles(plate)), strict=False):
+            self.space.add_radius_dim(center=self.origin, radius=radius, angle=angle, **_STYLED).render()
         self._table(plate, bottom)
 
     def _axes(self, length: float) -> None:
@@ -134,9 +202,6 @@ class _Drawing:
             dimension.set_location(self.origin + 0.5 * (a + b) + beyond * outward)
         dimension.render()
 
-    def _radius(self, radius: float, angle: float) -> None:
-        self.space.add_radius_dim(center=self.origin, radius=radius, angle=math.degrees(angle), **_STYLED).render()
-
     def _table(self, plate: Plate, bottom: float) -> None:
         """Write the title and the coordinates of the joints in the frame of the plate."""
         columns = self.height * np.array([0.0, 22.0, 34.0, 46.0])
@@ -156,8 +221,8 @@ class _Drawing:
 
     def _text(self, words: str, at: Floats, layer: str, align: str, scale: float = 1.0) -> None:
         places = optional("ezdxf.enums", "cad", PURPOSE).TextEntityAlignment
-        written = self.space.add_text(words, height=scale * self.height, dxfattribs={"layer": layer})
-        written.set_placement(at, align=places[align])
+        text = self.space.add_text(words, height=scale * self.height, dxfattribs={"layer": layer})
+        text.set_placement(at, align=places[align])
 
 
 _STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": "DIMENSIONS"}}
@@ -169,7 +234,9 @@ def _free_angles(plate: Plate) -> Floats:
     gaps = np.diff(np.append(angles, angles[0] + math.tau))
     middles = angles + 0.5 * gaps
     outward = [(side.start + side.end)[:2] for side in plate.sides]
-    taken = [any(np.cos(angle - math.atan2(y, x)) > 0.99 for x, y in outward) for angle in middles]
+    beside_sides = [any(np.cos(angle - math.atan2(y, x)) > 0.99 for x, y in outward) for angle in middles]
     beside_axes = -np.abs(np.sin(2.0 * middles)).round(6)
-    found: Floats = middles[np.lexsort((beside_axes, -gaps.round(6), np.array(taken)))]
-    return found
+    return np.asarray(middles[np.lexsort((beside_axes, -gaps.round(6), np.array(beside_sides)))])
+
+
+FORMAT = Format("dxf", ".dxf", "drawing of the two plates", text, mark="NINEDOF")

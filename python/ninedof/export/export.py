@@ -1,16 +1,18 @@
-"""`export`: one design as a file of another program."""
+"""One design as a file of another program, and the table of formats."""
 
 from __future__ import annotations
 
-import inspect
 import os
+import sys
+from functools import cache
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any
 
-from ninedof.export.formats import format_named
-from ninedof.export.model import model_of
-from ninedof.support.arguments import known_keys, path_argument
-from ninedof.support.files import write_whole
+from ninedof.export.model import Fields, Format, model_of
+from ninedof.support.arguments import choice, known_keys, path_argument
+from ninedof.support.files import read_text, write_whole
 
 
 def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str | None = None, **options: Any) -> Path:
@@ -20,7 +22,7 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     ----------
     design : Result, Candidate, DesignPoint, or a design of a file
         The best design of a result. What `load` returns for a design file, a run of `optimize` or a point of a front.
-    format : {"mjcf", "urdf", "sdf", "csv", "step", "dxf", "c", "latex"}
+    format : {"c", "csv", "dxf", "latex", "mjcf", "sdf", "step", "urdf"}
         What each file holds is on the page of exports.
     path : path
         The file; one that exists is replaced. "urdf" writes a second file beside it, with the suffix .loops.json.
@@ -57,22 +59,43 @@ def export(design: Any, format: str, path: str | os.PathLike[str], *, unit: str 
     'robot.xml'
 
     """
-    module, taken = format_named(format).load(), options_of(format)
-    if options and not taken:
+    row = formats()[choice("format", format, formats())]
+    if options and not row.options:
         raise ValueError(f"options: got {', '.join(options)}, expected none: {format} takes no options")
-    known_keys("options", options, taken)
+    known_keys("options", options, row.options)
     file = path_argument("path", path)
     if not file.absolute().parent.is_dir():
         raise ValueError(f"path: got {file}, expected a file in a folder that exists")
     model = model_of(design, file.name.split(".")[0], unit)
-    contents = {file: module.text(model, **options)}
-    if hasattr(module, "beside"):
-        contents |= {file.with_suffix(f".{suffix}"): text for suffix, text in module.beside(model).items()}
+    contents = {file: row.text(model, **options)}
+    if row.beside is not None:
+        suffix, _, beside = row.beside
+        contents[file.with_suffix(suffix)] = beside(model)
     for place, text in contents.items():
-        write_whole(place, text if isinstance(text, bytes) else text.encode())
+        write_whole(place, text.encode())
     return file
 
 
-def options_of(format: str) -> list[str]:
-    """Return the names of the options that a format takes."""
-    return [name for name in inspect.signature(format_named(format).load().text).parameters if name != "model"]
+@cache
+def formats() -> dict[str, Format]:
+    """Return the formats by name: the constant `FORMAT` of every module of this room that has one."""
+    modules = [import_module(f"ninedof.export.{one.name}") for one in iter_modules(sys.modules[__package__].__path__)]
+    return {module.FORMAT.name: module.FORMAT for module in modules if hasattr(module, "FORMAT")}
+
+
+def readable() -> list[str]:
+    """Return the suffixes of files that `read_design` reads."""
+    return [one.suffix for one in formats().values() if one.read is not None]
+
+
+def read_design(path: Path) -> Fields:
+    """Return the design in a file; ValueError naming the file and what is wrong with it."""
+    (read,) = (one.read for one in formats().values() if one.suffix == path.suffix.lower() and one.read is not None)
+    try:
+        return read(read_text(path))
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{path}: not a text file ({error})") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ninedof.export.model import Model
-from ninedof.export.points import JOINTS, LEGS, O, P, base_frame, own_frame
+from ninedof.export.model import JOINTS, LEGS, Format, Model, O, P
 from ninedof.sheet.limit_rows import LimitRow
 from ninedof.support.margins import margin_words
 from ninedof.support.units import amount, with_unit
@@ -46,8 +45,8 @@ def escaped(words: str) -> str:
 
 
 def _joints(model: Model) -> str:
-    own = own_frame(model.geometry)
-    rows = [[_joint_words(name), *row] for name, row in zip(JOINTS, _columns([*own.values()]), strict=True)]
+    numbers = _columns([*model.own_frame.values()])
+    rows = [[_joint_words(name), *row] for name, row in zip(JOINTS, numbers, strict=True)]
     heads = [with_unit("joint", model.unit), *AXES]
     return _tabular("Joints in the frame of their plate", "lrrr", [_row(heads)], rows, after=(3, 6, 9))
 
@@ -59,11 +58,10 @@ def _joint_words(name: str) -> str:
 
 def _pose(model: Model) -> str:
     """Return p, O, the joints of the platform and the rotation; base joints are where the first table has them."""
-    at = base_frame(model.geometry, model.configuration)
     words = {P: r"platform origin $\mathbf{p}$", O: "internal point $O$"}
     words |= {name: _joint_words(name) for name in JOINTS if name.startswith("platform")}
     labels = [*words.values(), *(rf"row {i} of $\mathbf{{Q}}$" for i in (1, 2, 3))]
-    numbers = [*_columns([at[name] for name in words]), *_columns(list(model.configuration.rotation))]
+    numbers = [*_columns([model.base_frame[name] for name in words]), *_columns(list(model.configuration.rotation))]
     rows = [[label, *row] for label, row in zip(labels, numbers, strict=True)]
     heads = [with_unit("point", model.unit), *AXES]
     return _tabular("Neutral pose in the base frame", "lrrr", [_row(heads)], rows, after=(2, 5, 8))
@@ -124,3 +122,6 @@ def _tabular(
     for count, row in enumerate(rows, start=1):
         lines += [_row(row), *[r"\addlinespace"] * (count in after)]
     return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
+
+
+FORMAT = Format("latex", ".tex", "LaTeX tables", text)

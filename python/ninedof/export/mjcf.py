@@ -7,14 +7,30 @@ robot and nine spins of the legs about themselves.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
-from ninedof.export.model import Model
-from ninedof.support.arguments import finite
+from ninedof.conditioning.characteristic_length import length_argument
+from ninedof.export.bodies import (
+    COLOURS,
+    LEG_MASS,
+    PLATFORM_MASS,
+    Bodies,
+    Leg,
+    bodies_of,
+    from_metres,
+    length_words,
+    numbers,
+)
+from ninedof.export.model import Fields, Format, Model
+from ninedof.robot.configuration import Configuration
+from ninedof.robot.geometry import TRIPLES, Geometry
+from ninedof.support.arguments import finite, shown
 from ninedof.support.arrays import Floats
+from ninedof.support.units import unit_argument
 
 MARK = "ninedof-mjcf-1"
 TIMESTEP = 5e-4
@@ -27,12 +43,16 @@ PLATE = "0.62 0.66 0.70 0.55"
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS, gravity: float = 0.0) -> str:
     """Return the MJCF text of a design; masses in kg, gravity in m/s² downward."""
-    b = bodies_of(model, leg_mass, platform_mass)
+    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
     down = finite("gravity", gravity)
     hung = {root: "".join(_leg(b, leg) for leg in b.legs if leg.root == root) for root in ("base", "platform")}
-    unit = "metres" if model.unit else "the design's own, without a unit"
     across, normal = b.platform_inertia
     ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
+    length = (
+        model.characteristic_length
+        if isinstance(model.characteristic_length, str)
+        else repr(float(model.characteristic_length))
+    )
     slides = "".join(
         f"""
       <joint name="O_{axis}" type="slide" axis="{direction}" ref="{numbers(at)}"/>"""
@@ -53,7 +73,7 @@ def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFO
   <custom>
     <text name="format" data="{MARK}"/>
     <text name="unit" data="{model.unit or "none"}"/>
-    <text name="characteristic_length" data="{_length(model)}"/>
+    <text name="characteristic_length" data="{length}"/>
   </custom>
   <default>
     <geom contype="0" conaffinity="0" group="1"/>
@@ -147,7 +167,64 @@ def _extent(b: Bodies) -> float:
     return float(np.ptp(points, axis=0).max())
 
 
-def _length(model: Model) -> str:
-    """Return the characteristic length, a kind or a number, in the design's unit."""
-    length = model.characteristic_length
-    return length if isinstance(length, str) else repr(float(length))
+def read(text: str) -> Fields:
+    """Return the design of a file that `text` wrote, or that MuJoCo saved after reading such a file.
+
+    The joints are the sites of base and platform, the neutral configuration is where the bodies "platform" and "O"
+    stand; so a file whose sites were moved gives the design with the joints moved.
+    """
+    try:
+        root = ElementTree.fromstring(text)  # noqa: S314 expat bounds what entities grow to, and reads no other file
+    except (ElementTree.ParseError, ValueError) as error:
+        raise ValueError(f"not an XML file: {error}") from None
+    words = {item.get("name"): item.get("data", "") for item in root.iterfind("custom/text")}
+    if root.tag != "mujoco" or words.get("format") != MARK:
+        raise ValueError(f"got no {MARK!r} mark, expected an MJCF file written by `ninedof export --to mjcf`")
+    unit = unit_argument("" if words.get("unit") == "none" else words.get("unit"))
+    sites = {item.get("name"): item for item in root.iter("site")}
+    bodies = {item.get("name"): item for item in root.iter("body")}
+    joints = {name: np.array([_position(sites, f"{name}{i}") for i in (1, 2, 3)]) for name in TRIPLES}
+    geometry = Geometry(**{name: from_metres(points, unit) for name, points in joints.items()})
+    p, s = (from_metres(_position(bodies, name), unit) for name in ("platform", "O"))
+    return geometry, Configuration(p, _rotation(bodies["platform"]), s), _length(words), unit
+
+
+def _position(items: Mapping[str | None, ElementTree.Element], name: str) -> Floats:
+    if name not in items:
+        raise ValueError(f"got no body or site {name!r}, expected the file whole")
+    return _numbers(items[name], "pos", 3, (0.0, 0.0, 0.0))
+
+
+def _rotation(body: ElementTree.Element) -> Floats:
+    """Return Q from its first two columns, as `mjcf` writes it, or from a quaternion, as MuJoCo saves it."""
+    if body.get("xyaxes") is not None:
+        x, y = _numbers(body, "xyaxes", 6).reshape(2, 3)
+        return np.stack([x, y, np.cross(x, y)], axis=-1)
+    w, *v = _numbers(body, "quat", 4, (1.0, 0.0, 0.0, 0.0))
+    square = w * w + np.dot(v, v)
+    if not square > 0.0:
+        raise ValueError("platform: got a quaternion of length 0, expected a rotation")
+    x, y, z = v
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + (2.0 / square) * (w * cross + cross @ cross))
+
+
+def _numbers(item: ElementTree.Element, key: str, count: int, default: tuple[float, ...] | None = None) -> Floats:
+    text = item.get(key)
+    if text is None and default is not None:
+        return np.array(default)
+    try:
+        return np.array([float(part) for part in (text or "").split()]).reshape(count)
+    except ValueError:
+        raise ValueError(f"{item.get('name')}: got {key}={shown(text)}, expected {count} numbers") from None
+
+
+def _length(words: Mapping[str | None, str]) -> float | str:
+    length = words.get("characteristic_length", "1.0")
+    try:
+        return length_argument(float(length))
+    except ValueError:
+        return length_argument(length)
+
+
+FORMAT = Format("mjcf", ".xml", "MuJoCo model with closed loops and nine actuators", text, read)

@@ -1,25 +1,61 @@
-"""`Model`: what every file format needs to know of one design."""
+"""One design as every file format sees it, and what a format is."""
 
 from __future__ import annotations
 
+import inspect
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninedof.conditioning.characteristic_length import characteristic_length as length_of
 from ninedof.design.leg_limits import leg_limits_of
 from ninedof.design.study import Study
 from ninedof.kinematics.kinematics import leg_lengths
 from ninedof.robot.configuration import Configuration
-from ninedof.robot.geometry import Geometry
+from ninedof.robot.geometry import TRIPLES, Geometry, triples
 from ninedof.sheet.sheet import Sheet, sheet
 from ninedof.support.arrays import Floats
 from ninedof.support.units import unit_argument
 
+P, O = "p", "O"
+"""Origin of the platform frame, and the internal point."""
+
+LEGS = (
+    *((f"l{i}", f"base_external_{i}", f"platform_external_{i}") for i in (1, 2, 3)),
+    *((f"q{i}", f"platform_internal_{i}", O) for i in (1, 2, 3)),
+    *((f"r{i}", f"base_internal_{i}", O) for i in (1, 2, 3)),
+)
+"""Name, first and second end of each leg, in the order of `leg_lengths`."""
+
+JOINTS = tuple(f"{name}_{i}" for name in TRIPLES for i in (1, 2, 3))
 Ranges = tuple[tuple[float, float], ...]
+Fields = tuple[Geometry, Configuration, float | str, str]
+"""Geometry, neutral configuration, characteristic length and unit: the fields of a design of a file, in order."""
+
+
+class Format(NamedTuple):
+    """A format of files: the constant `FORMAT` of a module of this room."""
+
+    name: str
+    suffix: str
+    words: str
+    """Of the file, for people."""
+    text: Callable[..., str]
+    """Returns the contents for a `Model`; its other parameters are the options of the format, with defaults."""
+    read: Callable[[str], Fields] | None = None
+    """Returns the design in a text, or raises ValueError with what is wrong; None if there is no way back."""
+    mark: str = "written by ninedof"
+    """A text that every such file holds."""
+    beside: tuple[str, str, Callable[[Model], str]] | None = None
+    """Suffix, mark and text of a second file: machine.loops.json beside machine.urdf."""
+
+    @property
+    def options(self) -> list[str]:
+        """Names of the options."""
+        return [name for name in inspect.signature(self.text).parameters if name != "model"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,14 +74,20 @@ class Model:
     study: Study | None = None
     """The study that found the design."""
     source: Any = None
-    """What was handed to `model_of`: a Result, a Design, ..."""
+    """The argument of `model_of`: a Result, a Design, ..."""
 
     @cached_property
-    def length(self) -> float:
-        """The characteristic length as a number; NaN where its kind has no value, at a singular configuration."""
-        if isinstance(self.characteristic_length, str):
-            return float(length_of(self.geometry, self.configuration, self.characteristic_length))
-        return float(self.characteristic_length)
+    def own_frame(self) -> dict[str, Floats]:
+        """The twelve joints in the frame of their plate, by name."""
+        rows = [point for points in triples(self.geometry).values() for point in points]
+        return dict(zip(JOINTS, rows, strict=True))
+
+    @cached_property
+    def base_frame(self) -> dict[str, Floats]:
+        """The twelve joints, p and O at the neutral pose in the base frame, by name."""
+        p, q = self.configuration.position, self.configuration.rotation
+        joints = {name: p + q @ x if name.startswith("platform") else x for name, x in self.own_frame.items()}
+        return {**joints, P: p, O: self.configuration.internal_point}
 
     @cached_property
     def neutral_lengths(self) -> Floats:

@@ -9,20 +9,31 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
-from ninedof.export.model import Model
-from ninedof.export.rpy import Angles, angles, bars, pointing
+from ninedof.export.bodies import (
+    COLOURS,
+    LEG_MASS,
+    LEVEL,
+    PLATFORM_MASS,
+    Angles,
+    Bodies,
+    Leg,
+    angles,
+    bars,
+    bodies_of,
+    length_words,
+    numbers,
+    pointing,
+)
+from ninedof.export.model import Format, Model
 from ninedof.support.arrays import Floats
 
 VERSION = "1.9"
-LEVEL = (0.0, 0.0, 0.0)
 CARRIER = "q1"  # the leg whose rod O is fixed to
 
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
     """Return the SDFormat text of a design; masses in kg."""
-    b = bodies_of(model, leg_mass, platform_mass)
-    unit = "metres" if model.unit else "the design's own, without a unit"
+    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
     ball = 0.4 * b.point_mass * (2.0 * b.radius) ** 2
     legs = "".join(_leg(b, leg) for leg in b.legs)
     return f"""<?xml version="1.0"?>
@@ -120,3 +131,6 @@ def _visual(name: str, at: Iterable[float], rpy: Angles, shape: str, colour: str
         <geometry>{shape}</geometry>
         <material><ambient>{colour}</ambient><diffuse>{colour}</diffuse></material>
       </visual>"""
+
+
+FORMAT = Format("sdf", ".sdf", "SDFormat model with closed loops", text)

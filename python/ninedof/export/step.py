@@ -10,8 +10,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from ninedof.export.model import Model
-from ninedof.export.points import LEGS, base_frame
+from ninedof.export.model import LEGS, Format, Model
 from ninedof.support.arrays import Floats
 from ninedof.support.versions import versions
 
@@ -27,7 +26,7 @@ LEGS_OF = {"l": "external legs", "q": "upper internal legs", "r": "lower interna
 def text(model: Model) -> str:
     """Return the file."""
     data = Entities()
-    at = base_frame(model.geometry, model.configuration)
+    at = model.base_frame
     points = {name: data.point(name, xyz) for name, xyz in at.items()}
     lines = {leg: data.segment(leg, points[a], at[a], at[b]) for leg, a, b in LEGS if np.any(at[a] != at[b])}
     groups = {"joints": list(points.values())}
@@ -87,9 +86,9 @@ class Entities:
 
     def group(self, name: str, members: list[str]) -> str:
         """Add a set of points or curves, and put it on a layer of the same name."""
-        made = self.add(f"GEOMETRIC_CURVE_SET('{name}',{_list(members)})")
+        number = self.add(f"GEOMETRIC_CURVE_SET('{name}',{_list(members)})")
         self.add(f"PRESENTATION_LAYER_ASSIGNMENT('{name}','',{_list(members)})")
-        return made
+        return number
 
     def base_frame(self) -> str:
         """Add the base frame. Not that of the platform: readers take a placement for one of the whole shape."""
@@ -146,3 +145,6 @@ def _real(value: float) -> str:
     """Return a real as STEP writes it: always with a point, the exponent after E."""
     mantissa, mark, exponent = repr(value).upper().partition("E")
     return (mantissa if "." in mantissa else mantissa + ".") + mark + exponent
+
+
+FORMAT = Format("step", ".step", "STEP skeleton: points and axes", text, mark="'ninedof ")

@@ -7,16 +7,31 @@ which leave the nine degrees of freedom. All joints at zero is the neutral confi
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
-from ninedof.export.bodies import COLOURS, LEG_MASS, PLATFORM_MASS, Bodies, Leg, bodies_of, numbers
-from ninedof.export.model import Model
-from ninedof.export.rpy import angles, pointing, rotation_of
-from ninedof.export.urdf_parts import axis, plate, point, slide, strut
+from ninedof.export.bodies import (
+    COLOURS,
+    LEG_MASS,
+    LEVEL,
+    PLATFORM_MASS,
+    Angles,
+    Bodies,
+    Leg,
+    angles,
+    bars,
+    bodies_of,
+    length_words,
+    numbers,
+    pointing,
+    rotation_of,
+)
+from ninedof.export.model import Format, Model
+from ninedof.support.arrays import Floats
 from ninedof.support.json import encode
 
-TABLE = "loops.json"
-MARK = "ninedof-loops-1"
+TABLE, MARK = ".loops.json", "ninedof-loops-1"
+EFFORT, VELOCITY = 1000.0, 1.0  # N and m/s: the format demands limits of a slide; a design has none
 CARRIERS = ("l1", "q1")
 """The legs that carry a body in the tree: the platform and O."""
 CROSS = 0.02  # mass of the part between two axes of a joint, by that of a cylinder: programs refuse a mass of 0
@@ -24,51 +39,34 @@ CROSS = 0.02  # mass of the part between two axes of a joint, by that of a cylin
 
 def text(model: Model, leg_mass: float = LEG_MASS, platform_mass: float = PLATFORM_MASS) -> str:
     """Return the URDF text of a design; masses in kg."""
-    b = bodies_of(model, leg_mass, platform_mass)
-    unit = "metres" if model.unit else "the design's own, without a unit"
+    b, unit = bodies_of(model, leg_mass, platform_mass), length_words(model)
     legs = "".join(_leg(b, leg) for leg in b.legs)
     return f"""<?xml version="1.0"?>
 <robot name={quoteattr(model.name)}>
   <!-- The nine-degree-of-freedom manipulator as a tree, written by ninedof. Lengths: {unit}; masses: kilograms.
-       Its loops are in the file of the same name that ends in .{TABLE}: without them the legs hang free.
+       Its loops are in the file of the same name that ends in {TABLE}: without them the legs hang free.
        All joints at zero is the neutral configuration; a slide reads the length of its leg less the neutral one. -->
   <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>
-{plate("base", b.base.values(), b.radius)}{legs}{_platform(b)}
-{point("O", b.point_mass, 2.0 * b.radius)}
-  <joint name="q1_O" type="fixed">
-    <parent link="q1_rod"/>
-    <child link="O"/>
-  </joint>
+{_link("base", *_bars(b, b.base.values()))}{legs}{_platform(b)}
+{_point("O", b.point_mass, 2.0 * b.radius)}
+{_joint("q1_O", "fixed", "q1_rod", "O")}
 </robot>
 """
 
 
-def beside(model: Model) -> dict[str, str]:
+def table(model: Model) -> str:
     """Return the table of the loops, JSON."""
     b = bodies_of(model)
-    legs = [
-        {
-            "name": leg.name,
-            "joint": f"{leg.name}_slide",
-            "length_at_zero": leg.length,
-            "shortest": leg.shortest,
-            "longest": leg.longest,
-        }
-        for leg in b.legs
-    ]
     zero = [0.0, 0.0, 0.0]
-    loops = [
-        {
-            "name": leg.name,
-            "link_1": f"{leg.name}_rod",
-            "point_1": zero,
-            "link_2": leg.tip,
-            "point_2": b.platform[leg.tip_joint] if leg.tip == "platform" else zero,
-        }
-        for leg in b.legs
-        if leg.name not in CARRIERS
-    ]
-    table = {
+    legs, loops = [], []
+    for leg in b.legs:
+        ends = {"length_at_zero": leg.length, "shortest": leg.shortest, "longest": leg.longest}
+        legs.append({"name": leg.name, "joint": f"{leg.name}_slide"} | ends)
+        if leg.name not in CARRIERS:
+            at = b.platform[leg.tip_joint] if leg.tip == "platform" else zero
+            first = {"name": leg.name, "link_1": f"{leg.name}_rod", "point_1": zero}
+            loops.append(first | {"link_2": leg.tip, "point_2": at})
+    contents = {
         "format": MARK,
         "robot": model.name,
         "length_unit": "m" if model.unit else "",
@@ -76,7 +74,7 @@ def beside(model: Model) -> dict[str, str]:
         "loops": loops,
         "legs": legs,
     }
-    return {TABLE: encode(table) + "\n"}
+    return encode(contents) + "\n"
 
 
 def _leg(b: Bodies, leg: Leg) -> str:
@@ -84,31 +82,96 @@ def _leg(b: Bodies, leg: Leg) -> str:
     at, along = leg.start, leg.direction
     if leg.root == "platform":
         at, along = b.platform[leg.root_joint], along @ b.rotation
-    n, across = leg.name, b.part_inertia(leg)
+    n, low, high = leg.name, leg.shortest - leg.length, leg.longest - leg.length
+    slide = f"""<origin xyz="0 0 {numbers(leg.length)}"/>
+    <axis xyz="0 0 1"/>
+    <limit lower="{numbers(low)}" upper="{numbers(high)}" effort="{EFFORT:g}" velocity="{VELOCITY:g}"/>"""
     return f"""
-{axis(f"{n}_turn1", leg.root, f"{n}_cross", "1 0 0", at, pointing(along))}
-{point(f"{n}_cross", CROSS * b.part_mass, b.radius)}
-{axis(f"{n}_turn2", f"{n}_cross", f"{n}_cylinder", "0 1 0")}
-{strut(f"{n}_cylinder", 0.5 * leg.part, leg.part, 1.5 * b.radius, b.part_mass, across, COLOURS[n[0]])}
-{slide(f"{n}_slide", f"{n}_cylinder", f"{n}_rod", leg.length, leg.shortest - leg.length, leg.longest - leg.length)}
-{strut(f"{n}_rod", -0.5 * leg.part, leg.part, b.radius, b.part_mass, across, COLOURS["rod"])}"""
+{_axis(f"{n}_turn1", leg.root, f"{n}_cross", "1 0 0", at, pointing(along))}
+{_point(f"{n}_cross", CROSS * b.part_mass, b.radius)}
+{_axis(f"{n}_turn2", f"{n}_cross", f"{n}_cylinder", "0 1 0")}
+{_strut(b, leg, f"{n}_cylinder", 0.5 * leg.part, 1.5 * b.radius, COLOURS[n[0]])}
+{_joint(f"{n}_slide", "prismatic", f"{n}_cylinder", f"{n}_rod", slide)}
+{_strut(b, leg, f"{n}_rod", -0.5 * leg.part, b.radius, COLOURS["rod"])}"""
 
 
 def _platform(b: Bodies) -> str:
     """Return three axes of the platform at the tip of leg l1, the plate, and the frame of the platform at p."""
     first = b.platform["platform_external1"]
     turn = rotation_of(pointing(b.legs[0].direction)).T @ b.rotation  # the platform's axes, seen from the rod
-    small = CROSS * b.part_mass
+    small, joints = CROSS * b.part_mass, [at - first for at in b.platform.values()]
     return f"""
-{axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", (0.0, 0.0, 0.0), angles(turn))}
-{point("platform_cross1", small, b.radius)}
-{axis("platform_turn2", "platform_cross1", "platform_cross2", "0 1 0")}
-{point("platform_cross2", small, b.radius)}
-{axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
-{plate("plate", [at - first for at in b.platform.values()], b.radius, -first, b.platform_mass, b.platform_inertia)}
-  <joint name="platform_frame" type="fixed">
-    <parent link="plate"/>
-    <child link="platform"/>
-    <origin xyz="{numbers(-first)}"/>
-  </joint>
+{_axis("platform_turn1", "l1_rod", "platform_cross1", "1 0 0", rpy=angles(turn))}
+{_point("platform_cross1", small, b.radius)}
+{_axis("platform_turn2", "platform_cross1", "platform_cross2", "0 1 0")}
+{_point("platform_cross2", small, b.radius)}
+{_axis("platform_turn3", "platform_cross2", "plate", "0 0 1")}
+{_link("plate", _inertial(-first, b.platform_mass, b.platform_inertia), *_bars(b, joints))}
+{_joint("platform_frame", "fixed", "plate", "platform", f'<origin xyz="{numbers(-first)}"/>')}
   <link name="platform"/>"""
+
+
+def _joint(name: str, kind: str, parent: str, child: str, *more: str) -> str:
+    lines = "\n    ".join([f'<parent link="{parent}"/>', f'<child link="{child}"/>', *more])
+    return f"""  <joint name="{name}" type="{kind}">
+    {lines}
+  </joint>"""
+
+
+def _axis(
+    name: str, parent: str, child: str, along: str, at: Iterable[float] = LEVEL, rpy: Iterable[float] = LEVEL
+) -> str:
+    """Return a joint that turns without limits."""
+    origin = f'<origin xyz="{numbers(at)}" rpy="{numbers(rpy)}"/>'
+    return _joint(name, "continuous", parent, child, origin, f'<axis xyz="{along}"/>')
+
+
+def _link(name: str, *parts: str) -> str:
+    inner = "\n    ".join(parts)
+    return f"""  <link name="{name}">
+    {inner}
+  </link>"""
+
+
+def _strut(b: Bodies, leg: Leg, name: str, middle: float, radius: float, colour: str) -> str:
+    """Return a link that is a part of a leg, a cylinder along z."""
+    at = (0.0, 0.0, middle)
+    inertial = _inertial(at, b.part_mass, b.part_inertia(leg))
+    return _link(name, inertial, _cylinder(at, LEVEL, radius, leg.part, name, colour))
+
+
+def _point(name: str, mass: float, radius: float) -> str:
+    """Return a link that is a ball."""
+    square = 0.4 * mass * radius**2
+    ball = f"""<visual>
+      <geometry><sphere radius="{numbers(radius)}"/></geometry>
+      <material name="joint"><color rgba="{COLOURS["joint"]}"/></material>
+    </visual>"""
+    return _link(name, _inertial(LEVEL, mass, (square, square)), ball)
+
+
+def _bars(b: Bodies, joints: Iterable[Floats]) -> list[str]:
+    """Return a plate as bars from joint to joint."""
+    return [_cylinder(*bar[:2], b.radius, bar[2], "plate", COLOURS["plate"]) for bar in bars(joints)]
+
+
+def _inertial(centre: Iterable[float], mass: float, inertia: tuple[float, float]) -> str:
+    across, axial = (numbers(moment) for moment in inertia)
+    return f"""<inertial>
+      <origin xyz="{numbers(centre)}"/>
+      <mass value="{numbers(mass)}"/>
+      <inertia ixx="{across}" ixy="0" ixz="0" iyy="{across}" iyz="0" izz="{axial}"/>
+    </inertial>"""
+
+
+def _cylinder(middle: Iterable[float], rpy: Angles, radius: float, length: float, material: str, colour: str) -> str:
+    return f"""<visual>
+      <origin xyz="{numbers(middle)}" rpy="{numbers(rpy)}"/>
+      <geometry><cylinder radius="{numbers(radius)}" length="{numbers(length)}"/></geometry>
+      <material name="{material}"><color rgba="{colour}"/></material>
+    </visual>"""
+
+
+FORMAT = Format(
+    "urdf", ".urdf", "URDF tree, with the table of its loops beside it", text, beside=(TABLE, "ninedof-loops-", table)
+)

@@ -6,7 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from ninedof.export.reading import READERS, read_design
+from ninedof.export.export import read_design, readable
 from ninedof.motion import Followed
 from ninedof.optimize.result import Result
 from ninedof.pareto import Front
@@ -61,13 +61,13 @@ def load(path: str | os.PathLike[str]) -> Loaded:
     """
     path_argument("path", path)
     place, point = split(os.fspath(path))
-    if place.suffix == ".toml" or place.suffix.lower() in READERS:
+    if place.suffix == ".toml" or place.suffix.lower() in readable():
         if point:
             raise ValueError(f"{os.fspath(path)}: got a point of a design file, expected one of a run")
         return load_design(place) if place.suffix == ".toml" else Design(*read_design(place))
     if place.suffix and place.suffix != ".json" and place.is_file():
-        readable = ", ".join([".toml", *READERS])
-        raise ValueError(f"{place}: got a file that ends in {place.suffix}, expected {readable}, or a run folder")
+        known = ", ".join([".toml", *readable()])
+        raise ValueError(f"{place}: got a file that ends in {place.suffix}, expected {known}, or a run folder")
     run = load_run(place)
     return _point(run, point, os.fspath(path)) if point else run
 

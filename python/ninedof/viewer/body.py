@@ -27,7 +27,7 @@ from ninedof.workspace.study_question import study_limits
 
 COARSE = {"tolerance": 0.01, "resolution": 16, "points": 1000, "most_evaluations": 400_000}
 COARSE_SEARCHED = {"tolerance": 0.05, "resolution": 6, "points": 64, "most_evaluations": 20_000}
-"""Where the best O is sought at each position."""
+"""With a search of the best O at each position."""
 REACH = 0.75  # of the size of the machine: half the side of the box that is searched
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ninedof.export.export import export
-from ninedof.export.formats import FORMATS
+from ninedof.export.export import export, formats
 from ninedof.motion.follow import follow
 from ninedof.motion.trajectory import Trajectory
 from ninedof.plot.files import picture
@@ -27,6 +26,7 @@ TURN = 60.0  # degrees: end of the sliders of the rotation
 REACH = 0.35  # of the size of the machine: end of the sliders of positions, from home
 NOT_SEARCHED = "not searched"
 PICTURE, DESIGN, LEGS = "picture (.png)", "design file (.toml)", "legs along the path (.csv)"
+FORMATS = formats()
 FILES = {f"{name} ({row.suffix})": name for name, row in FORMATS.items()}
 FILE_WORDS = {
     PICTURE: "The scene as it is seen now.",
@@ -248,9 +248,9 @@ def files_of(viewer: Any, kind: str) -> dict[str, bytes]:
     if kind == LEGS:
         if player is None:
             raise ValueError("no path is open")
-        g, shown, length, unit = design
+        g, c, length, unit = design
         limits = variant.leg_low, variant.leg_high
-        return {"legs.csv": legs_csv(follow(g, player.trajectory, shown, rule, limits, length, unit=unit))}
+        return {"legs.csv": legs_csv(follow(g, player.trajectory, c, rule, limits, length, unit=unit))}
     with TemporaryDirectory() as folder:
         if kind == DESIGN:
             save_design(design, Path(folder) / "design.toml")

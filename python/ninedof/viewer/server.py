@@ -130,16 +130,14 @@ def _silence() -> Iterator[None]:
 
 
 def _in_use(port: int) -> str:
-    return f"port: got {port}, which is in use, expected a free one, or 0 for any"
+    return f"port: got {port}, which is in use or reserved, expected a free one, or 0 for any"
 
 
 def _require_free(host: str, port: int) -> None:
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         socket.create_server((host, port), family=family).close()
-    except PermissionError:
-        raise ValueError(f"port: got {port}, which needs the rights of root, expected one above 1023") from None
     except (OSError, UnicodeError) as error:
-        if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
+        if isinstance(error, OSError) and error.errno in (errno.EADDRINUSE, errno.EACCES):
             raise ValueError(_in_use(port)) from None
         raise ValueError(f"host: got {host!r}, expected an address of this machine ({error})") from None

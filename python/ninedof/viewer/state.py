@@ -285,17 +285,11 @@ class State:
             self.set_pose()
 
     def _best(self, p: Floats, q: Floats, carried: Floats) -> Floats:
-        found = best_internal_point(
-            self.variant.geometry,
-            p,
-            q,
-            limits=(self.variant.leg_low, self.variant.leg_high),
-            characteristic_length=self.variant.length,
-            start=carried,
-            threads=1,
-        )
-        if np.isnan(found.configuration.internal_point).any():
-            why = f" ({', '.join(found.active)})" if found.active else ""
-            self.note = f"no best O at this pose: {found.status}{why}"
-            return carried
-        return found.configuration.internal_point
+        g, limits, length = self.variant.geometry, (self.variant.leg_low, self.variant.leg_high), self.variant.length
+        best = best_internal_point(g, p, q, limits=limits, characteristic_length=length, start=carried, threads=1)
+        point = best.configuration.internal_point
+        if not np.isnan(point).any():
+            return point
+        why = f" ({', '.join(best.active)})" if best.active else ""
+        self.note = f"no best O at this pose: {best.status}{why}"
+        return carried

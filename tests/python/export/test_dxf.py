@@ -12,7 +12,7 @@ from written_designs import HEXAGON, PAPER, general, text_of
 
 import ninedof as nd
 from ninedof.export import dxf
-from ninedof.export.plates import plates_of
+from ninedof.export.dxf import plates_of
 from ninedof.support.extras import MissingExtra
 
 THREEFOLD = nd.Geometry.symmetric(

@@ -1,5 +1,6 @@
 """`nd.export`, the table of formats, and what a writer knows of a design."""
 
+import sys
 from dataclasses import replace
 
 import exported
@@ -11,15 +12,16 @@ from sizes import LONG
 
 import ninedof as nd
 from ninedof.cli.app import main
-from ninedof.export.formats import FORMATS, format_named
+from ninedof.export.export import formats
 from ninedof.export.model import model_of
 
+room = sys.modules["ninedof.export"]
 SIMULATORS = ("mjcf", "urdf", "sdf")
 
 
 @pytest.mark.parametrize("name", SIMULATORS)
 def test_the_file_is_the_path_given_and_is_replaced(name, tmp_path):
-    file = tmp_path / f"my robot{FORMATS[name].suffix}"
+    file = tmp_path / f"my robot{formats()[name].suffix}"
     assert nd.export(exported.general(), name, file) == file
     first = file.read_bytes()
     assert nd.export(exported.general(), name, str(file)) == file
@@ -58,9 +60,40 @@ def test_bad_arguments_are_named(tmp_path):
 
 
 def test_every_row_has_a_suffix_of_its_own():
-    suffixes = [row.suffix for row in FORMATS.values()]
+    suffixes = [row.suffix for row in formats().values()]
     assert len(set(suffixes)) == len(suffixes)
-    assert [format_named(name).load().__name__ for name in SIMULATORS] == [f"ninedof.export.{n}" for n in SIMULATORS]
+
+
+TOY = """
+from ninedof.export.model import Format
+
+
+def text(model, digits=3):
+    return f"written by ninedof {model.name} {model.neutral_lengths[0]:.{digits}f}"
+
+
+FORMAT = Format("toy", ".toy", "length of the first leg", text)
+"""
+
+
+def test_a_new_format_is_one_module(tmp_path, monkeypatch, capsys):
+    """Beside its test and its section of docs/exports.md, which test_page.py asks for."""
+    (tmp_path / "toy_format.py").write_text(TOY)
+    monkeypatch.setattr(room, "__path__", [*room.__path__, str(tmp_path)])
+    formats.cache_clear()
+    try:
+        design = exported.general()
+        first = nd.leg_lengths(design.geometry, design.configuration)[0]
+        path = nd.export(design, "toy", tmp_path / "robot.toy", digits=2)
+        assert path.read_text() == f"written by ninedof robot {first:.2f}"
+        design_file = nd.save(design, tmp_path / "design.toml")
+        with pytest.raises(SystemExit) as ended:
+            main(["export", str(design_file), "--out", str(path)])
+        assert ended.value.code == 0
+        assert "length of the first leg" in capsys.readouterr().out
+        assert path.read_text() == f"written by ninedof robot {first:.3f}"
+    finally:
+        formats.cache_clear()
 
 
 def test_ranges_of_legs_are_those_that_are_known():
@@ -99,7 +132,7 @@ def test_ranges_over_a_region_are_those_of_random_poses_of_it():
 
 def test_what_a_model_says_of_a_design():
     model = model_of(exported.machine(), "a b/ü")
-    assert (model.name, model.unit, model.length) == ("a_b__", "mm", 150.0)
+    assert (model.name, model.unit) == ("a_b__", "mm")
     with pytest.raises(ValueError, match=r"^unit: got m, expected mm, the unit of the design"):
         model_of(exported.machine(), unit="m")
 
@@ -127,7 +160,7 @@ def test_a_suffix_of_another_format_is_refused(tmp_path, capsys):
 def test_what_cannot_be_read_back_is_named(tmp_path):
     nd.export(exported.machine(), "urdf", tmp_path / "j.urdf")
     with pytest.raises(
-        ValueError, match=r"j.urdf: got a file that ends in .urdf, expected .toml, .xml, .csv, or a run"
+        ValueError, match=r"j.urdf: got a file that ends in .urdf, expected .toml, .csv, .xml, or a run"
     ):
         nd.load(tmp_path / "j.urdf")
 
@@ -140,7 +173,3 @@ def test_a_design_is_not_overwritten(tmp_path, monkeypatch):
         main(["export", "joints.csv", "--to", "csv"])
     assert ended.value.code == 2
     assert (tmp_path / "joints.csv").read_bytes() == before
-    general = model_of(exported.general())
-    expected = nd.characteristic_length(general.geometry, general.configuration, "optimal")
-    assert general.length == expected
-    assert general.sheet is None

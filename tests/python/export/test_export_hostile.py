@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 import ninedof as nd
-from ninedof.export.formats import FORMATS
+from ninedof.export.export import formats
 from ninedof.records.motion import write_motion
 
 DESIGN = nd.Design(
@@ -26,10 +26,10 @@ NAMES = (
 )
 
 
-@pytest.mark.parametrize("format", FORMATS)
+@pytest.mark.parametrize("format", formats())
 def test_the_name_of_a_file_stays_a_name(tmp_path, format):
     pytest.importorskip("ezdxf") if format == "dxf" else None
-    row = FORMATS[format]
+    row = formats()[format]
     plain = nd.export(DESIGN, format, tmp_path / f"{'n' * 8}{row.suffix}").read_text(encoding="utf-8")
     for name in NAMES:
         folder = tmp_path / "out"
@@ -82,23 +82,12 @@ BOMB = "<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'>" + "".join(
 )
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-@pytest.mark.parametrize(
-    "head",
-    [
-        BOMB + "]>",
-        "<!DOCTYPE x [<!ENTITY a SYSTEM 'file:///etc/hostname'>]>",
-        "<!DOCTYPE x SYSTEM 'http://127.0.0.1:9/a.dtd'>",
-        "<!DOCTYPE x>",
-    ],
-)
-def test_a_model_with_a_document_type_is_refused(tmp_path, head, encoding):
+@pytest.mark.parametrize("head", [BOMB + "]>", "<!DOCTYPE x [<!ENTITY i SYSTEM 'file:///etc/hostname'>]>"])
+def test_no_document_grows_or_reads_another_file(tmp_path, head):
     good = nd.export(DESIGN, "mjcf", tmp_path / "good.xml").read_text()
-    assert nd.load(tmp_path / "good.xml").geometry == DESIGN.geometry
     bad = tmp_path / "bad.xml"
-    declared = f'<?xml version="1.0" encoding="{encoding}"?>'
-    bad.write_bytes((declared + head + good).encode(encoding))
-    with pytest.raises(ValueError, match=r"bad\.xml: got a document type, expected an MJCF file without one"):
+    bad.write_text(head + good.replace('data="mm"', 'data="&i;"').replace("<worldbody>", "<worldbody>&i;"))
+    with pytest.raises(ValueError, match=r"bad\.xml: not an XML file"):
         nd.load(bad)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import ninedof as nd
-from ninedof.export.formats import FORMATS
+from ninedof.export.export import formats
 from ninedof.support.extras import MissingExtra
 from ninedof.viewer.folders import send
 
@@ -43,7 +43,7 @@ def test_every_format_is_what_export_writes_of_the_pose_shown(viewer, tmp_path):
     with viewer.lock:
         viewer.state.set_pose(position=[20.0, -10.0, 500.0], turn_deg=(4.0, 0.0, 7.0))
         shown = viewer.design
-    for name, row in FORMATS.items():
+    for name, row in formats().items():
         files, words = saved(viewer, f"{name} ({row.suffix})")
         assert f"machine{row.suffix}" in files
         assert f"Saved machine{row.suffix}" in words

@@ -109,12 +109,12 @@ def test_no_message_of_a_page_hands_the_viewer_to_the_world(monkeypatch):
     with nd.view(port=0) as viewer:
         protocol = f"viser-v{viser.__version__}"
         with connect(viewer.url.replace("http", "ws"), subprotocols=[protocol], max_size=None) as page:
-            speed = viewer.panel.widgets["speed"]
-            seen = _messages.GuiUpdateMessage(speed._impl.uuid, {"value": 2.5})
+            file = viewer.panel.widgets["file"]
+            seen = _messages.GuiUpdateMessage(file._impl.uuid, {"value": "dxf (.dxf)"})
             for message in (_messages.ShareUrlRequest(), _messages.ShareUrlDisconnect(), seen):
                 page.send(msgspec.msgpack.encode(message.as_serializable_dict([])))
             begun = time.monotonic()
-            while speed.value != 2.5:  # the one after them was
+            while file.value != "dxf (.dxf)":  # the one after them was
                 assert time.monotonic() < begun + 20.0
                 time.sleep(0.01)
             assert viewer._server._thread_executor.submit(lambda: "done").result(20.0) == "done"

@@ -57,7 +57,8 @@ def test_a_port_in_use_is_one_line(capsys):
             main(["view", "--port", str(port)])
     assert ended.value.code == 2
     assert (
-        capsys.readouterr().err == f"ninedof: --port: got {port}, which is in use, expected a free one, or 0 for any\n"
+        capsys.readouterr().err
+        == f"ninedof: --port: got {port}, which is in use or reserved, expected a free one, or 0 for any\n"
     )
 
 

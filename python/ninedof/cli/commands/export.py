@@ -12,8 +12,8 @@ from ninedof.cli.answer import Answer
 from ninedof.cli.chosen_design import named_design
 from ninedof.cli.options import Design, Options
 from ninedof.export.export import export as write
-from ninedof.export.export import options_of
-from ninedof.export.formats import FORMATS
+from ninedof.export.export import formats
+from ninedof.export.model import Format
 from ninedof.support.arguments import choice
 from ninedof.support.extras import MissingExtra
 from ninedof.support.files import own_or_new
@@ -28,7 +28,7 @@ EXAMPLES = """[bold]Examples[/bold]
 
   ninedof export design.toml --out joints.csv"""
 
-WORDS = "; ".join(f"{name}: {row.words}" for name, row in FORMATS.items())
+WORDS = "; ".join(f"{name}: {row.words}" for name, row in formats().items())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +53,9 @@ class ExportOptions(Options):
 def export(options: ExportOptions) -> Answer:
     """Write a design as a file of another program: simulators, CAD, controllers, documents."""
     out = options.out
-    name = _by_suffix(out) if options.to is None else choice("--to", options.to, FORMATS)
-    row = FORMATS[name]
-    if out is not None and out.suffix.lower() in {one.suffix for one in FORMATS.values()} - {row.suffix}:
-        raise ValueError(f"--out: got {out} with --to {name}, expected a file that ends in {row.suffix}")
+    row = _by_suffix(out) if options.to is None else formats()[choice("--to", options.to, formats())]
+    if out is not None and out.suffix.lower() in {one.suffix for one in formats().values()} - {row.suffix}:
+        raise ValueError(f"--out: got {out} with --to {row.name}, expected a file that ends in {row.suffix}")
     chosen = named_design(options.design)
     file = out or Path(_stem(options.design) + row.suffix)
     if file.resolve() == Path(options.design).resolve():
@@ -64,29 +63,28 @@ def export(options: ExportOptions) -> Answer:
     if not file.absolute().parent.is_dir():
         raise ValueError(f"--out: got {file}, expected a file in a folder that exists")
     more = {key: x for key in ("leg_mass", "platform_mass", "gravity") if (x := getattr(options, key)) is not None}
-    taken = options_of(name)
-    for key in more.keys() - taken:
-        what = ", ".join(map(_typed, taken)) or "no option"
-        raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {name}, which takes {what}")
-    for suffix, mark in ((file.suffix, row.mark), *row.beside):
-        own_or_new("--out", file.with_suffix(suffix), mark)
+    for key in more.keys() - row.options:
+        what = ", ".join(map(_typed, row.options)) or "no option"
+        raise ValueError(f"{_typed(key)}: got {more[key]:g} with --to {row.name}, which takes {what}")
+    own_or_new("--out", file, row.mark)
+    if row.beside is not None:
+        own_or_new("--out", file.with_suffix(row.beside[0]), row.beside[1])
     unit = chosen.unit if options.unit is None else unit_argument(options.unit)
     try:
-        written = write(chosen.result or chosen.design, name, file, unit=unit, **more)
+        written = write(chosen.result or chosen.design, row.name, file, unit=unit, **more)
     except MissingExtra as error:
         raise ValueError(str(error)) from None
-    return Answer([f"{row.words}: {written}"], {"format": name, "file": str(written)})
+    return Answer([f"{row.words}: {written}"], {"format": row.name, "file": str(written)})
 
 
-def _by_suffix(out: Path | None) -> str:
+def _by_suffix(out: Path | None) -> Format:
     """Return the format that the suffix of --out names."""
     if out is None:
-        raise ValueError(f"--to: got nothing, expected one of {', '.join(FORMATS)}")
-    found = [name for name, row in FORMATS.items() if row.suffix == out.suffix.lower()]
-    if not found:
-        suffixes = ", ".join(row.suffix for row in FORMATS.values())
-        raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {suffixes}")
-    return found[0]
+        raise ValueError(f"--to: got nothing, expected one of {', '.join(formats())}")
+    suffixes = {row.suffix: row for row in formats().values()}
+    if out.suffix.lower() not in suffixes:
+        raise ValueError(f"--out: got {out}, expected --to with a format, or a file that ends in {', '.join(suffixes)}")
+    return suffixes[out.suffix.lower()]
 
 
 def _typed(name: str) -> str:
