@@ -16,8 +16,7 @@ from ninedof.robot.idle import idle_names
 from ninedof.robot.leg_names import LEGS
 from ninedof.singularity.singularity import SingularityMargins
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, Saved
-from ninedof.support.json import decode, encode
+from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.margins import TOLERANCE
 from ninedof.support.short import short_repr
 from ninedof.support.units import unit_entry
@@ -167,12 +166,12 @@ class Followed(Saved):
         values = {name: getattr(self, name) for name in others}
         words = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
         arrays |= {name: value for name, value in values.items() if name not in words}
-        return {"words": np.array(encode({"format": self.FORMAT, **words}, indent=None)), **arrays}
+        return {"words": json_array({"format": self.FORMAT, **words}), **arrays}
 
     @classmethod
     def _made(cls, contents: Arrays) -> Followed:
         data: dict[str, Any] = dict(contents)
-        words = decode(str(data.pop("words")))
+        words = from_json_array(data.pop("words"))
         if words.pop("format") != cls.FORMAT:
             raise ValueError
         geometry = Geometry(**{name: data.pop(name) for name in TRIPLES})

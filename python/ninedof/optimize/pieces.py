@@ -15,8 +15,7 @@ import numpy as np
 from ninedof.design.study import Study
 from ninedof.optimize.result import Result, Status, result_from
 from ninedof.proof.optimum import OptimumProof
-from ninedof.support.files import Arrays
-from ninedof.support.json import decode, encode
+from ninedof.support.files import Arrays, from_json_array, json_array
 from ninedof.support.store import Store
 
 WORDS, CERTIFICATE = "words", "certificate"  # names of a piece: its JSON, and the bytes of a certificate
@@ -32,21 +31,21 @@ class Pieces:
     def result(self, study: Study, compute: Callable[[], Result], time_limit: float = math.inf) -> Result:
         """Return the result of a study; one that was interrupted, or that the time limit ended, is no piece."""
         if (piece := self._read()) is not None:
-            return result_from(study, decode(str(piece[WORDS])))
+            return result_from(study, from_json_array(piece[WORDS]))
         result = compute()
         if result.interrupted or (result.status == Status.STOPPED and result.seconds >= time_limit):
             self._store = None  # nothing follows from it that is worth keeping
-        self._keep({WORDS: np.array(encode(result.to_dict(), indent=None))})
+        self._keep({WORDS: json_array(result.to_dict())})
         return result
 
     def proof(self, compute: Callable[[], OptimumProof]) -> OptimumProof:
         """Return a proof with its certificate."""
         if (piece := self._read()) is not None:
-            proof = OptimumProof.from_dict(decode(str(piece[WORDS])))
+            proof = OptimumProof.from_dict(from_json_array(piece[WORDS]))
             return replace(proof, certificate=piece[CERTIFICATE].tobytes())
         proof = compute()
         if not proof.interrupted:
-            words = np.array(encode(proof.to_dict(), indent=None))
+            words = json_array(proof.to_dict())
             self._keep({WORDS: words, CERTIFICATE: np.frombuffer(proof.certificate, dtype=np.uint8)})
         return proof
 

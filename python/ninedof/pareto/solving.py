@@ -6,15 +6,13 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from ninedof.design.study import Study
 from ninedof.optimize.optimize import optimize
 from ninedof.optimize.result import Result, Status, result_from
 from ninedof.pareto.front import SAME, objective_of
 from ninedof.pareto.limited import limited, unit_of
 from ninedof.support.angles import degrees_of
-from ninedof.support.json import decode, encode
+from ninedof.support.files import from_json_array, json_array
 from ninedof.support.progress import Progress
 from ninedof.support.store import Store
 from ninedof.support.units import amount
@@ -82,12 +80,12 @@ class Sweep:
         number = self._optimized
         self._optimized += 1
         if self._store is not None and (kept := self._store.read(number)) is not None:
-            return result_from(study, decode(str(kept[WORDS]))), False
+            return result_from(study, from_json_array(kept[WORDS])), False
         result = optimize(study, threads=self._threads, warm=warm or None)
         if result.interrupted:
             raise Interrupted
         if self._store is not None:
-            self._store.keep(number, {WORDS: np.array(encode(result.to_dict(), indent=None))})
+            self._store.keep(number, {WORDS: json_array(result.to_dict())})
         return result, True
 
     def both_ways(self, limits: Sequence[float]) -> None:

@@ -120,6 +120,16 @@ def read_json(path: Path, form: str) -> dict[str, Any]:
     return entries
 
 
+def json_array(entries: Mapping[str, Any]) -> NDArray[np.str_]:
+    """Return entries as one array, JSON: what is not a number among the arrays of a file."""
+    return np.array(encode(entries, indent=None))
+
+
+def from_json_array(array: NDArray[np.str_]) -> Any:
+    """Return the entries that `json_array` took."""
+    return decode(str(array))
+
+
 def write_npz(path: Path, arrays: Mapping[str, Any], *, compressed: bool = False, salt: str = "") -> Path:
     """Write arrays as numpy does, with their digest as the comment of the archive; return the path.
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ninedof.design.indices import size_of
 from ninedof.support.arguments import choice, items, shown, whole
 from ninedof.support.extras import optional
-from ninedof.support.files import Arrays, Saved
-from ninedof.support.json import decode, encode
+from ninedof.support.files import Arrays, Saved, from_json_array, json_array
+from ninedof.support.json import encode
 from ninedof.support.short import short
 from ninedof.tables import Column, Table
 from ninedof.tables.html import notebook
@@ -129,13 +129,13 @@ class SweepResult(Saved):
 
     def _contents(self) -> dict[str, Any]:
         head = {"format": self.FORMAT, "dims": self.dims, "units": self.units, "attributes": self.attributes}
-        contents: dict[str, Any] = {HEAD: np.array(encode(head, indent=None))}
+        contents: dict[str, Any] = {HEAD: json_array(head)}
         contents |= {COORDINATE + name: values for name, values in self.coords.items()}
         return contents | {ARRAY + name: values for name, values in self.arrays.items()}
 
     @classmethod
     def _made(cls, contents: Arrays) -> SweepResult:
-        head = decode(str(contents[HEAD]))
+        head = from_json_array(contents[HEAD])
         if head["format"] != cls.FORMAT:
             raise ValueError
         dims = {name: tuple(of) for name, of in head["dims"].items()}

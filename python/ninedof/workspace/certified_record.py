@@ -14,8 +14,7 @@ from ninedof import _core
 from ninedof.proof.machine_record import outward
 from ninedof.support.arguments import choice, finite, text, whole
 from ninedof.support.arrays import Floats, as_floats
-from ninedof.support.files import Arrays, Saved
-from ninedof.support.json import decode, encode
+from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.support.short import short_repr
 from ninedof.support.units import amount
 
@@ -230,12 +229,12 @@ class CertifiedWorkspace(Saved):
         arrays: dict[str, Any] = {}
         for one in fields(self):
             (arrays if one.name in ARRAYS else words)[one.name] = getattr(self, one.name)
-        return {"words": np.array(encode(words, indent=None)), **arrays}
+        return {"words": json_array(words), **arrays}
 
     @classmethod
     def _made(cls, contents: Arrays) -> CertifiedWorkspace:
         data: dict[str, Any] = dict(contents)
-        words = decode(str(data.pop("words")))
+        words = from_json_array(data.pop("words"))
         if words.pop("format") != cls.FORMAT:
             raise ValueError
         for name in ("volume", "home_volume", "estimate"):

@@ -13,8 +13,7 @@ from ninedof import _core
 from ninedof.redundancy.redundancy_map import MapAudit
 from ninedof.support.arguments import choice, finite, flag, whole
 from ninedof.support.arrays import Floats
-from ninedof.support.files import Arrays, Saved
-from ninedof.support.json import decode, encode
+from ninedof.support.files import Arrays, Saved, from_json_array, json_array
 from ninedof.tables.html import notebook
 from ninedof.workspace.cells import LIMITS, WorkspaceCells, WorkspaceSlice, group_of
 from ninedof.workspace.certified_record import CertifiedWorkspace
@@ -264,12 +263,12 @@ class WorkspaceMap(Saved):
                 words[one.name] = {name: asdict(found) for name, found in value.items()}
             elif one.name not in ("cells", "certified"):
                 words[one.name] = value
-        return {"words": np.array(encode(words, indent=None)), **arrays}
+        return {"words": json_array(words), **arrays}
 
     @classmethod
     def _made(cls, contents: Arrays) -> WorkspaceMap:
         data: dict[str, Any] = dict(contents)
-        words = decode(str(data.pop("words")))
+        words = from_json_array(data.pop("words"))
         if words.pop("format") != cls.FORMAT or tuple(words.pop("limit_names")) != LIMITS:
             raise ValueError
         cells = WorkspaceCells(*(data.pop(f"cells_{name}") for name in WorkspaceCells._fields))
