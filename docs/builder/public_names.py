@@ -18,7 +18,6 @@ ROOMS = {
     "design": "Studies and designs",
     "proof": "Proof",
     "optimize": "Optimization",
-    "verify": "A second opinion",
     "pareto": "Trade-offs",
     "workspace": "Workspace",
     "sheet": "The engineering sheet",

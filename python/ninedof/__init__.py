@@ -43,6 +43,7 @@ from ninedof.kinematics.kinematics import VelocityMatrices, jacobian, leg_length
 from ninedof.kinematics.velocity import forward_velocity, internal_velocity, inverse_velocity, null_motion
 from ninedof.motion import Followed, LimitBreak, Trajectory, follow
 from ninedof.optimize.bounds import LowerBound, applicable_bounds
+from ninedof.optimize.check import check
 from ninedof.optimize.optimize import Trace, optimize, trace
 from ninedof.optimize.result import Candidate, Result, Status
 from ninedof.paper.sweeps import sweep_figure
@@ -86,7 +87,6 @@ from ninedof.statics.accuracy import ErrorBounds, error_bounds, error_map, error
 from ninedof.statics.ellipsoid import Ellipsoid, force_ellipsoid, velocity_ellipsoid
 from ninedof.statics.statics import LegForces, leg_forces, self_stress, stiffness
 from ninedof.sweep import SweepResult, atlas, sweep, sweep_designs
-from ninedof.verify import check
 from ninedof.viewer import view
 from ninedof.workspace import (
     CertifiedWorkspace,

@@ -70,6 +70,10 @@ inline Array array_from(const Triple& t) {
   return a;
 }
 
+inline Eigen::VectorXd vector_from(const std::vector<double>& x) {
+  return Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
 template <class Derived>
 Array array_from(const Eigen::MatrixBase<Derived>& m) {
   std::vector<py::ssize_t> shape{m.rows()};

@@ -42,6 +42,22 @@ PathPoint along(const std::vector<Vec3>& corners, double t) {
   return out;
 }
 
+/// The t of the point of a path that is nearest to a position.
+double nearest_along(const std::vector<Vec3>& corners, const Vec3& at) {
+  double done = 0.0, best = 0.0, least = (at - corners.front()).norm();
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Vec3 way = corners[k] - corners[k - 1];
+    const double step = way.norm();
+    const double part = step > 0.0 ? std::clamp((at - corners[k - 1]).dot(way) / (step * step), 0.0, 1.0) : 0.0;
+    if (const double away = (corners[k - 1] + part * way - at).norm(); away < least) {
+      least = away;
+      best = done + part * step;
+    }
+    done += step;
+  }
+  return done > 0.0 ? best / done : 0.0;
+}
+
 }  // namespace
 
 Vec6 Region::reach() const {
@@ -74,6 +90,19 @@ Pose Region::pose(const Vec6& at) const {
   if (at[5] == 0.0) out.rotation = turn;
   else if (turn.isZero(0.0)) out.rotation = about_z;
   else out.rotation = log_rotation(exp_rotation(turn) * exp_rotation(about_z));
+  return out;
+}
+
+Vec6 Region::coordinates(const Pose& pose) const {
+  Vec6 out;
+  if (shape == Shape::path) out.head<3>() << 2.0 * nearest_along(corners, pose.position) - 1.0, 0.0, 0.0;
+  else out.head<3>() = pose.position;
+  const Mat3 q = exp_rotation(pose.rotation);
+  const double sine = std::hypot(q(0, 2), q(1, 2));
+  const double stretch = sine > 0.0 ? std::atan2(sine, q(2, 2)) / sine : 0.0;
+  const Vec3 tilted(-stretch * q(1, 2), stretch * q(0, 2), 0.0);
+  const Mat3 about_z = exp_rotation(-tilted) * q;
+  out.tail<3>() << tilted.head<2>(), std::atan2(about_z(1, 0), about_z(0, 0));
   return out;
 }
 

@@ -44,6 +44,16 @@ TEST_SUITE("region") {
     }
   }
 
+  TEST_CASE("the coordinates of a pose are those that it was made of") {
+    for (const Region::Shape shape : shapes) {
+      const Region region = region_of(shape);
+      for (long n = 0; n < 2000; ++n) {
+        const Vec6 at = region_sample(region, n, 8);
+        CHECK((region.coordinates(region.pose(at)) - at).norm() <= 1e-12);
+      }
+    }
+  }
+
   TEST_CASE("an even sample has the moments of the region") {
     for (const Region::Shape shape : shapes) {
       const Region region = region_of(shape);

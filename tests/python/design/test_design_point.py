@@ -11,11 +11,11 @@ import math
 import numpy as np
 import pytest
 from design_oracle import TRIPLES, Oracle, differences, family_names, is_angle, joints
+from limit_oracle import between_segments
 from numpy.testing import assert_allclose
 from sizes import size
 
 import ninedof as nd
-from ninedof.verify.spacing import between_segments
 
 FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
 LIMITS = (

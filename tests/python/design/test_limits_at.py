@@ -1,7 +1,7 @@
 """Limits at the neutral pose alone, beside those at all poses: forms, values by hand, gradients.
 
 The values by hand come from the joints, the neutral configuration and numpy alone: nothing of the core's margins and
-nothing of ninedof.verify but the distance of two segments, which test_check_parts.py holds against a search.
+nothing of limit_oracle.py but the distance of two segments, which test_limit_oracle.py holds against a search.
 """
 
 import copy
@@ -11,12 +11,12 @@ import pickle
 import numpy as np
 import pytest
 from design_oracle import differences, is_angle
+from limit_oracle import between_segments
 from numpy.testing import assert_allclose
 from sizes import size
 
 import ninedof as nd
 from ninedof.design import limits
-from ninedof.verify.spacing import between_segments
 
 FAMILIES = ("hexagonal", "symmetric", "symmetric_nonplanar", "general")
 POSES = [

@@ -1,6 +1,6 @@
 """Studies over a region with O placed at every pose.
 
-Oracle: `check`, which draws its own poses and places O by a search of its own in numpy.
+Oracle: poses drawn in numpy, and O placed at each by a search of its own, in region_oracle.py.
 """
 
 import math
@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 from interrupts import InterruptedPhase
+from region_oracle import worst_placed
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from sizes import LONG, size
@@ -76,6 +77,9 @@ def test_limits_hold_between_the_poses(name):
     assert result.region.objective <= result.objective * (1.0 + 3e-7)
     found = nd.check(result, perturbations=0, seed=7)["region"]
     assert found.passed, found.sentence
+    index, margin = worst_placed(result.study, result.best, result.region, 1000, 7)
+    assert index <= result.objective * (1.0 + 1e-6)
+    assert margin >= -1e-6
 
 
 @pytest.mark.slow

@@ -1,6 +1,6 @@
 """Studies over a region: no limit is passed at poses that the solver did not choose.
 
-Oracle: `check`, which draws its own poses and evaluates all limits in numpy.
+Oracle: poses drawn and limits evaluated in numpy, by region_oracle.py. `check`, the search of the core, is no better.
 """
 
 import math
@@ -10,11 +10,11 @@ from functools import cache
 import numpy as np
 import pytest
 from interrupts import InterruptedPhase
+from region_oracle import random_poses, worst_at_random
 from sizes import size
 
 import ninedof as nd
 from ninedof.optimize.region_report import posed
-from ninedof.verify.region import random_poses
 
 UPRIGHT = {"axis": [0.0, 0.0, 1.0]}
 STUDIES = {
@@ -156,7 +156,11 @@ def test_limits_hold_between_the_poses(name):
     assert result.region.looked_at >= 100_000
     report = nd.check(result, perturbations=size(200, 2000), seed=size(1, 7))
     assert report.passed, report.report()
-    assert report["region"].figure <= 1e-6
+    index, margin = worst_at_random(result.study, result.variables, 4000, size(1, 7))
+    assert margin >= -1e-6
+    if result.study.objective.aggregate != "mean_inverse":
+        assert index <= worst * (1.0 + 1e-6)
+    assert report["region"].figure >= -margin - 1e-9  # it was searched for, and not only drawn
 
 
 @pytest.mark.slow

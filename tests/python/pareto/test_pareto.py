@@ -9,11 +9,11 @@ from interrupts import interrupter
 from sizes import size
 
 import ninedof as nd
+from ninedof.optimize.check import check
 from ninedof.pareto import pareto
 from ninedof.pareto import solving as sweeping
 from ninedof.pareto.front import front_table
 from ninedof.pareto.limited import limited, resolve, value_at
-from ninedof.verify import check
 
 PAPER = nd.Study.paper()
 

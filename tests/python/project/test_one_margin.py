@@ -5,6 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import condition_margins
 from scipy.spatial.transform import Rotation
 from sizes import size
 
@@ -19,9 +21,6 @@ from ninedof.sheet.pose_limits import pose_limits
 from ninedof.sheet.tables import limits_table
 from ninedof.support.margins import is_violated, margin_of, margin_words, tolerance_of
 from ninedof.tables.plain import plain
-from ninedof.verify.objective import ObjectiveRule
-from ninedof.verify.robot import DesignSpace
-from ninedof.verify.rules import limits_of, margins
 from ninedof.viewer.html import limits_html
 from ninedof.viewer.machine import Variant
 from ninedof.viewer.numbers import numbers_of
@@ -82,12 +81,12 @@ def test_every_place_has_the_same_margin(seed):
     for name, margin in point.margins.items():
         least = min(found for (label, _), found in expected.items() if label == name)
         assert margin == pytest.approx(least, rel=1e-12, abs=1e-12)
-    # `ninedof check`
-    robot = DesignSpace(study, variables).robot(np.array([variables[name] for name in study.problem().names]))
+    # By definition, in numpy
+    robot = robot_of(study, variables)
     for limit in limits_of(study):
         least = min(found for (label, _), found in expected.items() if label == limit.label)
         assert margins(limit, robot).min() == pytest.approx(least, rel=1e-9, abs=1e-9)
-    (condition,) = ObjectiveRule.of(study).condition_margins(robot).values()
+    (condition,) = condition_margins(study, robot)
     assert condition.min() == pytest.approx(expected["condition_limit", "max"], rel=1e-9, abs=1e-9)
     # The viewer, at each pose
     g, home = point.geometry, point.configuration

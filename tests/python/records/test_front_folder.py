@@ -8,10 +8,10 @@ import pytest
 
 import ninedof as nd
 from ninedof.cli.app import main
+from ninedof.optimize.check import check
 from ninedof.pareto import Front, pareto, solving
 from ninedof.records.record import load_run as load
 from ninedof.records.record import write_run
-from ninedof.verify import check
 
 PAPER = nd.Study.paper()
 

@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 import numpy_model as model
 import pytest
+from limit_oracle import limits_of, measured, robot_of
 from robots import rates
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
@@ -22,8 +23,6 @@ from ninedof.report.optimization import sheet_html
 from ninedof.sheet.limit_rows import limit_rows
 from ninedof.sheet.pose_words import pose_words
 from ninedof.sheet.sheet import Extreme
-from ninedof.verify.robot import DesignSpace
-from ninedof.verify.rules import limits_of, measured
 
 LEGS = [f"{kind}{i}" for kind in "lqr" for i in (1, 2, 3)]
 
@@ -218,7 +217,7 @@ def test_limits_stand_beside_their_values(seed):
     assert {row.name for row in rows} == set(margins)
     for name, margin in margins.items():
         assert min(row.margin for row in rows if row.name == name) == pytest.approx(margin, abs=1e-12)
-    robot = DesignSpace(study, variables).robot(x)
+    robot = robot_of(study, variables)
     by_side = {(row.name, row.side): row for row in rows}
     for limit in limits_of(study):
         if np.isfinite(limit.high):

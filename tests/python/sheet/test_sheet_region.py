@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from region_oracle import random_poses
 from region_poses import drawn
 from scipy.spatial.transform import Rotation
 from sizes import size
@@ -14,7 +15,6 @@ from ninedof import _core
 from ninedof.design.region_stack import configurations_at, poses_at
 from ninedof.export.model import model_of
 from ninedof.optimize.region_report import posed
-from ninedof.verify.region import random_poses
 
 
 def cone_angles(g, c):
@@ -96,7 +96,7 @@ def test_no_random_pose_is_worse(region):
     for name, margin in there.evaluate(design.variables).margins.items():
         assert margin >= margins[name] - 1e-9
     assert found.region.looked_at > 4000
-    even = random_poses(design.study.objective.region, 9000, np.random.default_rng(2), on_boundary=0.0)
+    even = random_poses(design.study.objective.region, 9000, np.random.default_rng(2), share=0.0)
     kappa = nd.condition_number(g, posed(design.study, even).evaluate(design.variables).configurations[1:], 1.5)
     error = float(kappa.std()) / 9000**0.5 + found.region.mean_error
     assert found.mean_condition_number == found.region.mean == pytest.approx(kappa.mean(), abs=6.0 * error)

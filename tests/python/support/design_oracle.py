@@ -3,19 +3,17 @@
 Reads the tables of a study file and rebuilds everything from them: joints, poses, legs, J' and its singular values
 (LAPACK, through numpy_model), aggregates. Shares with the package only the words of the study file. Values only:
 gradients come from differences of these. Arrays carry leading dimensions, so that all the neighbours a difference needs
-are one call. Margins, of one design at a time, come from the definitions in ninedof.verify, which share nothing with
-the core but the lengths of legs; test_check_parts.py holds those definitions against numbers done by hand.
+are one call. Margins, of one design at a time, come from limit_oracle.py.
 """
 
 import math
 
 import numpy as np
 import numpy_model as model
+from limit_oracle import Robot, limits_of, margins
 from scipy.spatial.transform import Rotation
 
 import ninedof as nd
-from ninedof.verify import robot as verified
-from ninedof.verify.rules import limits_of, margins
 
 TRIPLES = ("base_external", "base_internal", "platform_external", "platform_internal")
 K = math.sqrt(3.0) / 6.0
@@ -225,7 +223,7 @@ class Oracle:
         apart += [(i, 3 + j) for i in range(3) for j in range(3) if not platform[i, j]]
         apart += [(i, 6 + j) for i in range(3) for j in range(3) if not base[i, j]]
         poses = nd.Configuration(*(np.stack(part) for part in zip(*places, strict=True)))
-        case = verified.Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
+        case = Robot(nd.Geometry(*geometry), nd.Configuration(*home), poses, 1.0, np.array(apart))
         limits = limits_of(nd.Study.from_dict(self.data))
         return {limit.label: float(margins(limit, case).min()) for limit in limits}
 

@@ -63,7 +63,6 @@ PYTHON_ROOMS = (
     "proof",
     "optimize",
     "workspace",
-    "verify",
     "pareto",
     "sweep",
     "plot",
@@ -99,9 +98,6 @@ CORE_USERS = {
 
 # Figures are drawn from what is handed to them and never compute. Imports for the type checker alone are free.
 AT_RUN_TIME = {"plot": {"support", "robot"}}
-
-# A second opinion shares nothing with what it judges, so nothing of the product may rest on it: users call it.
-ORACLES = {"verify": {"__init__", "cli"}}
 
 # `import ninedof` stays light: none of these at the top of a module that it loads.
 HEAVY = {"matplotlib", "rich", "typer", "scipy", "xarray", "dask", "distributed", "viser"}

@@ -5,7 +5,7 @@ import functools
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import PurePosixPath
 
-from layering import AT_RUN_TIME, CORE_USERS, HEAVY, ORACLES, PYTHON_ROOMS, TEST_ROOMS, cycles, reachable
+from layering import AT_RUN_TIME, CORE_USERS, HEAVY, PYTHON_ROOMS, TEST_ROOMS, cycles, reachable
 
 CORE = "_core"
 
@@ -89,8 +89,6 @@ def python_violations(files: Mapping[str, str]) -> list[str]:
             above = room_of(other)
             if above in PYTHON_ROOMS and PYTHON_ROOMS.index(above) > PYTHON_ROOMS.index(room):
                 out.append(f"{name}: imports upward {other}")
-            if room not in ORACLES.get(above, {room}) | {above}:
-                out.append(f"{name}: uses the oracle {other}; only {', '.join(sorted(ORACLES[above]))} may")
         if room in AT_RUN_TIME:
             rooms = {room_of(other) for other in own_modules(imports(text, package, run_time=True), known)}
             out.extend(f"{name}: must not use {x}" for x in sorted(rooms - {room} - AT_RUN_TIME[room]))

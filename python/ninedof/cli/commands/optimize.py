@@ -18,6 +18,7 @@ from ninedof.cli.options import JobOptions, Starts, StudyFile, Threads
 from ninedof.cli.screen import Screen, bold, exit_status
 from ninedof.design.study import Study
 from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.check import check as examine
 from ninedof.optimize.optimize import optimize as solve
 from ninedof.optimize.result import Result, Status
 from ninedof.optimize.tables import agreement_words, best_prices, candidates_table, proof_words
@@ -30,7 +31,6 @@ from ninedof.support.arguments import finite
 from ninedof.support.arrays import thread_argument
 from ninedof.support.command import ended_by_time
 from ninedof.support.units import amount, unit_entry
-from ninedof.verify.verdict import check as examine
 
 PLACE = 1
 EXAMPLES = """[bold]Examples[/bold]

@@ -1,14 +1,19 @@
-"""The check of a result: correct results pass, every kind of wrong result fails. Parts: test_check_parts.py."""
+"""The check of a result: correct results pass, every kind of wrong result fails."""
 
 import functools
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from limit_oracle import limits_of, margins, robot_of
+from region_oracle import condition_margins, index_at
+from scipy.optimize import nnls
 from sizes import size
 
 import ninedof as nd
-from ninedof.verify import Check, Finding, check
+from ninedof.optimize import check as check_module
+from ninedof.optimize.check import Check, Finding, check
 
 FEW = [
     {"position": [0.1, 0, 0], "unit": "zp"},
@@ -220,20 +225,12 @@ def test_a_broken_bound_fails(paper):
 
 def test_a_value_below_a_proved_bound_fails(paper):
     """No design is below a bound, so a bound that is too high must fail."""
-    from ninedof.verify import verdict
-
-    bound = verdict.applicable_bounds(paper)[0]
+    bound = nd.applicable_bounds(paper)[0]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verdict, "applicable_bounds", lambda _: [replace(bound, value=paper.condition_number * 1.001)])
+        patch.setattr(
+            check_module, "applicable_bounds", lambda _: [replace(bound, value=paper.condition_number * 1.001)]
+        )
         assert failed(paper, perturbations=0) == {"bound: leg ratio"}
-
-
-def test_a_wrong_margin_of_the_core_fails(paper, monkeypatch):
-    from ninedof.verify import verdict
-
-    core = verdict._core_margins
-    monkeypatch.setattr(verdict, "_core_margins", lambda places: {n: m + 1e-6 for n, m in core(places).items()})
-    assert failed(paper, perturbations=0) == {"limit: radius_ratio"}
 
 
 def test_bad_input_is_named(paper):
@@ -263,3 +260,67 @@ def test_a_design_without_a_free_variable_is_checked_in_its_own_radius():
     study = nd.Study(variables={k: (x, x) for k, x in values.items()}, characteristic_length="platform_radius")
     found = check(nd.optimize(study))
     assert found.passed, found.report()
+
+
+# --- Oracles ----------------------------------------------------------------------------------------------------------
+
+
+def residual_by_samples(result):
+    """The least convex combination of gradients near a design and of its active limits and bounds, in numpy.
+
+    Near a kink gradients at different points are those of different pieces (Burke, Lewis, Overton: gradient sampling).
+    """
+    study, names = result.study, list(result.study.problem().names)
+    bounds = [study.variables[name] for name in names]
+    low, high = np.array([b if isinstance(b, tuple) else (b, b) for b in bounds]).T
+    x, length = np.array([result.variables[name] for name in names]), result.characteristic_length
+    size_of = np.array([1.0 if name in study.angles else np.hypot(v, length) for name, v in zip(names, x, strict=True)])
+    free = np.flatnonzero(low < high)
+
+    def slopes(f, at, h=1e-6):
+        out = []
+        for k in free:
+            up, down = (np.clip(at + sign * h * size_of * np.eye(len(x))[k], low, high) for sign in (1.0, -1.0))
+            out.append((f(up) - f(down)) * size_of[k] / (up[k] - down[k]))
+        return np.array(out)
+
+    def robot(at):
+        return robot_of(study, dict(zip(names, at.tolist(), strict=True)))
+
+    def every_margin(at):
+        return np.concatenate([margins(limit, robot(at)) for limit in limits_of(study)])
+
+    rng, near = np.random.default_rng(1), 1e-4
+    points = x + near * size_of * (low < high) * rng.uniform(-1.0, 1.0, (30, len(x)))
+    gradients = [slopes(lambda y: np.log(index_at(study, robot(y)).max()), np.clip(at, low, high)) for at in points]
+    active = -slopes(every_margin, x)[:, every_margin(x) <= 1e-6].T
+    walls = [-row for k, row in enumerate(np.eye(len(free))) if x[free[k]] <= low[free[k]]]
+    walls += [row for k, row in enumerate(np.eye(len(free))) if x[free[k]] >= high[free[k]]]
+    rows = np.vstack([*gradients, active, *walls])
+    heavy = 1e3 * (np.arange(len(rows)) < len(gradients))
+    return nnls(np.vstack([rows.T, heavy]), np.append(np.zeros(len(free)), 1e3))[1]
+
+
+@pytest.mark.parametrize("name", ["paper", "displaced", "frobenius", "neutral", "narrow"])
+def test_stationarity_agrees_with_sampled_gradients(name):
+    result = solved(name)
+    assert residual_by_samples(result) < 1e-3
+    beside = moved(result, zs=0.05)
+    core = check(beside, perturbations=0)["stationarity"].figure
+    assert residual_by_samples(beside) == pytest.approx(core, rel=0.3)
+    assert core > 1e-3
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_numbers_agree_with_their_definitions(name):
+    """The check trusts the evaluator of the core; here every limit and the worst index are computed in numpy."""
+    result = solved(name)
+    robot = robot_of(result.study, result.variables)
+    findings = check(result, perturbations=0)
+    for limit in limits_of(result.study):
+        least = float(margins(limit, robot).min())
+        assert findings[f"limit: {limit.label}"].figure == pytest.approx(least, rel=1e-9, abs=1e-9)
+    if result.study.objective.aggregate == "worst":
+        assert index_at(result.study, robot).max() == pytest.approx(result.objective, rel=1e-9)
+    for margin in condition_margins(result.study, robot):
+        assert margin.min() >= -1e-8

@@ -1,82 +1,24 @@
-"""The parts of the check, compared with values computed by hand or by SciPy.
-
-The formulas of the check and those of the core were written apart and agree; here each stands for itself, so that an
-agreement of the two is not an agreement in error.
-"""
+"""The definitions of the limits in numpy, by hand or by SciPy. That they agree with the core is tested elsewhere."""
 
 import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize, nnls
+from limit_oracle import (
+    Limit,
+    Robot,
+    between_segments,
+    cone,
+    determinants,
+    margins,
+    measured,
+    rotation_vector,
+)
+from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from sizes import size
 
 import ninedof as nd
-from ninedof.verify.directions import cone, determinants, rotation_vector
-from ninedof.verify.nonsmooth import differences, ends_of
-from ninedof.verify.robot import Robot
-from ninedof.verify.rules import Limit, margins, measured
-from ninedof.verify.spacing import between_segments
-from ninedof.verify.stationarity import least_combination, nonnegative_least_squares
-
-# --- Ties -------------------------------------------------------------------------------------------------------------
-
-
-class Spectrum:
-    """The largest singular value of a matrix that depends on x linearly: a cone at a tie."""
-
-    def __init__(self, matrix, slopes):
-        self.ends = ends_of(np.asarray(matrix, float), np.asarray(slopes, float))
-
-    def steepest(self, direction):
-        vectors = np.linalg.eigh(np.einsum("j,jab->ab", direction, self.ends.top))[1]
-        return np.einsum("a,jab,b->j", vectors[:, 0], self.ends.top, vectors[:, 0])
-
-    def held(self, direction):
-        return []
-
-
-def test_a_double_singular_value_at_its_least_is_stationary():
-    """sigma_max of 1 + [[x, y], [y, -x]] is 1 + |(x, y)|: least at 0, where no single gradient vanishes."""
-    slopes = [[[1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [1.0, 0.0]]]
-    cone_of_none = np.empty((0, 2))
-    tie = Spectrum(np.eye(2), slopes)
-    assert np.linalg.norm(tie.steepest(np.array([1.0, 0.0]))) == pytest.approx(1.0)
-    assert least_combination(tie, cone_of_none)[0] < 1e-6
-    tilted = [[[1.5, 0.0], [0.0, -0.5]], [[0.0, 1.0], [1.0, 0.0]]]  # 1 + x / 2 + |(x, y)|: still least at 0
-    assert least_combination(Spectrum(np.eye(2), tilted), cone_of_none)[0] < 1e-6
-    steep = [[[3.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]]  # 1 + 2 x + |(x, y)| falls with x
-    assert least_combination(Spectrum(np.eye(2), steep), cone_of_none)[0] == pytest.approx(1.0, abs=1e-3)
-
-
-def test_a_limit_balances_the_gradient():
-    steep = [[[3.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]]
-    wall = np.array([[-5.0, 0.0]])  # minus the gradient of a margin 5 x
-    assert least_combination(Spectrum(np.eye(2), steep), wall)[0] < 1e-6
-    assert least_combination(Spectrum(np.eye(2), steep), -wall)[0] == pytest.approx(1.0, abs=1e-3)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_least_squares_agrees_with_scipy(seed):
-    rng = np.random.default_rng(seed)
-    a, b = rng.normal(size=(rng.integers(3, 12), rng.integers(2, 15))), rng.normal(size=3)
-    b = np.resize(b, len(a))
-    x = nonnegative_least_squares(a, b)
-    assert np.all(x >= 0.0)
-    assert np.linalg.norm(a @ x - b) == pytest.approx(nnls(a, b)[1], abs=1e-10)
-
-
-def test_differences_are_exact_at_bounds_as_inside():
-    def f(x):
-        return np.array([math.exp(x[0]) * x[2], x[2] ** 3])
-
-    x, low, high = np.array([0.0, 5.0, 2.0]), np.array([0.0, 5.0, -1.0]), np.array([1.0, 5.0, 2.0])
-    found = differences(f, x, np.array([1.0, 1.0, 2.0]), low, high)  # at its low end, fixed, at its high end
-    assert found == pytest.approx(np.array([[2.0, 0.0], [2.0, 24.0]]), rel=1e-10, abs=1e-10)
-
-
-# --- Rules, by hand ---------------------------------------------------------------------------------------------------
 
 PAIRS = np.array([(0, 1), (0, 2), (1, 2), (0, 4), (0, 7)])
 

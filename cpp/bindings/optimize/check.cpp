@@ -1,0 +1,60 @@
+#include "ninedof/optimize/check.hpp"
+
+#include <pybind11/stl.h>
+
+#include "support/arrays.hpp"
+#include "support/interruptible.hpp"
+#include "support/module.hpp"
+#include "support/region.hpp"
+
+namespace ninedof::python {
+namespace {
+
+OptimumCheck optimum_checked(const Problem& problem, const std::vector<double>& x, long steps, std::uint64_t seed) {
+  return interruptible(py::none(), [&](const Control& control) {
+    return check_optimum(problem, vector_from(x), {steps, seed}, control);
+  });
+}
+
+/// `leg_ranges`: the shortest and longest length of each leg, or nothing.
+RegionCheck region_checked(const Problem& problem, const py::dict& region, const std::vector<double>& x,
+                           const std::vector<std::array<double, 2>>& leg_ranges, std::uint64_t seed) {
+  std::optional<LegLimits> lengths;
+  if (leg_ranges.size() == 9) {
+    lengths.emplace();
+    for (std::size_t leg = 0; leg < 9; ++leg) {
+      lengths->low[static_cast<Eigen::Index>(leg)] = leg_ranges[leg][0];
+      lengths->high[static_cast<Eigen::Index>(leg)] = leg_ranges[leg][1];
+    }
+  }
+  const Region r = region_from(region);
+  return interruptible(py::none(), [&](const Control& control) {
+    return check_region(problem, r, vector_from(x), lengths, seed, control);
+  });
+}
+
+}  // namespace
+
+void bind_check(py::module_& m) {
+  py::class_<OptimumCheck>(m, "OptimumCheck", "Whether a design is an optimum: the first-order test and random steps.")
+      .def_readonly("residual", &OptimumCheck::residual)
+      .def_readonly("active", &OptimumCheck::active)
+      .def_readonly("steps", &OptimumCheck::steps)
+      .def_readonly("better", &OptimumCheck::better)
+      .def_readonly("gain", &OptimumCheck::gain);
+  py::class_<RegionCheck>(m, "RegionCheck", "Where a design is worst over a region.")
+      .def_readonly("index", &RegionCheck::index)
+      .def_readonly("margin", &RegionCheck::margin)
+      .def_readonly("excess", &RegionCheck::excess)
+      .def_readonly("poses", &RegionCheck::poses)
+      .def_property_readonly(
+          "mean",
+          [](const RegionCheck& c) { return c.mean ? c.mean->value : std::numeric_limits<double>::quiet_NaN(); })
+      .def_property_readonly("standard_error", [](const RegionCheck& c) {
+        return c.mean ? c.mean->standard_error : std::numeric_limits<double>::quiet_NaN();
+      });
+  m.def("check_optimum", &optimum_checked);
+  m.def("check_region", &region_checked);
+}
+
+}  // namespace ninedof::python

@@ -1,0 +1,252 @@
+"""`check`: a result looked at once more, from the variables of its best design alone.
+
+Two ways to one number are in the tests, where numpy has the definition of every limit and index: see
+tests/python/support/limit_oracle.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ninedof import _core
+from ninedof.conditioning.conditioning import condition_number
+from ninedof.design.design_point import DesignPoint
+from ninedof.design.study import LENGTH
+from ninedof.optimize.bounds import applicable_bounds
+from ninedof.optimize.result import Result, Status
+from ninedof.robot.geometry import TRIPLES
+from ninedof.support.arguments import flag, whole
+from ninedof.support.arrays import Floats
+
+EQUAL = 1e-9  # relative: two ways to one number
+FEASIBLE = 1e-8  # by how much a margin may be negative
+STATIONARY = 1e-6
+BETTER = 1e-8  # relative: a smaller improvement is rounding or the tolerance of the limits
+BETWEEN = 1e-6  # by which a limit may be passed between the poses that ruled
+MOST_PERTURBATIONS = 1_000_000
+ERRORS = 5.0  # standard errors of a mean at random poses
+BOUND = 1e-7  # close to 1 a condition number has half the digits only
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One test and its outcome."""
+
+    name: str
+    passed: bool
+    figure: float
+    """The number that decides the test; the sentence describes it."""
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Check:
+    """The findings of a check."""
+
+    findings: tuple[Finding, ...]
+    title: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether all tests passed."""
+        return all(finding.passed for finding in self.findings)
+
+    def __bool__(self) -> bool:
+        """Return True if all tests passed."""
+        return self.passed
+
+    def __getitem__(self, name: str) -> Finding:
+        """Return a finding by name."""
+        for finding in self.findings:
+            if finding.name == name:
+                return finding
+        raise KeyError(f"{name!r}; there are {', '.join(finding.name for finding in self.findings)}")
+
+    def __repr__(self) -> str:
+        """Show the verdict and the tests that failed."""
+        failed = [finding.name for finding in self.findings if not finding.passed]
+        return f"<Check: {len(self.findings)} tests, {'failed ' + ', '.join(failed) if failed else 'all passed'}>"
+
+    def report(self) -> str:
+        """Return the tests and their outcomes as text, one line per test."""
+        failed = sum(not finding.passed for finding in self.findings)
+        verdict = "all passed" if not failed else f"{failed} failed"
+        width = max((len(finding.name) for finding in self.findings), default=0)
+        lines = [f"{self.title}: {len(self.findings)} tests, {verdict}"]
+        for finding in self.findings:
+            lines.append(f"  {'passed' if finding.passed else 'FAILED'}  {finding.name:<{width}}  {finding.sentence}")
+        return "\n".join(lines)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the findings as plain JSON values."""
+        findings = [dict(finding.__dict__) for finding in self.findings]
+        return {"passed": self.passed, "title": self.title, "findings": findings}
+
+
+def check(result: Result, perturbations: int = 4000, seed: int = 0, *, certify: bool = False) -> Check:
+    """Check the best design of a result from its variables, without the run that found it.
+
+    Every number is computed anew, condition numbers by the general path. The claim of an optimum is tested twice: by
+    the least convex combination of all active gradients, ties of singular values included, and by random steps of six
+    sizes. A region is searched densely, with a seed of its own. A proof of the optimum is read by its independent
+    checker, which takes seconds. Last come the lower bounds that hold for the design.
+
+    Parameters
+    ----------
+    result : Result
+        A result with a design. Stationarity and random steps are tested only if its status is "optimal".
+    perturbations : int
+        Number of random steps from the design, 1e-1 to 1e-6 of each variable (or of l_c, if that is larger).
+    seed : int
+        Seed of the steps, and of the search of a region.
+    certify : bool
+        Whether to prove the limits too, as `Result.certify` does: it takes up to minutes.
+
+    Returns
+    -------
+    Check
+
+    Raises
+    ------
+    ValueError
+        If the result holds no design, or an argument does not fit.
+
+    Examples
+    --------
+    >>> import ninedof as nd
+    >>> found = nd.check(nd.optimize(nd.Study.paper()), perturbations=500)
+    >>> found.passed, found["stationarity"].passed
+    (True, True)
+
+    """
+    if getattr(result, "best", None) is None:
+        got = getattr(result, "status", None)
+        what = f"one without a design (status {str(got)!r})" if got is not None else type(result).__name__
+        raise ValueError(f"result: got {what}, expected a Result with a design")
+    steps = whole("perturbations", perturbations, 0, MOST_PERTURBATIONS)
+    findings = [*_of_design(result), *_of_claims(result, steps, whole("seed", seed, 0))]
+    if flag("certify", certify):
+        findings += _proofs(result)
+    return Check(tuple([*findings, *_bounds(result)]), f"check of a design of the {result.study.family} family")
+
+
+def _of_design(result: Result) -> Iterator[Finding]:
+    """Compare the stated robot and numbers with those of the variables, and the limits with these."""
+    best: Any = result.best
+    point = result.solved.evaluate(best.variables)
+    yield _robot(result, point)
+    conditions = _conditions(point)
+    stated = np.append(np.asarray(best.conditions, dtype=np.float64), best.condition_number)
+    figure = _difference(conditions, stated) if conditions.shape == stated.shape else math.inf
+    ends = f"{conditions.min():.6f} to {conditions.max():.6f}"
+    sentence = f"{len(conditions)} by the general path, {ends}: differences up to {figure:.1e}"
+    allowed = EQUAL * max(1.0, float(conditions.max()))
+    yield Finding("condition numbers", figure <= allowed, figure, sentence)
+    objective = result.study.objective
+    mean = None if result.region is None else result.region.mean
+    # The optimizer minimized over the poses of its quadrature.
+    minimized = best.objective / (1.0 if mean is None else mean.stated(1.0, objective.mean_share))
+    figure = _difference(np.array([point.objective]), np.array([minimized]))
+    index = f"{objective.aggregate} {objective.index}".replace("_", " ")
+    poses = "1 pose" if len(best.conditions) == 1 else f"{len(best.conditions)} poses"
+    sentence = f"{index} of {poses}: {point.objective:.9g}, difference {figure:.1e}"
+    yield Finding("objective", figure <= allowed, figure, sentence)
+    for name, margin in point.margins.items():
+        label = name if name.startswith("condition_limit") else f"limit: {name}"
+        sentence = f"the least margin is {margin:.3e}, where the value is {point.values[name]:.9g}"
+        yield Finding(label, margin >= -FEASIBLE, margin, sentence)
+
+
+def _robot(result: Result, point: DesignPoint) -> Finding:
+    """Compare the variables with their bounds, and their robot with the returned one."""
+    best: Any = result.best
+    study = result.study
+    length = {} if isinstance(study.characteristic_length, str) else {LENGTH: study.characteristic_length}
+    bounds = {name: b if isinstance(b, tuple) else (b, b) for name, b in {**study.variables, **length}.items()}
+    outside = 0.0
+    for name, x in best.variables.items():
+        low, high = bounds.get(name, (-math.inf, math.inf))  # a length by its kind, or an offset of O at a pose
+        size = 1.0 if name in study.angles else math.hypot(x, point.characteristic_length)
+        outside = max(outside, (low - x) / size, (x - high) / size)
+    ours, theirs = ([np.asarray(getattr(d.geometry, name)) for name in TRIPLES] for d in (point, best))
+    same = float(np.abs(np.subtract(ours, theirs)).max()) <= EQUAL * float(np.abs(theirs).max())
+    one, other = point.configuration, best.configuration
+    for name, absolute in (("position", 0.0), ("internal_point", 0.0), ("rotation", EQUAL)):
+        same &= np.allclose(getattr(one, name), getattr(other, name), rtol=EQUAL, atol=absolute)
+    words = "the same joints as returned" if same else "NOT the joints returned"
+    sentence = f"{len(best.variables)} variables within their bounds to {outside:.1e}, {words}"
+    return Finding("design", bool(same) and outside <= FEASIBLE, outside, sentence)
+
+
+def _of_claims(result: Result, steps: int, seed: int) -> Iterator[Finding]:
+    """Test that the design holds in all of its region, and that it is an optimum."""
+    best: Any = result.best
+    study = result.solved
+    problem, x = study.problem(), study.vector(best.variables)
+    if result.region is not None:
+        yield _region(result, problem, x, seed)
+    if result.status != Status.OPTIMAL:
+        return
+    optimum = _core.check_optimum(problem, x, steps, seed)
+    sentence = (
+        f"the gradients of the objective and of {optimum.active} limits and bounds balance to {optimum.residual:.1e} "
+        f"of the objective per unit of relative change, {STATIONARY:.0e} allowed"
+    )
+    yield Finding("stationarity", optimum.residual <= STATIONARY, optimum.residual, sentence)
+    within = f"within the limits by up to {optimum.gain:.1e}" if optimum.gain > BETTER else "none within the limits"
+    sentence = (
+        f"of {optimum.steps} steps of 0.1 to 1e-06 of the variables, {optimum.better} improve the objective, {within}"
+    )
+    yield Finding("perturbations", optimum.gain <= BETTER, optimum.gain, sentence)
+
+
+def _region(result: Result, problem: _core.Problem, x: list[float], seed: int) -> Finding:
+    report: Any = result.region
+    region: Any = result.study.objective.region
+    worst = _core.check_region(problem, region.for_core(), x, report.leg_ranges, seed)
+    where = "poses, O being placed at each," if region.internal_point == "best" else "poses"
+    sentence = f"at {worst.poses} {where} the index is at most {worst.index:.9g}, the least margin {worst.margin:.1e}"
+    passed = worst.excess <= BETWEEN
+    if report.mean is not None:
+        error = math.hypot(worst.standard_error, report.mean.standard_error)
+        passed &= abs(worst.mean - report.mean.value) <= ERRORS * error
+        sentence += f", the harmonic mean over 8192 others {worst.mean:.6g}"
+    return Finding("region", passed, worst.excess, sentence)
+
+
+def _proofs(result: Result) -> Iterator[Finding]:
+    for limit in result.certify().limits:
+        sentence = f"{limit.side} {limit.shown(limit.limit):g}: {limit.answer}, the worst value is {limit.worded()}"
+        yield Finding(f"proof: {limit.name}", limit.answer != "violated", limit.margin, sentence)
+
+
+def _bounds(result: Result) -> Iterator[Finding]:
+    if result.proof is not None and result.proof.certificate:
+        proved, words, boxes, _, _ = _core.check_certificate(result.proof.certificate, None)
+        yield Finding("certificate", proved, float(boxes), words)
+    best: Any = result.best
+    neutral = float(condition_number(best.geometry, best.configuration, best.characteristic_length))
+    for bound in applicable_bounds(result):
+        above = neutral / bound.value - 1.0
+        proof = "proved" if bound.proved else "searched"
+        yield Finding(f"bound: {bound.name}", above >= -BOUND, above, f"{above:.2%} above; {bound.sentence} ({proof})")
+
+
+def _conditions(point: DesignPoint) -> Floats:
+    """Return the condition numbers at the poses of the objective, then that at the neutral pose."""
+    every = condition_number(point.geometry, point.configurations, point.characteristic_length)
+    return np.append(every[1:] if len(every) > 1 else every, every[0])
+
+
+def _difference(ours: Floats, theirs: Floats) -> float:
+    """Return the largest relative difference; numbers that are infinite on both sides agree."""
+    if np.array_equal(ours, theirs):
+        return 0.0
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(ours - theirs) / np.abs(ours)
+    return float(np.where(np.isfinite(apart), apart, math.inf).max())
